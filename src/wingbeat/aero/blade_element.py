@@ -1,0 +1,89 @@
+"""Blade elements: from the velocity of each strip to its lift and drag.
+
+Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of
+the strip, ``dD`` against it; the spanwise part of the velocity is dropped.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from wingbeat.elementary import atan2
+from wingbeat.errors import FaultList
+from wingbeat.jax64 import jnp
+
+FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
+
+
+@dataclass(frozen=True)
+class BladeElement:
+    """How air loads are found: coefficients, number of strips, and where the force acts.
+
+    Parameters
+    ----------
+    coefficients : a coefficient model such as `SuFan()`.
+    strips : number of equal strips of one wing.
+    force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
+
+    Raises
+    ------
+    InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, or a centre of
+        pressure asked of a model that has none.
+    """
+
+    coefficients: Any
+    strips: int = 10
+    force_point: str = "quarter-chord"
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not hasattr(self.coefficients, "kernel"):
+            faults.add("aero.coefficients", self.coefficients, "is not a coefficient model", "try SuFan()")
+        if isinstance(self.strips, bool) or not isinstance(self.strips, int) or not 1 <= self.strips <= 1000:
+            faults.add("aero.strips", self.strips, "must be a whole number from 1 to 1000", "the paper has 10")
+        faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
+        faults.raise_if_any()
+        if self.force_point == "centre-of-pressure" and not self.coefficients.has_centre_of_pressure:
+            faults.add(
+                "aero.force_point",
+                self.force_point,
+                f"needs a centre of pressure, which {self.coefficients.name} has none of",
+                "use quarter-chord, or a model that has one",
+            )
+        faults.raise_if_any()
+
+
+class StripForces(NamedTuple):
+    """Air load of each strip of one wing: along chord and normal [N], with what made it, shape (..., N)."""
+
+    chordwise: Any
+    normal: Any
+    alpha: Any
+    speed: Any
+    lift: Any
+    drag: Any
+
+
+def strip_forces(kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any) -> StripForces:
+    """Return the air loads of strips of given areas [m2] moving at given speeds along chord and normal [m/s].
+
+    ``alpha = atan2(-v_n, v_c)``; along the chord ``F_c = L sin(alpha) - D cos(alpha)``, normal to it
+    ``F_n = L cos(alpha) + D sin(alpha)``, written with the speeds in place of the angle's sine and cosine.
+    """
+    squared = chord_speed * chord_speed + normal_speed * normal_speed
+    # The square root has no derivative at rest; there the loads vanish with the speed.
+    moving = squared > 0.0
+    speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
+    alpha = atan2(-normal_speed, chord_speed)
+    c_l, c_d = kernel.lift_drag(alpha)
+    pressure_area = 0.5 * density * area * speed
+    lift, drag = pressure_area * c_l, pressure_area * c_d
+    return StripForces(
+        chordwise=-lift * normal_speed - drag * chord_speed,
+        normal=lift * chord_speed - drag * normal_speed,
+        alpha=alpha,
+        speed=speed,
+        lift=lift * speed,
+        drag=drag * speed,
+    )

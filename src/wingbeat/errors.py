@@ -1,0 +1,92 @@
+"""What wingbeat raises, and the checks at its doors that collect every fault before they speak."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from numbers import Real
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing wrong with an input: where it stands, what it is, which rule it breaks, how to mend it.
+
+    >>> print(Fault("wing.mass", -1.0, "must be > 0 kg", "give the mass of one wing"))
+    wing.mass = -1.0: must be > 0 kg; give the mass of one wing
+    """
+
+    where: str
+    value: Any
+    rule: str
+    fix: str = ""
+
+    def __str__(self) -> str:
+        shown = repr(self.value)
+        shown = shown if len(shown) <= 60 else shown[:57] + "..."
+        return f"{self.where} = {shown}: {self.rule}" + (f"; {self.fix}" if self.fix else "")
+
+
+class WingbeatError(Exception):
+    """Anything wingbeat raises on purpose."""
+
+
+class InvalidInputError(WingbeatError, ValueError):
+    """Input was refused; ``faults`` holds every reason found, the message one line for each."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        self.faults = faults
+        super().__init__("\n".join(str(fault) for fault in faults))
+
+
+class FileError(WingbeatError):
+    """A file could not be read or written; the message names it, the reason and a way out."""
+
+
+class FaultList:
+    """Collects faults so that a door reports them all at once."""
+
+    def __init__(self) -> None:
+        self.faults: list[Fault] = []
+
+    def add(self, where: str, value: Any, rule: str, fix: str = "") -> None:
+        """Note a fault."""
+        self.faults.append(Fault(where, value, rule, fix))
+
+    def number(
+        self,
+        where: str,
+        value: Any,
+        *,
+        above: float = -math.inf,
+        at_least: float = -math.inf,
+        below: float = math.inf,
+        at_most: float = math.inf,
+        unit: str = "",
+        fix: str = "",
+    ) -> bool:
+        """Note a fault unless `value` is a finite real number within the limits; say whether it is."""
+        if isinstance(value, bool) or not isinstance(value, Real):
+            self.add(where, value, "must be a number", fix)
+        elif not math.isfinite(value):
+            self.add(where, value, "must be finite", fix)
+        elif not (value > above and value >= at_least and value < below and value <= at_most):
+            limits = [
+                f"{sign} {limit:g}"
+                for sign, limit in ((">", above), (">=", at_least), ("<", below), ("<=", at_most))
+                if math.isfinite(limit)
+            ]
+            self.add(where, value, f"must be {' and '.join(limits)} {unit}".rstrip(), fix)
+        else:
+            return True
+        return False
+
+    def choice(self, where: str, value: Any, allowed: tuple[str, ...]) -> None:
+        """Note a fault unless `value` is one of the names in `allowed`."""
+        if value not in allowed:
+            self.add(where, value, "is not a known choice", f"use one of {', '.join(allowed)}")
+
+    def raise_if_any(self) -> None:
+        """Raise `InvalidInputError` with all faults noted so far, if there are any."""
+        if self.faults:
+            raise InvalidInputError(self.faults)

@@ -1,0 +1,61 @@
+"""The one door to JAX: float64, a compilation cache on disk, and records as pytrees."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import os
+from pathlib import Path
+from typing import Any, TypeVar
+
+import jax
+import jax.numpy as jnp
+
+__all__ = ["cache_folder", "jax", "jnp", "register_record"]
+
+T = TypeVar("T")
+
+
+def cache_folder() -> Path:
+    """Return the user's cache folder for wingbeat (``WINGBEAT_CACHE`` overrides it)."""
+    if chosen := os.environ.get("WINGBEAT_CACHE"):
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME", "~/.cache")).expanduser() / "wingbeat"
+
+
+def _configure() -> None:
+    jax.config.update("jax_enable_x64", True)
+    if jax.config.jax_compilation_cache_dir is None:
+        jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))
+        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.1)
+        jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
+
+
+_configure()
+
+
+def register_record(cls: type[T] | None = None, *, static: tuple[str, ...] = ()) -> Any:
+    """Make a frozen dataclass a pytree whose inner copies skip the checks of its constructor.
+
+    The checks belong to the door; inside, JAX rebuilds records from tracers, which no check could read.
+    Fields named in `static` (names, counts) are part of the compiled function, all others are data.
+    """
+    if cls is None:
+        return functools.partial(register_record, static=static)
+    names = [field.name for field in dataclasses.fields(cls) if field.name not in static]  # type: ignore[arg-type]
+
+    def flatten(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
+        return [getattr(record, name) for name in names], tuple(getattr(record, name) for name in static)
+
+    def flatten_with_keys(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
+        leaves, aux = flatten(record)
+        return [(jax.tree_util.GetAttrKey(n), leaf) for n, leaf in zip(names, leaves, strict=True)], aux
+
+    def unflatten(aux: tuple[Any, ...], leaves: Any) -> Any:
+        record = object.__new__(cls)
+        for name, value in (*zip(names, leaves, strict=True), *zip(static, aux, strict=True)):
+            object.__setattr__(record, name, value)
+        return record
+
+    jax.tree_util.register_pytree_with_keys(cls, flatten_with_keys, unflatten, flatten)
+    return cls

@@ -1,0 +1,79 @@
+"""The flight model: vehicle, air loads and air joined into one right-hand side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from wingbeat.aero.blade_element import BladeElement
+from wingbeat.dynamics import accelerations, body_drag, wing_loads
+from wingbeat.errors import FaultList
+from wingbeat.frames import world_to_body
+from wingbeat.jax64 import jnp, register_record
+from wingbeat.kinematics import Wingbeat
+from wingbeat.vehicle import Air, Vehicle
+from wingbeat.wing_motion import WingMotion, strips_of, wing_motion
+
+STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
+
+
+class State(NamedTuple):
+    """The body's state, world axes: place [m], body pitch nose-up [rad], velocity [m/s], pitch rate [rad/s]."""
+
+    x: Any = 0.0
+    z: Any = 0.0
+    body_pitch: Any = 0.0
+    u: Any = 0.0
+    w: Any = 0.0
+    pitch_rate: Any = 0.0
+
+
+def check_state(state: State) -> None:
+    """Raise `InvalidInputError` unless every number of the state is finite."""
+    faults = FaultList()
+    for name in STATE_NAMES:
+        faults.number(f"initial_state.{name}", getattr(state, name))
+    faults.raise_if_any()
+
+
+@register_record(static=("strips", "at_centre_of_pressure"))
+@dataclass(frozen=True)
+class FlightModel:
+    """All numbers of the equations of motion but the wingbeat; a JAX pytree.
+
+    Build it with `flight_model`, which checks; the fields are a `Vehicle`, an `Air`, the kernel of a
+    coefficient model, the number of strips and whether the force acts at the centre of pressure.
+    """
+
+    vehicle: Vehicle
+    air: Air
+    kernel: Any
+    strips: int
+    at_centre_of_pressure: bool
+
+
+def flight_model(vehicle: Vehicle, aero: BladeElement, air: Air | None = None) -> FlightModel:
+    """Join a vehicle, its air loads and the air into a flight model."""
+    at_centre = aero.force_point == "centre-of-pressure"
+    return FlightModel(vehicle, air or Air(), aero.coefficients.kernel(), aero.strips, at_centre)
+
+
+def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> WingMotion:
+    """Tabulate the wing's motion at the given phases."""
+    return wing_motion(model.vehicle, wingbeat, phase, model.strips)
+
+
+def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
+    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (..., 4); place does not enter."""
+    body_pitch, u, w, pitch_rate = (pitch_state[..., i] for i in range(4))
+    velocity = world_to_body(body_pitch, u, w)
+    chord = strips_of(model.vehicle.wing, model.strips).chord
+    _, loads = wing_loads(
+        model.kernel, model.air.density, motion, velocity, pitch_rate, chord, model.at_centre_of_pressure
+    )
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, velocity)
+    loads = loads._replace(force=(loads.force[0] + drag[0], loads.force[1] + drag[1]))
+    ax, az, pitch_acceleration = accelerations(
+        model.vehicle, model.air.gravity, motion, loads, body_pitch, pitch_rate
+    )
+    return jnp.stack([pitch_rate, ax, az, pitch_acceleration], axis=-1)

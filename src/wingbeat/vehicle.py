@@ -1,0 +1,149 @@
+"""What flies: body, wing and the air around them, as checked records in SI units."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat.errors import FaultList
+from wingbeat.jax64 import register_record
+
+
+@register_record
+@dataclass(frozen=True)
+class Body:
+    """The body without its wings.
+
+    Parameters
+    ----------
+    mass : mass without wings [kg].
+    pitch_inertia : moment of inertia about the pitch axis through its own centre of mass [kg m2].
+    drag_area : drag coefficient times frontal area [m2]; 0, as in the paper, means no body drag.
+
+    Raises
+    ------
+    InvalidInputError : a mass or inertia that is not positive, a negative drag area, not a finite number.
+    """
+
+    mass: float
+    pitch_inertia: float
+    drag_area: float = 0.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("body.mass", self.mass, above=0, unit="kg", fix="give the mass without the wings")
+        faults.number("body.pitch_inertia", self.pitch_inertia, above=0, unit="kg m2")
+        faults.number("body.drag_area", self.drag_area, at_least=0, unit="m2", fix="0 means no body drag")
+        faults.raise_if_any()
+
+
+@register_record
+@dataclass(frozen=True)
+class Wing:
+    """One wing (the left one; the right one is its mirror image).
+
+    Parameters
+    ----------
+    semi_span : length from shoulder to tip at mid-downstroke [m].
+    chord : chord [m], one number or a tuple at equally spaced stations from root to tip.
+    mass : mass of one wing [kg].
+    mass_exponent : p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
+    shoulder : place of the shoulder in body axes (forward, left, up) [m].
+    stroke_plane_angle : angle of the stroke plane from the body axis [rad]; pi/2 is a vertical plane.
+
+    Raises
+    ------
+    InvalidInputError : lengths or mass not positive, a negative exponent, a wrong shape, not finite.
+    """
+
+    semi_span: float
+    chord: float | tuple[float, ...]
+    mass: float
+    mass_exponent: float = 0.0
+    shoulder: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    stroke_plane_angle: float = math.pi / 2
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("wing.semi_span", self.semi_span, above=0, unit="m")
+        self._check_chord(faults)
+        faults.number("wing.mass", self.mass, above=0, unit="kg", fix="give the mass of one wing")
+        faults.number("wing.mass_exponent", self.mass_exponent, at_least=0, fix="0 is a uniform wing")
+        self._check_shoulder(faults)
+        faults.number("wing.stroke_plane_angle", self.stroke_plane_angle, unit="rad")
+        faults.raise_if_any()
+
+    def _check_chord(self, faults: FaultList) -> None:
+        fix = "give one number or at least two stations from root to tip"
+        if not isinstance(self.chord, list | tuple):
+            faults.number("wing.chord", self.chord, above=0, unit="m", fix=fix)
+            return
+        object.__setattr__(self, "chord", tuple(self.chord))
+        if len(self.chord) < 2:
+            faults.add("wing.chord", self.chord, "has fewer than two stations", fix)
+        for i, chord in enumerate(self.chord):
+            faults.number(f"wing.chord[{i}]", chord, above=0, unit="m")
+
+    def _check_shoulder(self, faults: FaultList) -> None:
+        if not isinstance(self.shoulder, list | tuple) or len(self.shoulder) != 3:
+            faults.add("wing.shoulder", self.shoulder, "must be three numbers", "forward, left, up, in m")
+            return
+        object.__setattr__(self, "shoulder", tuple(self.shoulder))
+        for axis, value in zip("xyz", self.shoulder, strict=True):
+            faults.number(f"wing.shoulder.{axis}", value, unit="m")
+
+    @property
+    def mean_chord(self) -> float:
+        """Mean of the piecewise linear chord along the span [m]."""
+        if not isinstance(self.chord, tuple):
+            return self.chord
+        inner = sum(self.chord) - 0.5 * (self.chord[0] + self.chord[-1])
+        return inner / (len(self.chord) - 1)
+
+
+@register_record
+@dataclass(frozen=True)
+class Vehicle:
+    """An animal or a robot: its body and its two equal wings.
+
+    >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
+    >>> round(pigeon.mass, 3)
+    0.316
+    """
+
+    body: Body
+    wing: Wing
+
+    @property
+    def mass(self) -> Any:
+        """Whole mass: body and both wings [kg]."""
+        return self.body.mass + 2 * self.wing.mass
+
+
+@register_record
+@dataclass(frozen=True)
+class Air:
+    """The air and the planet.
+
+    Parameters
+    ----------
+    density : [kg/m3].
+    viscosity : kinematic viscosity [m2/s].
+    gravity : [m/s2].
+
+    Raises
+    ------
+    InvalidInputError : a density or viscosity that is not positive, a negative gravity, not finite.
+    """
+
+    density: float = 1.225
+    viscosity: float = 1.5e-5
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("air.density", self.density, above=0, unit="kg/m3")
+        faults.number("air.viscosity", self.viscosity, above=0, unit="m2/s")
+        faults.number("air.gravity", self.gravity, at_least=0, unit="m/s2")
+        faults.raise_if_any()

@@ -1,0 +1,83 @@
+"""wingbeat: how an animal or a flapping robot must beat its wings to fly, and how sure we are.
+
+The public names are loaded when first used, so that importing the package is cheap.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from wingbeat._version import __version__ as __version__
+
+if TYPE_CHECKING:
+    from wingbeat import aero as aero
+    from wingbeat import plots as plots
+    from wingbeat.equations_of_motion import air_forces as air_forces
+    from wingbeat.equations_of_motion import equations_of_motion as equations_of_motion
+    from wingbeat.errors import FileError as FileError
+    from wingbeat.errors import InvalidInputError as InvalidInputError
+    from wingbeat.errors import WingbeatError as WingbeatError
+    from wingbeat.kinematics import Wingbeat as Wingbeat
+    from wingbeat.loads import loads as loads
+    from wingbeat.model import FlightModel as FlightModel
+    from wingbeat.model import State as State
+    from wingbeat.model import flight_model as flight_model
+    from wingbeat.orbits.objectives import Frequency as Frequency
+    from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
+    from wingbeat.orbits.solve import Status as Status
+    from wingbeat.results.flight import simulate as simulate
+    from wingbeat.results.orbit import Orbit as Orbit
+    from wingbeat.results.orbit import load_orbit as load_orbit
+    from wingbeat.results.orbit import solve_orbit as solve_orbit
+    from wingbeat.simulate import simulate_torque_driven as simulate_torque_driven
+    from wingbeat.species import Species as Species
+    from wingbeat.species import load_species as load_species
+    from wingbeat.species import species_names as species_names
+    from wingbeat.vehicle import Air as Air
+    from wingbeat.vehicle import Body as Body
+    from wingbeat.vehicle import Vehicle as Vehicle
+    from wingbeat.vehicle import Wing as Wing
+
+_HOME = {
+    "Air": "vehicle",
+    "Body": "vehicle",
+    "FileError": "errors",
+    "FlightModel": "model",
+    "Frequency": "orbits.objectives",
+    "InvalidInputError": "errors",
+    "Orbit": "results.orbit",
+    "OrbitProblem": "orbits.problem",
+    "Species": "species",
+    "State": "model",
+    "Status": "orbits.solve",
+    "Vehicle": "vehicle",
+    "Wing": "vehicle",
+    "Wingbeat": "kinematics",
+    "WingbeatError": "errors",
+    "air_forces": "equations_of_motion",
+    "equations_of_motion": "equations_of_motion",
+    "flight_model": "model",
+    "load_orbit": "results.orbit",
+    "load_species": "species",
+    "loads": "loads",
+    "simulate": "results.flight",
+    "simulate_torque_driven": "simulate",
+    "solve_orbit": "results.orbit",
+    "species_names": "species",
+}
+_MODULES = ("aero", "plots")
+
+__all__ = [*_HOME, *_MODULES, "__version__"]  # noqa: PLE0604
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return importlib.import_module(f"wingbeat.{name}")
+    if name in _HOME:
+        return getattr(importlib.import_module(f"wingbeat.{_HOME[name]}"), name)
+    raise AttributeError(f"module 'wingbeat' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

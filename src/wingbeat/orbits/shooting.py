@@ -14,8 +14,6 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.wing_motion import WingMotion
 
-PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
-
 
 class Period(NamedTuple):
     """One period flown: where it ends from x = z = 0, and the pitch state at each step, shape (steps+1, 4)."""
@@ -109,13 +107,12 @@ def fly(model: FlightModel, wingbeat: Wingbeat, start: Any, steps: int) -> Perio
 
 
 def fly_with_tangents(
-    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], start: Any, steps: int
+    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], values: Any, start: Any, steps: int
 ) -> PeriodTangents:
-    """Fly one period and differentiate its end and path by start and free parameters.
+    """Fly one period and differentiate its end and path by start and free parameters, now at `values`.
 
     Three compiled pieces, not one: XLA fuses across them to no good (twice the compile time, thrice the run).
     """
-    values = jnp.stack([jnp.asarray(getattr(wingbeat, name), dtype=float) for name in free])
     tables, tangents = tabulate_tangents(model, wingbeat, free, values, steps)
     flight = march(model, tables, start)
     return differentiate(model, tables, tangents, flight)

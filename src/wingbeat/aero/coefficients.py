@@ -1,0 +1,121 @@
+"""What every coefficient model offers at the border: NumPy arrays of angles in, coefficients out."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.jax64 import jax
+
+
+@jax.jit
+def _lift_drag(kernel: Any, alpha: Any) -> Any:
+    return kernel.lift_drag(alpha)
+
+
+@jax.jit
+def _centre_of_pressure(kernel: Any, alpha: Any) -> Any:
+    return kernel.centre_of_pressure(alpha)
+
+
+def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
+    """Return angles [rad] brought to [-pi, pi], exactly odd in `alpha`; what is not finite becomes NaN.
+
+    Raises
+    ------
+    InvalidInputError : not numbers.
+
+    >>> wrapped([0.5, 1.0 + 2 * math.pi, -math.pi]).tolist()
+    [0.5, 1.0, -3.141592653589793]
+    """
+    try:
+        angles = np.asarray(alpha, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        faults = FaultList()
+        fix = "inside a function that JAX traces, use kernel()"
+        faults.add("alpha", alpha, "must be a number or an array of numbers [rad]", fix)
+        faults.raise_if_any()
+        raise AssertionError from error
+    with np.errstate(invalid="ignore"):
+        remainder = np.fmod(angles, 2 * math.pi)
+    return remainder - 2 * math.pi * np.round(remainder / (2 * math.pi))
+
+
+def _over_angles(function: Any, kernel: Any, alpha: ArrayLike) -> Any:
+    """Apply a compiled kernel function to angles of any shape; a scalar gives a scalar, as in NumPy."""
+    angles = wrapped(alpha)
+    # Padded to a power of two: XLA compiles anew for each length it has not met.
+    padded = np.zeros(1 << max(angles.size - 1, 0).bit_length())
+    padded[: angles.size] = angles.ravel()
+    result = function(kernel, padded)
+    return jax.tree.map(lambda leaf: np.array(leaf)[: angles.size].reshape(angles.shape)[()], result)
+
+
+class CoefficientModel:
+    """Lift, drag and centre of pressure of a wing strip as functions of the angle of attack alone.
+
+    The angle `alpha` is in radians, of any shape and any size; values come back as float64 of that shape.
+    Inside JAX use `kernel`, a pytree whose ``lift_drag(alpha)`` and ``centre_of_pressure(alpha)`` take
+    [-pi, pi] and whose leaves are the model's numbers.
+    """
+
+    name: str
+    citation: str
+    extension: str
+    blend_width_deg: float
+    reynolds_range: tuple[float, float] | None
+    alpha_range_deg: tuple[float, float]
+
+    @property
+    def has_centre_of_pressure(self) -> bool:
+        """Whether the model tells where along the chord the force acts."""
+        raise NotImplementedError
+
+    def kernel(self) -> Any:
+        """Return the JAX pytree that evaluates this model."""
+        raise NotImplementedError
+
+    def lift(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return the lift coefficient C_L at `alpha` [rad]."""
+        return _over_angles(_lift_drag, self.kernel(), alpha)[0]
+
+    def drag(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return the drag coefficient C_D at `alpha` [rad]."""
+        return _over_angles(_lift_drag, self.kernel(), alpha)[1]
+
+    def normal(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return the normal force coefficient ``C_N = C_L cos(alpha) + C_D sin(alpha)`` at `alpha` [rad]."""
+        lift, drag = _over_angles(_lift_drag, self.kernel(), alpha)
+        angles = wrapped(alpha)
+        return lift * np.cos(angles) + drag * np.sin(angles)
+
+    def centre_of_pressure(self, alpha: ArrayLike) -> NDArray[np.float64]:
+        """Return the centre of pressure at `alpha` [rad], in chords from the leading edge.
+
+        Raises
+        ------
+        InvalidInputError : the model has none.
+        """
+        if not self.has_centre_of_pressure:
+            faults = FaultList()
+            fix = "use su-fan, or a table with the column x_cp"
+            faults.add("coefficients", self.name, "has no centre of pressure", fix)
+            faults.raise_if_any()
+        return _over_angles(_centre_of_pressure, self.kernel(), alpha)
+
+    def moment(self, alpha: ArrayLike, about: float = 0.5) -> NDArray[np.float64]:
+        """Return the moment coefficient ``C_M = C_N (about - x_cp)``, nose-up positive, at `alpha` [rad].
+
+        Parameters
+        ----------
+        about : the axis, in chords from the leading edge.
+
+        Raises
+        ------
+        InvalidInputError : the model has no centre of pressure.
+        """
+        return self.normal(alpha) * (about - self.centre_of_pressure(alpha))

@@ -1,0 +1,272 @@
+"""From coefficients known on one side to every angle of attack, blended where two pieces meet.
+
+Formulas and tables tell the coefficients of a plate for 0 to 90 degrees; a flapping wing sees every angle.
+Angles are in (-180, 180]; the extension is chosen by name:
+
+mirrored
+    the plate seen from behind and from below: C_L odd and C_D even in alpha, ``C_L(180-a) = -C_L(a)``,
+    ``C_D(180-a) = C_D(a)``, x_cp even, ``x_cp(180-a) = 1 - x_cp(a)``. The physical one, and the default.
+signed-drag
+    as mirrored, but C_D is the formula at the signed angle for -90 < a < 0.
+signed
+    the same, and C_L (for a table x_cp) too, where the formula stays finite: no exponential term.
+clipped-drag
+    as mirrored, but C_D is the formula's value at 0 for every a < 0.
+
+Where two pieces meet (at 0, +-90 or 180) the coefficient is, nearer than the blend width and only there, the
+quintic Hermite polynomial that agrees with both pieces in value, slope and curvature at join +- width. It is
+held as an even and an odd part in the distance, so a mirrored coefficient is exactly even or odd.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
+
+from wingbeat.elementary import horner
+from wingbeat.errors import FaultList
+from wingbeat.jax64 import jax, jnp
+
+EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
+MAX_BLEND_WIDTH_DEG = 3.0
+RIGHT_ANGLE = 0.5 * math.pi
+
+Function = Callable[[Any], Any]
+
+
+class Pieces(Protocol):
+    """What is extended: coefficients on [0, 90] degrees, as functions of the angle [rad]; a JAX pytree.
+
+    Without a centre of pressure `centre` gives NaN, so that models with and without are the same pytree.
+    """
+
+    def lift(self, alpha: Any) -> Any:
+        """Return C_L."""
+        ...
+
+    def drag(self, alpha: Any) -> Any:
+        """Return C_D."""
+        ...
+
+    def centre(self, alpha: Any) -> Any:
+        """Return x_cp in chords from the leading edge."""
+        ...
+
+
+def check_extension(faults: FaultList, extension: Any, blend_width_deg: Any) -> None:
+    """Note a fault for an unknown extension or a blend width that is not in (0, 3] degrees."""
+    faults.choice("extension", extension, EXTENSIONS)
+    faults.number(
+        "blend_width_deg",
+        blend_width_deg,
+        above=0,
+        at_most=MAX_BLEND_WIDTH_DEG,
+        unit="degrees",
+        fix="1 is the default; without a blend the coefficients jump at 0 and 90 degrees",
+    )
+
+
+class Jet(NamedTuple):
+    """Value, slope and curvature of a function at one point."""
+
+    value: Any
+    slope: Any
+    curvature: Any
+
+    def seen_backwards(self) -> Jet:
+        """Return the jet of the same curve with its axis reversed."""
+        return Jet(self.value, -self.slope, self.curvature)
+
+    def turned_over(self) -> Jet:
+        """Return the jet of the negative of the curve."""
+        return Jet(-self.value, -self.slope, -self.curvature)
+
+
+def jet_of(function: Function, at: Any) -> Jet:
+    """Return value, slope and curvature of a function, by automatic differentiation."""
+    one = jnp.ones_like(at)
+
+    def value_and_slope(x: Any) -> Any:
+        return jax.jvp(function, (x,), (one,))
+
+    (value, slope), (_, curvature) = jax.jvp(value_and_slope, (at,), (one,))
+    return Jet(value, slope, curvature)
+
+
+def even_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
+    """Return the even polynomial, in powers of the squared distance, that has `jet` at distance `width`."""
+    f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
+    return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
+
+
+def odd_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
+    """Return the odd polynomial over the distance, in powers of its square, that has `jet` at `width`."""
+    f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
+    return (
+        (15 * f - 7 * s + k) / (8 * width),
+        (5 * (s - f) - k) / (4 * width**3),
+        (k - 3 * (s - f)) / (8 * width**5),
+    )
+
+
+class Join(NamedTuple):
+    """A quintic blend between two pieces that share no symmetry: its even and its odd part."""
+
+    even: tuple[Any, ...]
+    odd: tuple[Any, ...]
+
+    @classmethod
+    def between(cls, left: Jet, right: Jet, width: Any) -> Join:
+        """Return the blend that has `left` at distance -width and `right` at +width."""
+        mirror = left.seen_backwards()
+        even = Jet(*((r + m) / 2 for r, m in zip(right, mirror, strict=True)))
+        odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))
+        return cls(even_blend(even, width), odd_blend(odd, width))
+
+    def over(self, value: Any, distance: Any, width: Any) -> Any:
+        """Return `value`, replaced by the blend where the distance is below the width."""
+        squared = distance * distance
+        blend = horner(self.even, squared) + distance * horner(self.odd, squared)
+        return jnp.where(jnp.abs(distance) < width, blend, value)
+
+
+class SignedPatch(NamedTuple):
+    """The formula at the signed angle, laid over the mirrored coefficient for -90 < a < 0."""
+
+    at_minus_right: Join
+
+    def over(self, value: Any, piece: Function, alpha: Any, width: Any) -> Any:
+        """Return the patched coefficient; no blend at 0, where one formula runs through."""
+        inside = (alpha > -RIGHT_ANGLE) & (alpha < width)
+        value = jnp.where(inside, piece(jnp.where(inside, alpha, 0.0)), value)
+        return self.at_minus_right.over(value, alpha + RIGHT_ANGLE, width)
+
+
+class ClippedPatch(NamedTuple):
+    """A constant, laid over the mirrored coefficient for a < 0."""
+
+    level: Any
+    at_zero: Join
+    at_half_turn: Join
+
+    def over(self, value: Any, piece: Function, alpha: Any, width: Any) -> Any:
+        """Return the patched coefficient."""
+        value = self.at_zero.over(jnp.where(alpha < 0, self.level, value), alpha, width)
+        return self.at_half_turn.over(value, alpha - jnp.where(alpha < 0, -math.pi, math.pi), width)
+
+
+class Ends(NamedTuple):
+    """The blends of one mirrored coefficient at 0 and at 90 degrees, and what is laid over it, or None."""
+
+    at_zero: tuple[Any, ...]
+    at_right: tuple[Any, ...]
+    patch: SignedPatch | ClippedPatch | None
+
+
+def _fold(alpha: Any) -> tuple[Any, Any]:
+    """Return the angle less whole half turns, in [-90, 90] degrees, and how many were taken off."""
+    turns = jnp.round(alpha * (1 / math.pi))
+    return alpha - turns * math.pi, turns
+
+
+class ExtendedKernel(NamedTuple):
+    """Coefficients at every angle in [-pi, pi], for use under JAX's jit, vmap and derivatives.
+
+    A pytree whose leaves are all its numbers, so that models of one form share one compiled function.
+    """
+
+    pieces: Any
+    width: Any
+    lift: Ends
+    drag: Ends
+    centre: Ends
+
+    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+        """Return C_L and C_D at `alpha` [rad], any shape."""
+        # One fold serves both: mirrored, C_L and C_D repeat every half turn.
+        folded, _ = _fold(alpha)
+        sign = jnp.where(folded < 0, -1.0, 1.0)
+        acute = sign * folded
+        short = acute - RIGHT_ANGLE
+        near_zero, near_right = acute < self.width, -short < self.width
+        squared, short_squared = folded * folded, short * short
+
+        lift = jnp.where(
+            near_right, short * horner(self.lift.at_right, short_squared), self.pieces.lift(acute)
+        )
+        lift = jnp.where(near_zero, folded * horner(self.lift.at_zero, squared), sign * lift)
+        drag = jnp.where(near_right, horner(self.drag.at_right, short_squared), self.pieces.drag(acute))
+        drag = jnp.where(near_zero, horner(self.drag.at_zero, squared), drag)
+        if self.lift.patch is not None:
+            lift = self.lift.patch.over(lift, self.pieces.lift, alpha, self.width)
+        if self.drag.patch is not None:
+            drag = self.drag.patch.over(drag, self.pieces.drag, alpha, self.width)
+        return lift, drag
+
+    def centre_of_pressure(self, alpha: Any) -> Any:
+        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none."""
+        folded, turns = _fold(alpha)
+        acute = jnp.where(folded < 0, -1.0, 1.0) * folded
+        short = acute - RIGHT_ANGLE
+        near_zero = acute < self.width
+        # a^0.6 has no derivative at 0, and where() would let its NaN through even if not chosen.
+        centre = self.pieces.centre(jnp.where(near_zero, self.width, acute))
+        at_right = 0.5 + short * horner(self.centre.at_right, short * short)
+        centre = jnp.where(-short < self.width, at_right, centre)
+        centre = jnp.where(near_zero, horner(self.centre.at_zero, folded * folded), centre)
+        centre = jnp.where(turns != 0, 1.0 - centre, centre)
+        if self.centre.patch is not None:
+            centre = self.centre.patch.over(centre, self.pieces.centre, alpha, self.width)
+        return centre
+
+
+def _patch(
+    piece: Function, behind: Jet, width: Any, extension: str, name: str, signed: tuple[str, ...]
+) -> Any:
+    """Return what `extension` lays over one mirrored coefficient; `behind` is its jet beyond -90 degrees."""
+    if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
+        return SignedPatch(Join.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))
+    if extension == "clipped-drag" and name == "drag":
+        zero = jnp.zeros_like(width)
+        level = Jet(piece(zero), zero, zero)
+        front = jet_of(piece, width)
+        joins = Join.between(level, front, width), Join.between(front.seen_backwards(), level, width)
+        return ClippedPatch(level.value, *joins)
+    return None
+
+
+@functools.partial(jax.jit, static_argnums=(2, 3))
+def _extended(pieces: Pieces, width: Any, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+    def ends(name: str) -> Ends:
+        piece = getattr(pieces, name)
+        zero, right = jet_of(piece, width), jet_of(piece, RIGHT_ANGLE - width)
+        backwards = right.seen_backwards()
+        blend_zero, blend_right, behind = even_blend(zero, width), even_blend(backwards, width), right
+        if name == "lift":
+            blend_zero, blend_right = odd_blend(zero, width), odd_blend(backwards.turned_over(), width)
+        if name == "centre":
+            # About 90 degrees it is x_cp - 1/2 that is odd.
+            about_half = backwards.turned_over()
+            blend_right = odd_blend(about_half._replace(value=about_half.value + 0.5), width)
+            behind = right.turned_over()._replace(value=1.0 - right.value)
+        return Ends(blend_zero, blend_right, _patch(piece, behind, width, extension, name, signed))
+
+    return ExtendedKernel(pieces, width, ends("lift"), ends("drag"), ends("centre"))
+
+
+def extend(pieces: Any, blend_width_deg: Any, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+    """Return the kernel of coefficients extended to every angle.
+
+    Parameters
+    ----------
+    pieces : coefficients on [0, 90] degrees (see `Pieces`); its leaves may be traced.
+    blend_width_deg : half width of the blends [deg], in (0, 3]; may be traced.
+    extension : one of `EXTENSIONS`.
+    signed : which of "lift", "drag", "centre" are also good for -90 to 0 degrees.
+    """
+    width = jnp.asarray(blend_width_deg, jnp.float64) * (math.pi / 180)
+    # Strong float64 leaves, so that one compiled function serves every model of the same form.
+    leaves = jax.tree.map(lambda leaf: jnp.asarray(leaf, jnp.float64), pieces)
+    return _extended(leaves, width, extension, signed)

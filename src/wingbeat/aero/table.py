@@ -1,0 +1,247 @@
+"""Coefficients from a table of measurements: a cubic spline through the points, extended to every angle."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.extension import check_extension, extend
+from wingbeat.aero.table_checks import (
+    OPTIONAL,
+    REQUIRED,
+    check_columns,
+    check_coverage,
+    is_whole_turn,
+    numbers,
+)
+from wingbeat.elementary import horner
+from wingbeat.errors import FaultList, FileError
+from wingbeat.jax64 import jax, jnp
+
+
+class TablePieces(NamedTuple):
+    """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cube."""
+
+    knots: Any
+    lift_spline: Any
+    drag_spline: Any
+    centre_spline: Any
+
+    def _value(self, spline: Any, alpha: Any) -> Any:
+        segment = jnp.searchsorted(self.knots[1:-1], alpha, side="right", method="scan_unrolled")
+        return horner(tuple(spline[:, segment]), alpha - self.knots[segment])
+
+    def lift(self, alpha: Any) -> Any:
+        """Return C_L at `alpha` [rad]."""
+        return self._value(self.lift_spline, alpha)
+
+    def drag(self, alpha: Any) -> Any:
+        """Return C_D at `alpha` [rad]."""
+        return self._value(self.drag_spline, alpha)
+
+    def centre(self, alpha: Any) -> Any:
+        """Return x_cp at `alpha` [rad]; NaN where the table has none."""
+        return self._value(self.centre_spline, alpha)
+
+
+class WholeTurnKernel(NamedTuple):
+    """Coefficients tabulated over the whole turn, used as they are on [-pi, pi]; a JAX pytree."""
+
+    pieces: TablePieces
+
+    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+        """Return C_L and C_D at `alpha` [rad], any shape."""
+        return self.pieces.lift(alpha), self.pieces.drag(alpha)
+
+    def centre_of_pressure(self, alpha: Any) -> Any:
+        """Return x_cp at `alpha` [rad], any shape; NaN where the table has none."""
+        return self.pieces.centre(alpha)
+
+
+@dataclass(frozen=True)
+class TableCoefficients(CoefficientModel):
+    """Quasi-steady coefficients of a wing strip, from a table.
+
+    A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended
+    as a formula is; rows beyond 90 only shape the spline. With rows down to -90 degrees or below it needs the
+    extension `signed`. A table from -180 to 180 is used as it is, periodic: its extension is `signed`.
+
+    Parameters
+    ----------
+    name : name of the model.
+    alpha_deg : angles of attack [deg], rising, shape (n,).
+    c_l, c_d : coefficients of lift and drag, shape (n,).
+    x_cp : centre of pressure in chords from the leading edge, shape (n,), or None.
+    citation : where the table comes from.
+    reynolds_range : chord Reynolds numbers of the measurements, or None.
+    extension : how the table reaches every angle (`wingbeat.aero.extension`).
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : not numbers, columns of different length, angles that do not rise or look like
+        radians, negative drag, fewer than 4 rows, too short a range, an extension that does not fit it.
+
+    >>> alpha = np.arange(0.0, 91.0, 5.0)
+    >>> lift, drag = np.sin(2 * np.deg2rad(alpha)), 1 - np.cos(2 * np.deg2rad(alpha))
+    >>> plate = TableCoefficients("plate", alpha, lift, drag)
+    >>> round(float(plate.lift(np.deg2rad(-45.0))), 6)
+    -1.0
+    """
+
+    name: str
+    alpha_deg: tuple[float, ...]
+    c_l: tuple[float, ...]
+    c_d: tuple[float, ...]
+    x_cp: tuple[float, ...] | None = None
+    citation: str = ""
+    reynolds_range: tuple[float, float] | None = None
+    extension: str = "mirrored"
+    blend_width_deg: float = 1.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        check_extension(faults, self.extension, self.blend_width_deg)
+        raw = {
+            name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL) if getattr(self, name) is not None
+        }
+        columns = {
+            name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw
+        }
+        for name, column in columns.items():
+            if len(column) != len(columns["alpha_deg"]):
+                rule = f"has not the length of alpha_deg, {len(columns['alpha_deg'])}"
+                faults.add(name, f"{len(column)} numbers", rule)
+        faults.raise_if_any()
+        check_columns(faults, columns, lambda i, name: f"{name}[{i}]")
+        faults.raise_if_any()
+        check_coverage(faults, columns, self.extension, lambda i, name: f"{name}[{i}]")
+        faults.raise_if_any()
+        for name, column in columns.items():
+            object.__setattr__(self, name, tuple(column))
+        if is_whole_turn(self.alpha_deg):
+            object.__setattr__(self, "extension", "signed")
+
+    def __str__(self) -> str:
+        return f"{self.name} ({self.citation or 'no source given'})"
+
+    @property
+    def alpha_range_deg(self) -> tuple[float, float]:  # type: ignore[override]
+        """Lowest and highest angle of the table [deg]."""
+        return self.alpha_deg[0], self.alpha_deg[-1]
+
+    @property
+    def has_centre_of_pressure(self) -> bool:
+        """Whether the table tells where along the chord the force acts."""
+        return self.x_cp is not None
+
+    def kernel(self) -> Any:
+        """Return the JAX pytree that evaluates this table."""
+        # Slow to import, which the formulas need not pay for.
+        from scipy.interpolate import CubicSpline
+
+        knots = np.deg2rad(self.alpha_deg)
+        whole = is_whole_turn(self.alpha_deg)
+
+        def spline(values: tuple[float, ...] | None) -> Any:
+            if values is None:
+                return np.full((4, len(knots) - 1), np.nan)
+            return CubicSpline(knots, values, bc_type="periodic" if whole else "not-a-knot").c[::-1]
+
+        pieces = TablePieces(knots, spline(self.c_l), spline(self.c_d), spline(self.x_cp))
+        if whole:
+            return WholeTurnKernel(jax.tree.map(jnp.asarray, pieces))
+        signed = ("lift", "drag", "centre") if self.extension == "signed" else ()
+        return extend(pieces, self.blend_width_deg, self.extension, signed)
+
+
+def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
+    """Return (row number in the file, cells) of each row that is neither blank nor a # comment."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise FileError(f"{path}: there is no such file; check the path to the table") from None
+    except UnicodeDecodeError:
+        raise FileError(f"{path}: is not text in UTF-8; save the table as CSV in UTF-8") from None
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read ({error.strerror}); give the path to a CSV file") from None
+    lines = enumerate(csv.reader(text.splitlines()), start=1)
+    return [
+        (i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")
+    ]
+
+
+def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> None:
+    """Note columns that are missing, unknown or given twice."""
+    known = (*REQUIRED, *OPTIONAL)
+    for column in REQUIRED:
+        if column not in header:
+            fix = "the first row must read alpha_deg,c_l,c_d or alpha_deg,c_l,c_d,x_cp"
+            faults.add(f"{file} row {row}, column {column}", ",".join(header), "the column is missing", fix)
+    for i, column in enumerate(header):
+        where = f"{file} row {row}, column {i + 1}"
+        if column not in known:
+            faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
+        elif column in header[:i]:
+            faults.add(where, column, "stands there twice", "keep one")
+
+
+def load_table(
+    path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
+) -> TableCoefficients:
+    """Read a coefficient table from a CSV file with the columns alpha_deg, c_l, c_d and, if known, x_cp.
+
+    Blank rows and rows that begin with # are skipped.
+
+    Parameters
+    ----------
+    path : the CSV file; angles in degrees.
+    extension, blend_width_deg : as of `TableCoefficients`.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : what `TableCoefficients` refuses, each fault with its row and column.
+    """
+    path = Path(path)
+    rows = _read_rows(path)
+    faults = FaultList()
+    check_extension(faults, extension, blend_width_deg)
+    if not rows:
+        fix = "the first row must read alpha_deg,c_l,c_d or alpha_deg,c_l,c_d,x_cp"
+        faults.add(f"{path.name} row 1", "", "the file is empty", fix)
+        faults.raise_if_any()
+    (header_row, header), *body = rows
+    earlier = len(faults.faults)
+    _check_header(faults, path.name, header_row, header)
+    for i, cells in body:
+        if len(cells) != len(header):
+            rule = f"must have {len(header)} cells, one for each column"
+            faults.add(f"{path.name} row {i}", ",".join(cells), rule, "write decimal points, not commas")
+    if len(faults.faults) > earlier:
+        faults.raise_if_any()  # what is in which column cannot be told
+
+    def where(i: int, column: str) -> str:
+        row = body[i][0] if i < len(body) else header_row
+        return f"{path.name} row {row}, column {column}"
+
+    cells_of = {name: [cells[k] for _, cells in body] for k, name in enumerate(header)}
+    columns = {name: numbers(faults, cells_of[name], lambda i, name=name: where(i, name)) for name in header}
+    check_columns(faults, columns, where)
+    faults.raise_if_any()
+    check_coverage(faults, columns, extension, where)
+    faults.raise_if_any()
+    values = {name: tuple(column) for name, column in columns.items()}
+    return TableCoefficients(
+        path.stem,
+        *(values[name] for name in REQUIRED),
+        x_cp=values.get("x_cp"),
+        citation=path.name,
+        extension=extension,
+        blend_width_deg=blend_width_deg,
+    )

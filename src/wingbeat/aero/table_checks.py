@@ -1,0 +1,88 @@
+"""What a table of coefficients must satisfy before a spline is put through it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from wingbeat.errors import FaultList
+
+REQUIRED = ("alpha_deg", "c_l", "c_d")
+OPTIONAL = ("x_cp",)
+MIN_ROWS = 4
+
+Where = Callable[[int, str], str]
+
+
+def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]) -> list[float]:
+    """Return the cells as floats, NaN for each one noted as a fault."""
+    values = []
+    for i, cell in enumerate(cells):
+        try:
+            number = float(cell)
+        except (TypeError, ValueError):
+            rule = "is empty" if isinstance(cell, str) and not cell.strip() else "is not a number"
+            faults.add(where(i), cell, rule, "write one number with a decimal point")
+            number = math.nan
+        else:
+            if not math.isfinite(number):
+                faults.add(where(i), number, "must be finite", "drop the row or give a value")
+                number = math.nan
+        values.append(number)
+    return values
+
+
+def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Where) -> None:
+    """Note angles that do not rise, negative drag, and too few rows."""
+    angles = columns["alpha_deg"]
+    for i, angle in enumerate(angles):
+        if i and angle <= angles[i - 1]:
+            rule = f"must be above the {angles[i - 1]:g} before it"
+            faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop doubles")
+        if abs(angle) > 180:
+            faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
+    for i, drag in enumerate(columns["c_d"]):
+        if drag < 0:
+            faults.add(
+                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "turn its sign"
+            )
+    if len(angles) < MIN_ROWS:
+        rule = f"has fewer than {MIN_ROWS} rows, which is too few for a cubic spline"
+        faults.add("rows", len(angles), rule, "measure at more angles")
+
+
+def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension: str, where: Where) -> None:
+    """Note a table that does not reach as far as its extension needs, or farther than it uses."""
+    angles = columns["alpha_deg"]
+    first, last = angles[0], angles[-1]
+    at_first, at_last = where(0, "alpha_deg"), where(len(angles) - 1, "alpha_deg")
+    if max(abs(first), abs(last)) <= 2 * math.pi:
+        rule = f"is the largest of a column from {first:g} to {last:g} that looks like radians"
+        faults.add(at_last, last, rule, "write alpha_deg in degrees, from 0 to at least 90")
+        return
+    if last < 90:
+        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure farther")
+    if first > 0:
+        faults.add(at_first, first, "the table must begin at 0 degrees or below", "add a row for 0")
+    if is_whole_turn(angles):
+        for name, column in columns.items():
+            if name != "alpha_deg" and column[0] != column[-1]:
+                rule = f"must equal the {column[0]:g} of -180 degrees"
+                faults.add(where(len(angles) - 1, name), column[-1], rule, "repeat the row of -180 at 180")
+    elif first < 0 and extension != "signed":
+        rule = f"is negative, and the extension {extension} would ignore it"
+        faults.add(at_first, first, rule, "drop the negative rows or use signed")
+    elif first > -90 and extension.startswith("signed"):
+        rule = f"the extension {extension} needs the table to begin at -90 degrees or below"
+        fix = (
+            "use mirrored"
+            if first >= 0
+            else "add rows down to -90, or drop the negative rows and use mirrored"
+        )
+        faults.add(at_first, first, rule, fix)
+
+
+def is_whole_turn(angles: Sequence[float]) -> bool:
+    """Say whether a table runs from -180 to 180 degrees."""
+    return angles[0] == -180 and angles[-1] == 180

@@ -1,0 +1,5 @@
+"""The command line: ``wingbeat COMMAND ...``. Nothing heavy is imported before a command runs."""
+
+from wingbeat.cli.app import main
+
+__all__ = ["main"]

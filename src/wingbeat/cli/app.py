@@ -1,0 +1,124 @@
+"""The commands by name, and the one place where errors become lines on stderr and exit codes."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+from cyclopts import App, CycloptsError, UnknownCommandError
+
+from wingbeat._version import __version__
+from wingbeat.errors import WingbeatError
+
+__all__ = ["EXIT_BAD_INPUT", "EXIT_GOOD", "EXIT_NOT_CERTIFIED", "build_app", "main"]
+
+EXIT_GOOD = 0
+EXIT_BAD_INPUT = 2
+EXIT_NOT_CERTIFIED = 3
+EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells report it
+EXIT_BROKEN_PIPE = 141  # 128 + SIGPIPE: the reader, say `head`, had seen enough
+
+HELP = """How an animal or a flapping robot must beat its wings to fly.
+
+Exit codes: 0 good, 2 bad input, 3 nothing certified (infeasible or not converged)."""
+
+# Import strings and help texts side by side: `--help` must not import a command to describe it.
+COMMANDS = {
+    "orbit": "Find the wingbeat that flies at a given speed, and certify it.",
+    "simulate": "Fly from a given state with a given wingbeat.",
+    "species": "Show the animals in the box, or a file of your own, with the source of every number.",
+    "polar": "Print or save the lift and drag coefficients over angle of attack.",
+    "show": "Print a saved result.",
+    "plot": "Draw a saved result.",
+}
+
+
+def build_app() -> App:
+    """Return the command line with every command registered and none imported."""
+    app = App(name="wingbeat", version=__version__, help=HELP)
+    for name, text in COMMANDS.items():
+        app.command(f"wingbeat.cli.{name}:{name}", name=name, help=text)
+    return app
+
+
+def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
+    """Run one command line and return its exit code: 0 good, 2 bad input, 3 nothing certified.
+
+    Parameters
+    ----------
+    argv : the words after the program's name; those of the process if not given.
+    app : the commands to choose from; all of them if not given.
+
+    Returns
+    -------
+    The exit code; a command asks for one other than 0 by returning it.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):  # an ASCII terminal shows a sign it lacks as an escape
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = _run(list(sys.argv[1:] if argv is None else argv), app or build_app())
+        sys.stdout.flush()
+    except BrokenPipeError:
+        return _close_stdout()
+    except KeyboardInterrupt:
+        return _complain(["interrupted"], EXIT_INTERRUPTED)
+    except WingbeatError as error:
+        return _complain(str(error).splitlines() or [type(error).__name__], EXIT_BAD_INPUT)
+    except SystemExit as error:
+        # rich turns a broken pipe into SystemExit(1)
+        if isinstance(error.__context__, BrokenPipeError):
+            return _close_stdout()
+        return error.code if isinstance(error.code, int) else EXIT_GOOD if error.code is None else 1
+    return code
+
+
+def _run(argv: list[str], app: App) -> int:
+    try:
+        result = app(argv, exit_on_error=False, print_error=False, result_action="return_value")
+    except CycloptsError as error:
+        return _complain([_message(error)], EXIT_BAD_INPUT)
+    except ImportError as error:
+        name = _missing_command(error)
+        if name is None:
+            raise
+        return _complain([f"the command '{name}' is not part of this installation"], EXIT_BAD_INPUT)
+    return result if isinstance(result, int) else EXIT_GOOD
+
+
+def _message(error: CycloptsError) -> str:
+    """Return a parsing error as one line."""
+    if isinstance(error, UnknownCommandError) and not error.command_chain and error.unused_tokens:
+        # cyclopts would import every command to look for the nearest: seconds for a slip of the finger.
+        word = error.unused_tokens[0]
+        near = get_close_matches(word, COMMANDS, n=1)
+        advice = f"did you mean '{near[0]}'?" if near else f"use one of {', '.join(COMMANDS)}"
+        kind = "option" if word.startswith("-") else "command"
+        return f"unknown {kind} {word!r}; {advice}"
+    return " ".join(str(error).split())
+
+
+def _missing_command(error: ImportError) -> str | None:
+    """Return which command's own module is absent, or None if an import failed for another reason."""
+    cause = error.__cause__
+    for name in COMMANDS:
+        if isinstance(cause, ModuleNotFoundError) and cause.name == f"wingbeat.cli.{name}":
+            return name
+    return None
+
+
+def _complain(lines: list[str], code: int) -> int:
+    for line in lines:
+        print(f"error: {line}", file=sys.stderr)
+    return code
+
+
+def _close_stdout() -> int:
+    """Point stdout at nothing, so that the flush at exit does not fail again."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):  # stdout is not a file, as under a test runner
+        pass
+    return EXIT_BROKEN_PIPE

@@ -1,0 +1,171 @@
+"""``wingbeat polar``: the coefficients of a model against the angle of attack, as numbers or as a figure."""
+
+from __future__ import annotations
+
+import csv as csv_format
+import json as json_format
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from cyclopts import Parameter
+from numpy.typing import NDArray
+
+from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
+from wingbeat.cli.ranges import parse_range
+from wingbeat.errors import FaultList, FileError, InvalidInputError
+
+FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
+# Okabe and Ito's colours, told apart by colour-blind eyes.
+_BLUE, _ORANGE = "#0072B2", "#E69F00"
+
+Columns = dict[str, list[float] | list[None]]
+
+
+def polar(
+    model: Annotated[str, Parameter(help="Name of a coefficient model, or path of a table ending in .csv.")],
+    *,
+    alpha: Annotated[
+        str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")
+    ] = "0:110:2",
+    about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
+    extension: Annotated[
+        str,
+        Parameter(help="How angles beyond the fit are reached: mirrored, signed-drag, signed, clipped-drag."),
+    ] = "mirrored",
+    blend_width_deg: Annotated[
+        float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg], above 0, at most 3.")
+    ] = 1.0,
+    csv: Annotated[bool, Parameter(negative="", help="Print CSV.")] = False,
+    json: Annotated[bool, Parameter(negative="", help="Print one JSON object of lists.")] = False,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Draw a figure: .png, .pdf or .svg.")
+    ] = None,
+) -> None:
+    """Print or draw lift, drag, moment and centre of pressure of a coefficient model.
+
+    The columns are alpha_deg, c_l, c_d, c_n, c_m (nose-up positive) and x_cp (in chords from the leading
+    edge); the last two are empty where the model has no centre of pressure.
+
+    Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. A table has the columns alpha_deg,
+    c_l, c_d and, if known, x_cp.
+    """
+    faults = FaultList()
+    if csv and json:
+        faults.add("--csv", "--json", "two formats at once", "choose --csv or --json")
+    if output is not None and output.suffix.lower() not in FIGURE_SUFFIXES:
+        faults.add("--output", str(output), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+    faults.number("--about", about, fix="0 is the leading edge, 1 the trailing edge")
+    angles = _collected(faults, lambda: parse_range(alpha, "--alpha"))
+    coefficients = _collected(faults, lambda: load_coefficients(model, extension, blend_width_deg))
+    faults.raise_if_any()
+
+    columns = polar_columns(coefficients, angles, about)
+    if output is not None:
+        _save(_figure(coefficients, angles, about), output)
+        print(f"wrote {output}", file=sys.stderr)
+    if json:
+        print(json_format.dumps(columns))
+    elif csv:
+        writer = csv_format.writer(sys.stdout, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values(), strict=True))
+    elif output is None:
+        _print_table(coefficients, columns, about)
+
+
+def _collected(faults: FaultList, door: Callable[[], Any]) -> Any:
+    """Return what `door` gives; add what it refuses to the faults, so that all are told at once."""
+    try:
+        return door()
+    except InvalidInputError as error:
+        faults.faults.extend(error.faults)
+    return None
+
+
+def polar_columns(model: CoefficientModel, alpha_deg: NDArray[np.float64], about: float) -> Columns:
+    """Return the polar as named lists of equal length; c_m and x_cp hold None where the model has no x_cp."""
+    alpha = np.deg2rad(alpha_deg)
+    nothing: list[None] = [None] * len(alpha)
+    has_centre = model.has_centre_of_pressure
+    return {
+        "alpha_deg": alpha_deg.tolist(),
+        "c_l": model.lift(alpha).tolist(),
+        "c_d": model.drag(alpha).tolist(),
+        "c_n": model.normal(alpha).tolist(),
+        "c_m": model.moment(alpha, about).tolist() if has_centre else nothing,
+        "x_cp": model.centre_of_pressure(alpha).tolist() if has_centre else nothing,
+    }
+
+
+def _title(model: CoefficientModel) -> str:
+    return f"{model}, {model.extension}, blends of {model.blend_width_deg:g}°"
+
+
+def _print_table(model: CoefficientModel, columns: Columns, about: float) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    # As Text, for in a plain string rich would take [deg] for markup.
+    caption = f"C_M nose-up about {about:g} chords from the leading edge"
+    table = Table(title=Text(_title(model)), caption=Text(caption), min_width=min(len(caption), 78))
+    for heading in ("alpha [deg]", "C_L", "C_D", "C_N", "C_M", "x_cp [chords]"):
+        table.add_column(Text(heading), justify="right")
+    for angle, *values in zip(*columns.values(), strict=True):
+        table.add_row(f"{angle:g}", *("-" if value is None else f"{value:.4f}" for value in values))
+    Console().print(table)
+
+
+def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: float) -> Any:
+    """Return a matplotlib figure with one panel for each coefficient the model has."""
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+
+    # Drawn finer than asked: a step of 2 degrees would show the blends as kinks.
+    fine = np.linspace(angles_deg[0], angles_deg[-1], 2001) if len(angles_deg) > 1 else angles_deg
+    columns = polar_columns(model, fine, about)
+    labels = {"c_l": "lift coefficient $C_L$ [-]", "c_d": "drag coefficient $C_D$ [-]"}
+    if model.has_centre_of_pressure:
+        labels["c_m"] = f"moment coefficient $C_M$ about {about:g} c [-]"
+        labels["x_cp"] = "centre of pressure $x_{cp}$ [chords]"
+    theory, theory_label = {"c_l": thin_aerofoil_lift}, r"thin aerofoil: $C_L = 2\pi\alpha$"
+    if "c_m" in labels and about == 0.5:
+        theory["c_m"] = thin_aerofoil_moment
+        theory_label += r", $C_M = \frac{\pi}{2}\alpha$"
+    low, high = model.alpha_range_deg
+    rows = len(labels) // 2
+    figure = Figure(figsize=(9, 1.0 + 3.2 * rows), layout="constrained")
+    figure.suptitle(_title(model), fontsize=10)
+    for axes, (name, label) in zip(figure.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
+        axes.plot(fine, columns[name], color=_BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
+        # Limits before the lines of theory, which would leave the page.
+        axes.set(ylabel=label, ylim=axes.get_ylim(), xlim=axes.get_xlim())
+        if name in theory:
+            ends = np.array(axes.get_xlim())
+            axes.plot(ends, theory[name](np.deg2rad(ends)), ":", color="0.35", label=theory_label)
+        axes.axvspan(low, high, color=_ORANGE, alpha=0.12, linewidth=0, label=f"data, {low:g}° to {high:g}°")
+        axes.axhline(0.0, color="0.6", linewidth=0.6)
+        axes.grid(color="0.9", linewidth=0.6)
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 2, 3, 4.5, 5, 6, 9, 10]))
+        if axes.get_subplotspec().is_last_row():
+            axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
+    figure.legend(
+        *figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9
+    )
+    return figure
+
+
+def _save(figure: Any, output: Path) -> None:
+    """Write the figure beside its place and rename it, so that no reader meets half a file."""
+    beside = output.with_name(f".{output.name}.{os.getpid()}")
+    try:
+        figure.savefig(beside, format=output.suffix[1:].lower(), dpi=150)
+        beside.replace(output)
+    except OSError as error:
+        raise FileError(f"{output}: cannot be written ({error.strerror}); choose another folder") from None
+    finally:
+        beside.unlink(missing_ok=True)

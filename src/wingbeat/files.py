@@ -1,0 +1,117 @@
+"""Files read with their size and kind checked, and written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from wingbeat.errors import FileError
+
+__all__ = ["read_text", "write_atomically", "writing"]
+
+
+def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
+    """Return the text of a UTF-8 file of at most `limit` bytes.
+
+    Raises
+    ------
+    FileError : missing, a folder, a pipe or device, unreadable, too large, or not UTF-8 text.
+    """
+    try:
+        # A pipe would wait for ever and a device may have no end, so the kind is looked at first.
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise FileError(f"cannot read {_shown(path)}: it is not a file; give the path of a text file")
+        with open(path, "rb") as file:
+            content = file.read(limit + 1)
+    except (OSError, ValueError) as error:
+        raise FileError(f"cannot read {_shown(path)}: {_reason(error)}; {_way_out(error)}") from None
+    if len(content) > limit:
+        raise FileError(f"cannot read {_shown(path)}: it has more than {limit} bytes; is it the right file?")
+    try:
+        return content.decode("utf-8-sig")  # Windows editors put a byte-order mark in front
+    except UnicodeDecodeError as error:
+        raise FileError(
+            f"cannot read {_shown(path)}: byte {error.start} is not UTF-8 text; save the file as UTF-8 text"
+        ) from None
+
+
+@contextmanager
+def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Lend a path beside `path` to write to; it takes the name `path` only if the block ends well.
+
+    The lent path has the same suffix, since writers choose their format by it. On an error or an interrupt
+    it is removed and what stood at `path` before is untouched.
+
+    Raises
+    ------
+    FileError : the folder is missing or cannot be written, `path` is a folder or a device, the disk is full.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with writing(Path(folder) / "note.txt") as beside:
+    ...         _ = beside.write_text("whole")
+    ...     (Path(folder) / "note.txt").read_text()
+    'whole'
+    """
+    beside: Path | None = None
+    try:
+        # A link keeps pointing where it pointed: the file behind it is what gets replaced.
+        target = Path(os.path.realpath(path))
+        if target.exists() and not target.is_file():
+            kind = "a folder" if target.is_dir() else "not a plain file"
+            raise FileError(f"cannot write {_shown(path)}: it is {kind}; give the path of a file")
+        candidate = target.with_name(f".{secrets.token_hex(6)}.part{target.suffix}")
+        # Made here and not by the writer, so that a folder without permission is told before hours of work.
+        os.close(os.open(candidate, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        beside = candidate
+        yield beside
+        if target.exists():
+            os.chmod(beside, stat.S_IMODE(target.stat().st_mode))
+        os.replace(beside, target)
+        beside = None
+    except (OSError, ValueError) as error:
+        if isinstance(error, ValueError) and beside is not None:
+            raise  # a fault of the block's own, not of the path
+        raise FileError(f"cannot write {_shown(path)}: {_reason(error)}; {_way_out(error)}") from error
+    finally:
+        if beside is not None:
+            with suppress(OSError):
+                beside.unlink()
+
+
+def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None:
+    """Write text (as UTF-8) or bytes to `path`, whole or not at all.
+
+    Raises
+    ------
+    FileError : as in `writing`.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    with writing(path) as beside, open(beside, "wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())  # or a power cut could leave the new name on an empty file
+
+
+def _shown(path: Any) -> str:
+    return repr(os.fspath(path))
+
+
+def _reason(error: OSError | ValueError) -> str:
+    """Return the system's own words, without the path, which the message already names."""
+    text = (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
+    return text[:1].lower() + text[1:]
+
+
+def _way_out(error: OSError | ValueError) -> str:
+    match error:
+        case FileNotFoundError() | NotADirectoryError():
+            return "check the path and that its folder exists"
+        case PermissionError():
+            return "choose another folder or change the permissions"
+    return "choose another path"

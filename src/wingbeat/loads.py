@@ -1,0 +1,162 @@
+"""Everything that can be read off a vehicle flying a prescribed wingbeat, at given phases and states."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wingbeat.equations_of_motion import (
+    air_forces,
+    bias_accelerations,
+    drift_velocities,
+    equations_of_motion,
+    partial_velocities,
+    resistance,
+    wing_points,
+)
+from wingbeat.jax64 import jax, jnp
+from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
+from wingbeat.model import FlightModel, State, body_rates, motion_table
+from wingbeat.wing_motion import strips_of, time_rates
+
+
+class Loads(NamedTuple):
+    """Motions, forces, torques and powers along a flight; leading axis phase, strips of the left wing.
+
+    Torques and powers are of both wings together, vectors are (x, y, z) in the world, momenta and energies
+    of the whole vehicle; angular momentum is about the system's centre of mass, nose-up positive.
+    """
+
+    flap: Any
+    flap_rate: Any
+    wing_pitch: Any
+    wing_pitch_rate: Any
+    span_ratio: Any
+    fold: Any
+    acceleration: Any
+    strip_position: Any
+    strip_velocity: Any
+    strip_speed: Any
+    alpha: Any
+    lift: Any
+    drag: Any
+    strip_force: Any
+    air_force: Any
+    flap_torque: Any
+    pitch_torque: Any
+    hinge_power: Any
+    actuator_power: Any
+    air_power: Any
+    centre_of_mass: Any
+    momentum: Any
+    angular_momentum: Any
+    kinetic_energy: Any
+    potential_energy: Any
+
+
+@jax.jit
+def loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
+    """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
+
+    Parameters
+    ----------
+    model : the flight model.
+    wingbeat : the prescribed wingbeat.
+    state : body state, fields of shape (P,) [m, rad, m/s, rad/s].
+    phase : phases, shape (P,).
+
+    Returns
+    -------
+    Loads : every quantity with leading axis P.
+    """
+    fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), jnp.shape(phase)) for f in state))
+    return jax.vmap(lambda s, p: _loads(model, wingbeat, s, p))(fields, jnp.asarray(phase, dtype=float))
+
+
+def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
+    flap, flap_rate, flap_acceleration = time_rates(
+        lambda p: flap_angle(wingbeat, p), phase, wingbeat.frequency
+    )
+    pitch, pitch_rate, pitch_acceleration = time_rates(
+        lambda p: pitch_angle(wingbeat, p), phase, wingbeat.frequency
+    )
+    pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
+    body = body_rates(model, motion_table(model, wingbeat, phase), pitch_state)[1:]
+    q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
+    q_dot = jnp.stack([state.u, state.w, state.pitch_rate, flap_rate, pitch_rate])
+    q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
+    time = phase / wingbeat.frequency
+
+    terms = equations_of_motion(model, wingbeat, q, q_dot, time)
+    air = air_forces(model, wingbeat, q, q_dot, time)
+    tau = terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air.generalised
+    hinge_power = tau[3:] @ q_dot[3:]
+
+    points = wing_points(model, wingbeat, q, time)
+    partial = partial_velocities(model, wingbeat, q, time).mass
+    drift = drift_velocities(model, wingbeat, q, time).mass
+    turning, drifting = bias_accelerations(model, wingbeat, q, q_dot, time)
+    inertial = partial @ q_acceleration + turning @ q_dot + drifting
+    needed = inertial + jnp.asarray([0.0, 0.0, model.air.gravity])
+    in_body = partial[..., 3:] @ q_dot[3:] + drift
+    mass = strips_of(model.vehicle.wing, model.strips).mass
+    inertial_power = jnp.einsum("n,kna,kna->", mass, needed, in_body)
+
+    velocity = partial @ q_dot + drift
+    whole = _whole_body(model, q, q_dot, points.mass, velocity, mass)
+    return Loads(
+        flap=flap,
+        flap_rate=flap_rate,
+        wing_pitch=pitch,
+        wing_pitch_rate=pitch_rate,
+        span_ratio=span_ratio(wingbeat, phase),
+        fold=fold_angle(wingbeat, phase),
+        acceleration=body,
+        strip_position=points.quarter_chord,
+        strip_velocity=air.strip_velocity,
+        strip_speed=air.strips.speed,
+        alpha=air.strips.alpha,
+        lift=air.strips.lift,
+        drag=air.strips.drag,
+        strip_force=air.strip_force,
+        air_force=air.generalised,
+        flap_torque=tau[3],
+        pitch_torque=tau[4],
+        hinge_power=hinge_power,
+        actuator_power=inertial_power - air.power_in_body,
+        air_power=air.power,
+        **whole,
+    )
+
+
+def _whole_body(
+    model: FlightModel, q: Any, q_dot: Any, points: Any, velocity: Any, mass: Any
+) -> dict[str, Any]:
+    """Return centre of mass, momenta and energies of body and both wings."""
+    body = model.vehicle.body
+    plane = jnp.asarray([0, 2])
+    total = model.vehicle.mass
+    centre = (body.mass * q[:2] + jnp.einsum("n,kna->a", mass, points[..., plane])) / total
+    momentum = body.mass * q_dot[:2] + jnp.einsum("n,kna->a", mass, velocity[..., plane])
+
+    def spin(place: Any, speed: Any) -> Any:
+        # Nose-up is a turn from x to z.
+        away = place - centre
+        return away[..., 0] * speed[..., 1] - away[..., 1] * speed[..., 0]
+
+    angular = (
+        body.pitch_inertia * q_dot[2]
+        + body.mass * spin(q[:2], q_dot[:2])
+        + jnp.einsum("n,kn->", mass, spin(points[..., plane], velocity[..., plane]))
+    )
+    kinetic = 0.5 * (
+        body.mass * q_dot[:2] @ q_dot[:2]
+        + body.pitch_inertia * q_dot[2] ** 2
+        + jnp.einsum("n,kna,kna->", mass, velocity, velocity)
+    )
+    return {
+        "centre_of_mass": centre,
+        "momentum": momentum,
+        "angular_momentum": angular,
+        "kinetic_energy": kinetic,
+        "potential_energy": total * model.air.gravity * centre[1],
+    }

@@ -1,0 +1,165 @@
+"""The orbit problem: which vehicle, which mean velocity, what is free within which bounds, what is least."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from wingbeat.aero import BladeElement, SuFan
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import Wingbeat
+from wingbeat.model import FlightModel, flight_model
+from wingbeat.orbits.objectives import Frequency, Objective
+from wingbeat.species import Species
+from wingbeat.vehicle import Air, Vehicle
+
+PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
+CLOSURE = ("x", "z", *PITCH_STATE)
+# A miss that matters, in the units of CLOSURE: makes the optimiser see numbers near one.
+CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
+WINGBEAT_NAMES = tuple(f.name for f in dataclasses.fields(Wingbeat))
+# The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
+FREE_NAMES = tuple(name for name in WINGBEAT_NAMES if name != "wrist")
+
+Bounds = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """Names, bounds and scales of what the search varies: the pitch state at phase 0, then free parameters."""
+
+    names: tuple[str, ...]
+    lower: np.ndarray
+    upper: np.ndarray
+    scale: np.ndarray
+
+
+@dataclass(frozen=True)
+class OrbitProblem:
+    """A periodic orbit at a prescribed mean velocity, of least objective within bounds.
+
+    Parameters
+    ----------
+    species : a `Species` from `load_species`; gives vehicle, stock wingbeat, air, free parameters and bounds.
+    speed : mean horizontal velocity [m/s], 0 for hover.
+    climb : mean vertical velocity, up positive [m/s].
+    aero : a coefficient model such as `SuFan()`, or a `BladeElement` that also sets strips and force point.
+    free : names of the wingbeat parameters that are free; the species' own if not given.
+    bounds : (lower, upper) for free parameters or for ``body_pitch`` along the whole path, SI and radians;
+        replaces the species' bounds of the same names.
+    minimise : the objective, `Frequency()` as in the paper.
+    air : replaces the species' air.
+
+    Raises
+    ------
+    InvalidInputError : speeds not finite or negative, unknown names, bounds missing, crossed or not finite.
+
+    >>> from wingbeat.species import load_species
+    >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
+    'frequency'
+    """
+
+    species: Species
+    speed: float
+    climb: float = 0.0
+    aero: Any = field(default_factory=SuFan)
+    free: tuple[str, ...] | None = None
+    bounds: Bounds | None = None
+    minimise: Objective = field(default_factory=Frequency)
+    air: Air | None = None
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not isinstance(self.species, Species):
+            faults.add("species", self.species, "is not a Species", "use load_species(name or path)")
+        faults.number("speed", self.speed, at_least=0, at_most=100, unit="m/s", fix="0 is hover")
+        faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
+        if self.air is not None and not isinstance(self.air, Air):
+            faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
+        if not all(hasattr(self.minimise, name) for name in ("value", "gradient", "needs", "scale")):
+            faults.add("minimise", self.minimise, "is not an objective", "use Frequency()")
+        faults.raise_if_any()
+        aero = self.aero if isinstance(self.aero, BladeElement) else BladeElement(self.aero)
+        object.__setattr__(self, "aero", aero)
+        object.__setattr__(self, "air", self.air or self.species.air)
+        free = tuple(self.species.free if self.free is None else self.free)
+        bounds = {**self.species.bounds, "body_pitch": self.species.body_pitch_bounds, **(self.bounds or {})}
+        self._check_free(faults, free, bounds)
+        object.__setattr__(self, "free", free)
+        object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, "body_pitch")})
+
+    def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
+        for name in free:
+            if name not in FREE_NAMES:
+                close = difflib.get_close_matches(str(name), FREE_NAMES, n=1)
+                fix = f"did you mean {close[0]}?" if close else f"free can be {', '.join(FREE_NAMES)}"
+                faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
+            elif name not in bounds:
+                faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
+        if len(set(free)) != len(free):
+            faults.add("free", free, "names a parameter twice")
+        for name in self.minimise.needs:
+            if name not in free:
+                fix = f"add {name} to free"
+                faults.add("free", free, f"leaves {self.minimise.name} nothing to change", fix)
+        for name, pair in (self.bounds or {}).items():
+            if name != "body_pitch" and name not in free:
+                faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
+            elif not isinstance(pair, tuple | list) or len(pair) != 2:
+                faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
+            elif all(faults.number(f"bounds.{name}", value) for value in pair) and not pair[0] < pair[1]:
+                faults.add(f"bounds.{name}", pair, "lower must be below upper")
+        faults.raise_if_any()
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The vehicle that flies."""
+        return self.species.vehicle
+
+    @property
+    def model(self) -> FlightModel:
+        """The flight model: vehicle, air loads, air."""
+        return flight_model(self.vehicle, self.aero, self.air)
+
+    def unknowns(self) -> Unknowns:
+        """Return names, bounds and scales of the unknowns.
+
+        The bounds of the start's velocities are generous: they keep the search out of nonsense and are not meant
+        to be met.
+        """
+        free, bounds = self.free or (), self.bounds or {}
+        wander = 5.0 + 0.5 * self.speed
+        limits = [
+            bounds["body_pitch"],
+            (self.speed - wander, self.speed + wander),
+            (self.climb - wander, self.climb + wander),
+            (-60.0, 60.0),
+            *(bounds[name] for name in free),
+        ]
+        lower, upper = np.array(limits, dtype=float).T
+        scale = np.concatenate([[0.2, 1.0, 1.0, 5.0], 0.2 * (upper - lower)[4:]])
+        return Unknowns((*PITCH_STATE, *free), lower, upper, scale)
+
+    def wingbeat(self, unknowns: np.ndarray) -> Wingbeat:
+        """Return the species' wingbeat with the free parameters taken from the unknowns."""
+        values = dict(zip(self.free or (), (float(v) for v in unknowns[4:]), strict=True))
+        return dataclasses.replace(self.species.wingbeat, **values)
+
+    def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
+        """Return the miss of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
+        travelled = np.array([self.speed, self.climb]) / frequency
+        return np.asarray(end) - np.concatenate([travelled, unknowns[:4]])
+
+    def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
+        """Return the derivative of the miss from that of the end of the period."""
+        jacobian = np.array(end_jacobian)
+        jacobian[2:, :4] -= np.eye(4)
+        if "frequency" in (self.free or ()):
+            column = 4 + (self.free or ()).index("frequency")
+            jacobian[:2, column] += np.array([self.speed, self.climb]) / frequency**2
+        return jacobian

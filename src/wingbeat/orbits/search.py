@@ -1,0 +1,151 @@
+"""One local search: from a start to a periodic orbit of locally least objective."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares, lsq_linear, minimize
+
+from wingbeat.orbits.problem import CLOSURE_SCALE
+from wingbeat.orbits.transcription import Transcription
+
+# A closure of 1e-6 in the user's units is what a converged search must reach with its own steps.
+CLOSED = 1e-6
+# Largest residual of the optimality conditions, in the optimiser's scale, that counts as none.
+OPTIMAL = 1e-5
+_ROUNDS = 2
+_AT_BOUND = 1e-6
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Where a local search ended."""
+
+    unknowns: np.ndarray
+    objective: float
+    closed: bool
+    optimal: bool
+    violation: float
+    flights: int
+    jacobians: int
+
+
+def search(problem: Transcription, start: np.ndarray) -> Candidate:
+    """Search from unknowns `start`: towards closure first, then SLSQP; a stalled search is restarted once.
+
+    Closure first, because from a crude start SLSQP's first steps of a full Newton correction leave the region
+    where its quadratic model means anything; restarted, because a stall is mostly a spoilt BFGS matrix.
+    """
+    flights, jacobians = problem.flights, problem.jacobians
+    scaled = problem.scaled(start)
+    closed = optimal = False
+    for _ in range(_ROUNDS):
+        scaled = approach(problem, scaled)
+        scaled, optimal = optimise(problem, scaled)
+        closed = is_closed(problem, scaled)
+        # SLSQP also stops where rounding lets it go no further; what counts is whether the conditions hold there.
+        optimal = optimal or (closed and optimality(problem, scaled) <= OPTIMAL)
+        if closed and optimal:
+            break
+    return Candidate(
+        problem.physical(scaled),
+        problem.objective(scaled) * problem.problem.minimise.scale,
+        closed,
+        optimal,
+        violation(problem, scaled),
+        problem.flights - flights,
+        problem.jacobians - jacobians,
+    )
+
+
+def violation(problem: Transcription, scaled: np.ndarray) -> float:
+    """Return the largest violation of closure and path bound, in the optimiser's scale."""
+    pitch = np.maximum(-problem.pitch_margin(scaled), 0.0)
+    return float(max(np.abs(problem.closure(scaled)).max(), pitch.max()))
+
+
+def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
+    """Say whether closure and path bound hold to `CLOSED` in the user's units."""
+    miss = np.abs(problem.closure(scaled) * CLOSURE_SCALE).max()
+    return bool(miss <= CLOSED and problem.pitch_margin(scaled).min() >= -CLOSED)
+
+
+def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 40) -> np.ndarray:
+    """Reduce closure and path violation in least squares within the bounds (an elastic solve)."""
+    inside = 1e-6 * (problem.upper - problem.lower)
+
+    def misses(x: np.ndarray) -> np.ndarray:
+        return np.concatenate([problem.closure(x), np.minimum(problem.pitch_margin(x), 0.0)])
+
+    def jacobian(x: np.ndarray) -> np.ndarray:
+        broken = problem.pitch_margin(x)[:, None] < 0
+        return np.concatenate([problem.closure_jacobian(x), broken * problem.pitch_margin_jacobian(x)])
+
+    found = least_squares(
+        misses,
+        np.clip(scaled, problem.lower + inside, problem.upper - inside),
+        jac=jacobian,
+        bounds=(problem.lower, problem.upper),
+        max_nfev=evaluations,
+        xtol=1e-9,
+        ftol=1e-9,
+        gtol=1e-9,
+    )
+    return found.x
+
+
+def optimise(problem: Transcription, scaled: np.ndarray, iterations: int = 60) -> tuple[np.ndarray, bool]:
+    """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged."""
+    found = minimize(
+        problem.objective,
+        np.clip(scaled, problem.lower, problem.upper),
+        jac=problem.objective_gradient,
+        bounds=list(zip(problem.lower, problem.upper, strict=True)),
+        constraints=[
+            {"type": "eq", "fun": problem.closure, "jac": problem.closure_jacobian},
+            {"type": "ineq", "fun": problem.pitch_margin, "jac": problem.pitch_margin_jacobian},
+        ],
+        method="SLSQP",
+        options={"maxiter": iterations, "ftol": 1e-10},
+    )
+    return np.clip(found.x, problem.lower, problem.upper), bool(found.status == 0)
+
+
+def active_bounds(problem: Transcription, scaled: np.ndarray) -> tuple[str, ...]:
+    """Return the names of the unknowns at a bound; ``body_pitch`` stands for the whole path."""
+    names = [
+        name
+        for name, x, lower, upper in zip(
+            problem.unknowns.names, scaled, problem.lower, problem.upper, strict=True
+        )
+        if name != "body_pitch" and min(x - lower, upper - x) <= _AT_BOUND * (upper - lower)
+    ]
+    if problem.pitch_margin(scaled).min() <= _AT_BOUND:
+        names.append("body_pitch")
+    return tuple(names)
+
+
+def optimality(problem: Transcription, scaled: np.ndarray) -> float:
+    """Return the largest residual of the Karush-Kuhn-Tucker conditions, in the optimiser's scale.
+
+    The multipliers are the best in least squares: free for the closure, of the right sign for active bounds.
+    """
+    columns = [row for row in problem.closure_jacobian(scaled)]
+    signs = [(-np.inf, np.inf)] * len(columns)
+    reach = _AT_BOUND * (problem.upper - problem.lower)
+    for i, x in enumerate(scaled):
+        unit = np.eye(scaled.size)[i]
+        for away, direction in ((x - problem.lower[i], unit), (problem.upper[i] - x, -unit)):
+            if away <= reach[i]:
+                columns.append(direction)
+                signs.append((0.0, np.inf))
+    rows = problem.pitch_margin_jacobian(scaled)
+    for margin, row in zip(problem.pitch_margin(scaled), rows, strict=True):
+        if margin <= _AT_BOUND:
+            columns.append(row)
+            signs.append((0.0, np.inf))
+    lower, upper = np.array(signs).T
+    gradient = problem.objective_gradient(scaled)
+    fit = lsq_linear(np.array(columns).T, gradient, bounds=(lower, upper))
+    return float(np.abs(np.array(columns).T @ fit.x - gradient).max())

@@ -1,0 +1,211 @@
+"""From a problem to a certified orbit: several searches, defect correction, the certificate, a status."""
+
+from __future__ import annotations
+
+import enum
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import Wingbeat
+from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
+from wingbeat.orbits.search import Candidate, active_bounds, optimality, optimise, search
+from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.transcription import Transcription
+
+CERTIFIED = 1e-6
+_AIM = 1e-7
+_CORRECTIONS = 6
+_ELASTIC_STARTS = 50
+_SAME = 1e-3
+
+
+class Status(enum.Enum):
+    """How a search for an orbit ended; the value is the name in records."""
+
+    CONVERGED = "converged"
+    INFEASIBLE = "infeasible"
+    NOT_CONVERGED = "not-converged"
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted."""
+
+    problem: OrbitProblem
+    status: Status
+    message: str
+    wingbeat: Wingbeat
+    certificate: Certificate
+    closure: dict[str, float]
+    active_bounds: tuple[str, ...]
+    optimality: float
+    starts: int
+    distinct_optima: int
+    seed: int
+    seconds: float
+
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class _Certified:
+    scaled: np.ndarray
+    wingbeat: Wingbeat
+    certificate: Certificate
+    miss: np.ndarray
+
+
+def correct(problem: Transcription, unknowns: np.ndarray) -> _Certified:
+    """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
+
+    The search's few steps find the optimum of a slightly wrong flight; each round shifts its closure by what
+    the certifier found beyond it and re-solves from where it stands.
+    """
+    scaled = problem.scaled(unknowns)
+    best: _Certified | None = None
+    problem.shift = np.zeros(6)
+    for _ in range(_CORRECTIONS):
+        physical = problem.physical(scaled)
+        wingbeat = problem.problem.wingbeat(physical)
+        certificate = certify(problem.model, wingbeat, physical[:4])
+        miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
+        if best is None or _size(miss) < _size(best.miss):
+            best = _Certified(scaled, wingbeat, certificate, miss)
+        if _size(miss) <= _AIM or not np.isfinite(miss).all():
+            break
+        own = problem.closure(scaled) + problem.shift
+        problem.shift = own - miss / CLOSURE_SCALE
+        scaled, _ = optimise(problem, scaled, iterations=20)
+    assert best is not None
+    return best
+
+
+def _size(miss: np.ndarray) -> float:
+    return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
+
+
+def find_orbit(
+    problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None
+) -> Solution:
+    """Search for the periodic orbit of least objective from several starts and certify it.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    starts : number of searches; if none of them can be certified, up to 50 more are made before giving up.
+    seed : makes the random starts; the same seed gives the same orbit.
+    progress : called with (searches done, searches in all).
+
+    Returns
+    -------
+    Solution : with a status; a failed search is data, not an exception.
+
+    Raises
+    ------
+    InvalidInputError : starts or seed not whole numbers in range.
+    """
+    faults = FaultList()
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= 100_000:
+            faults.add(name, value, f"must be a whole number from {least} to 100000")
+    faults.raise_if_any()
+    begun = time.perf_counter()
+    found: list[Candidate] = []
+    total = starts
+    best: _Certified | None = None
+    transcription = Transcription(problem)
+    for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
+        total = max(total, stage.stop)
+        for candidate in _searches(problem, transcription.model, stage, seed):
+            found.append(candidate)
+            if progress is not None:
+                progress(len(found), total)
+            if stage.start and (best := _first_certified(transcription, [candidate])) is not None:
+                break
+        best = best or _first_certified(transcription, found)
+        if best is not None:
+            break
+    if best is not None:
+        status, message = Status.CONVERGED, f"certified: re-flown, it closes to {_size(best.miss):.0e}"
+    else:
+        best = correct(transcription, min(found, key=lambda c: c.violation).unknowns)
+        status, message = _failure(found, best)
+    return Solution(
+        problem,
+        status,
+        message,
+        best.wingbeat,
+        best.certificate,
+        dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
+        active_bounds(transcription, best.scaled),
+        optimality(transcription, best.scaled),
+        len(found),
+        len(_distinct(transcription, found)),
+        seed,
+        time.perf_counter() - begun,
+    )
+
+
+def _searches(problem: OrbitProblem, model: object, indices: Iterable[int], seed: int) -> Iterator[Candidate]:
+    def one(index: int) -> Candidate:
+        return search(Transcription(problem, model), start_point(problem, index, seed))  # type: ignore[arg-type]
+
+    # Compiled flights release the interpreter, so threads use the cores there are.
+    with ThreadPoolExecutor(min(len(list(indices)) or 1, os.cpu_count() or 1)) as pool:
+        try:
+            yield from pool.map(one, indices)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _first_certified(problem: Transcription, found: list[Candidate]) -> _Certified | None:
+    """Return the best candidate that the certifier closes, if any."""
+    for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
+        certified = correct(problem, candidate.unknowns)
+        if _size(certified.miss) <= CERTIFIED:
+            return certified
+    return None
+
+
+def _distinct(problem: Transcription, found: list[Candidate]) -> list[np.ndarray]:
+    """Return the distinct optima among the candidates, in the optimiser's scale."""
+    optima: list[np.ndarray] = []
+    for candidate in found:
+        if candidate.closed and candidate.optimal:
+            scaled = problem.scaled(candidate.unknowns)
+            if all(np.abs(scaled - other).max() > _SAME for other in optima):
+                optima.append(scaled)
+    return optima
+
+
+def _failure(found: list[Candidate], nearest: _Certified) -> tuple[Status, str]:
+    """Return status and advice for a search without a certified orbit."""
+    worst = CLOSURE[int(np.argmax(np.abs(np.nan_to_num(nearest.miss, nan=np.inf)) / CLOSURE_SCALE))]
+    if any(c.closed for c in found):
+        return (
+            Status.NOT_CONVERGED,
+            f"orbits were met in {len(found)} searches, but none could be certified as an optimum; "
+            "try more starts, another seed, or a start nearer the answer",
+        )
+    balance = {
+        "x": "thrust does not balance drag",
+        "z": "lift does not balance weight",
+        "body_pitch": "the pitch angle does not return: the pitching moment is not trimmed",
+        "u": "the forward speed does not return: thrust does not balance drag",
+        "w": "the vertical speed does not return: lift does not balance weight",
+        "pitch_rate": "the pitch rate does not return: the pitching moment is not trimmed",
+    }[worst]
+    return (
+        Status.INFEASIBLE,
+        f"no orbit within the bounds in {len(found)} searches; at the nearest one {balance} (it misses by "
+        f"{_size(nearest.miss):.2g} in {worst}); widen the bounds of flap amplitude, pitch or frequency, "
+        "change the speed, or lighten the vehicle",
+    )

@@ -1,0 +1,27 @@
+"""Where searches start: the species' stock wingbeat first, then seeded random ones within the bounds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wingbeat.orbits.problem import OrbitProblem
+
+
+def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
+    """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
+    unknowns = problem.unknowns()
+    stock = vars(problem.species.wingbeat)
+    first = np.array([0.1, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free or ())])
+    if index == 0:
+        return np.clip(first, unknowns.lower, unknowns.upper)
+    random = np.random.default_rng([seed, index])
+    point = random.uniform(
+        unknowns.lower + 0.1 * (unknowns.upper - unknowns.lower),
+        unknowns.upper - 0.1 * (unknowns.upper - unknowns.lower),
+    )
+    # Near the mean velocity and a moderate attitude; frequencies spread in octaves about the stock one.
+    point[:4] = first[:4] + random.uniform([-0.2, -0.5, -1.0, -2.0], [0.3, 0.5, 1.0, 2.0])
+    if "frequency" in unknowns.names:
+        column = unknowns.names.index("frequency")
+        point[column] = first[column] * 2.0 ** random.uniform(-1.0, 1.2)
+    return np.clip(point, unknowns.lower, unknowns.upper)

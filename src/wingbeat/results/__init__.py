@@ -1,0 +1,1 @@
+"""Results: orbits and flights as labelled datasets, records and files."""

@@ -1,0 +1,65 @@
+"""Labelled time series of a flight: an xarray Dataset with units and long names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.kinematics import Wingbeat
+from wingbeat.loads import Loads, loads
+from wingbeat.model import FlightModel, State
+from wingbeat.nomenclature import NOMENCLATURE
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
+    """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
+    found = loads(model, wingbeat, State(*np.asarray(states).T), np.asarray(phase))
+    return Loads(*(np.asarray(value) for value in found))
+
+
+def flight_dataset(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: np.ndarray,
+    states: np.ndarray,
+    found: Loads,
+    attributes: dict[str, Any],
+) -> xr.Dataset:
+    """Assemble states and loads into a Dataset with dimensions phase, station and axis."""
+    import xarray as xr
+
+    by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
+    by_name["time"] = phase / wingbeat.frequency
+    by_name |= {name: value for name, value in found._asdict().items() if name in NOMENCLATURE}
+    by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
+    by_name |= _columns(found.air_force, "force_x", "force_z", "pitching_moment")
+    by_name |= _columns(found.centre_of_mass, "centre_of_mass_x", "centre_of_mass_z")
+    by_name |= _columns(found.momentum, "momentum_x", "momentum_z")
+    coordinates = {
+        "phase": phase,
+        "station": (np.arange(model.strips) + 0.5) / model.strips,
+        "axis": ["x", "y", "z"],
+    }
+    return xr.Dataset(
+        {
+            name: (term.dims, by_name[name], _attributes(name))
+            for name, term in NOMENCLATURE.items()
+            if name not in coordinates
+        },
+        {name: (name, value, _attributes(name)) for name, value in coordinates.items()},
+        {"Conventions": "CF-1.11", **attributes},
+    )
+
+
+def _columns(values: np.ndarray, *names: str) -> dict[str, np.ndarray]:
+    return {name: values[..., i] for i, name in enumerate(names)}
+
+
+def _attributes(name: str) -> dict[str, str]:
+    term = NOMENCLATURE[name]
+    known = {"units": term.unit, "long_name": term.long_name, "symbol": term.symbol}
+    return {key: value for key, value in known.items() if value}

@@ -1,0 +1,138 @@
+"""The orbit record: everything about an orbit in one JSON-able dictionary, names as in the API."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.aero import BladeElement
+from wingbeat.loads import Loads
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Solution, Status
+from wingbeat.results.warnings import orbit_warnings
+
+
+def vehicle_record(problem: OrbitProblem) -> dict[str, Any]:
+    """Return the vehicle's numbers."""
+    wing = dict(vars(problem.vehicle.wing))
+    wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
+    wing["shoulder"] = list(wing["shoulder"])
+    return {"body": dict(vars(problem.vehicle.body)), "wing": wing}
+
+
+def aero_record(aero: BladeElement) -> dict[str, Any]:
+    """Return what makes the air loads."""
+    return {
+        "coefficients": aero.coefficients.name,
+        "extension": aero.coefficients.extension,
+        "blend_width_deg": aero.coefficients.blend_width_deg,
+        "strips": aero.strips,
+        "force_point": aero.force_point,
+    }
+
+
+def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
+    """Return the record of an orbit.
+
+    What has no value (a cost of transport in hover, anything of a flight that ran off) is None, never NaN.
+    """
+    problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
+    record = {
+        "status": solution.status.value,
+        "message": solution.message,
+        "species": problem.species.name,
+        "vehicle": vehicle_record(problem),
+        "aero": aero_record(problem.aero),
+        "air": dict(vars(problem.air)),
+        "speed": float(problem.speed),
+        "climb": float(problem.climb),
+        "objective": problem.minimise.name,
+        "wingbeat": dict(vars(wingbeat)),
+        "initial_state": dict(zip(certificate_names(), certificate.states[0].tolist(), strict=True)),
+        "active_bounds": list(solution.active_bounds),
+        "closure": dict(solution.closure),
+        "optimality": solution.optimality,
+        "starts": solution.starts,
+        "distinct_optima": solution.distinct_optima,
+        **power_summary(solution, found),
+        **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
+        "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
+        "alpha_quarter_span": alpha_range(found, 0.25),
+        "alpha_three_quarter_span": alpha_range(found, 0.75),
+        "floquet_multipliers": [[float(m.real), float(m.imag)] for m in certificate.multipliers],
+        "stable": bool(np.abs(certificate.multipliers).max() < 1.0)
+        if solution.status is Status.CONVERGED
+        else None,
+        "warnings": orbit_warnings(solution, found),
+        "solve_seconds": solution.seconds,
+        "version": __version__,
+    }
+    return finite_or_none(record)
+
+
+def certificate_names() -> tuple[str, ...]:
+    """Return the names of the columns of a certificate's states."""
+    return ("x", "z", "body_pitch", "u", "w", "pitch_rate")
+
+
+def beat_mean(values: np.ndarray) -> float:
+    """Return the mean over one beat of samples at equal phases from 0 to 1, both ends included."""
+    return float(np.trapezoid(values, dx=1.0 / (len(values) - 1)))
+
+
+def power_summary(solution: Solution, found: Loads) -> dict[str, float | None]:
+    """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
+    problem = solution.problem
+    positive = beat_mean(np.maximum(found.hinge_power, 0.0))
+    weight = problem.vehicle.mass * problem.species.air.gravity if problem.air is None else None
+    weight = weight or problem.vehicle.mass * problem.air.gravity  # type: ignore[union-attr]
+    return {
+        "mean_power": beat_mean(found.hinge_power),
+        "peak_power": float(found.hinge_power.max()),
+        "mean_positive_power": positive,
+        "mean_actuator_power": beat_mean(found.actuator_power),
+        "peak_actuator_power": float(found.actuator_power.max()),
+        "cost_of_transport": positive / (weight * problem.speed) if weight * problem.speed else None,
+    }
+
+
+def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: float) -> dict[str, float | None]:
+    """Return Strouhal number, reduced frequency and Reynolds number; None in hover; the chord is the mean chord."""
+    wing, speed = problem.vehicle.wing, problem.speed
+    air = problem.air or problem.species.air
+    if speed == 0:
+        return {"strouhal": None, "reduced_frequency": None, "reynolds": None}
+    return {
+        "strouhal": 2.0 * frequency * wing.semi_span * math.sin(flap_amplitude) / speed,
+        "reduced_frequency": math.pi * frequency * wing.mean_chord / speed,
+        "reynolds": speed * wing.mean_chord / air.viscosity,
+    }
+
+
+def alpha_range(found: Loads, station: float) -> list[float]:
+    """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
+    alpha = at_station(np.unwrap(found.alpha, axis=0), station)
+    return [float(alpha.min()), float(alpha.max())]
+
+
+def at_station(values: np.ndarray, station: float) -> np.ndarray:
+    """Interpolate values at strip centres (last axis) linearly to one span fraction."""
+    count = values.shape[-1]
+    place = np.clip(station * count - 0.5, 0, count - 1)
+    low = min(int(place), max(count - 2, 0))
+    high = min(low + 1, count - 1)
+    return values[..., low] + (place - low) * (values[..., high] - values[..., low])
+
+
+def finite_or_none(value: Any) -> Any:
+    """Return a copy with every float that is not finite replaced by None."""
+    if isinstance(value, dict):
+        return {key: finite_or_none(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite_or_none(item) for item in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,18 @@
+"""Species: what flies and how it beats its wings by default, with the source of every number."""
+
+from wingbeat.species.loading import load_species
+from wingbeat.species.record import Species
+from wingbeat.species.settings import parse_setting
+from wingbeat.species_schema import Alternative, Bound, Number, json_schema, species_names, template
+
+__all__ = [
+    "Alternative",
+    "Bound",
+    "Number",
+    "Species",
+    "json_schema",
+    "load_species",
+    "parse_setting",
+    "species_names",
+    "template",
+]

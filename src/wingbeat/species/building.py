@@ -1,0 +1,88 @@
+"""From numbers to records; faults of the constructors are told in the words of the file."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.kinematics import Wingbeat
+from wingbeat.species_schema import Number, Numbers, SpeciesText, display
+from wingbeat.vehicle import Air, Body, Vehicle, Wing
+
+__all__ = ["BODY", "WHOLE", "WING", "build_records", "check_bounds", "default_of", "derive_body", "words"]
+
+WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
+_RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "wingbeat": Wingbeat, "air": Air}
+_DEFAULTS: dict[str, Any] = {
+    f"{section}.{field.name}": field.default
+    for section, record in _RECORDS.items()
+    for field in dataclasses.fields(record)
+    if field.default is not dataclasses.MISSING
+}
+
+
+def default_of(path: str) -> Any:
+    """Return the default of a number, or 1.0, which every constructor takes, where it has none."""
+    return _DEFAULTS.get(path, 1.0)
+
+
+def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultList) -> dict[str, Any]:
+    """Return vehicle, wingbeat and air; faults in `given` are quoted as they were written.
+
+    What is missing is filled in by `default_of`, so that one fault does not hide the others.
+    """
+    made: dict[str, Any] = {}
+    for section, record in _RECORDS.items():
+        paths = {field.name: f"{section}.{field.name}" for field in dataclasses.fields(record)}
+        values = {n: numbers[p].value if p in numbers else default_of(p) for n, p in paths.items()}
+        try:
+            made[section] = record(**values)
+        except InvalidInputError as error:
+            faults.faults += [given.quote(fault) for fault in error.faults]
+    if len(made) < len(_RECORDS):
+        return {}
+    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"])
+    if not math.isfinite(vehicle.mass):
+        faults.add("vehicle.mass", vehicle.mass, "must be finite", "make the body or the wings lighter")
+    return {"vehicle": vehicle, "wingbeat": made["wingbeat"], "air": made["air"]}
+
+
+def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:
+    """Set the mass of the body to the whole mass less both wings."""
+    whole, wing = (numbers[path].value if path in numbers else None for path in (WHOLE, WING))
+    where, value = given.written.get(WHOLE) or given.written.get(WING, (WHOLE, whole))
+    if not isinstance(whole, float):
+        return
+    if whole <= 0:
+        faults.add(where, value, "must be > 0 kg", "give the mass of the whole animal")
+    elif not isinstance(wing, float) or wing <= 0:
+        return  # the wing's own fault is told elsewhere
+    elif whole <= 2 * wing:
+        faults.add(where, value, f"leaves no mass for the body: whole {whole:g} kg, each wing {wing:g} kg")
+    else:
+        numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass less both wings")
+
+
+def check_bounds(content: SpeciesText, faults: FaultList) -> None:
+    """Note bounds that reach to where no wingbeat is: a frequency of 0, a negative amplitude."""
+    for name, bound in content.free.items():
+        for end in bound.bounds:
+            number = Numbers()
+            number[f"wingbeat.{name}"] = Number(end, "")
+            number.written[f"wingbeat.{name}"] = content.written[name]
+            before = len(faults.faults)
+            build_records(number, number, faults)
+            if len(faults.faults) > before:
+                break
+
+
+def words(path: str, number: Number) -> str:
+    """Return value and unit as a reader wants them, angles in degrees."""
+    _, shown = display(path, number)
+    unit = "" if shown.unit == "1" else f" {shown.unit}"
+    if isinstance(shown.value, tuple):
+        return f"[{', '.join(f'{value:g}' for value in shown.value)}]{unit}"
+    return f"{shown.value:g}{unit}"

@@ -1,0 +1,92 @@
+"""From the name of a species, or the path of a file, to its record."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from pathlib import Path
+
+from wingbeat.errors import FaultList
+from wingbeat.files import read_text
+from wingbeat.species.building import WHOLE, build_records, check_bounds, default_of, derive_body
+from wingbeat.species.record import Species, find_warnings
+from wingbeat.species_schema import (
+    KEYS,
+    Bound,
+    Number,
+    packaged_text,
+    read_species_text,
+    species_names,
+    suggest,
+)
+
+__all__ = ["load_species"]
+
+# Nose straight up or down: where a file sets no limit, no more than this can be flight.
+_BODY_PITCH = Bound((-math.pi / 2, math.pi / 2), "no limit given: nose straight down to straight up", True)
+_SEPARATORS = [separator for separator in ("/", os.sep, os.altsep) if separator]
+_LARGEST = 1 << 18  # bytes; ours have 12 000
+
+
+def load_species(name_or_path: str | os.PathLike[str]) -> Species:
+    """Return a species in the box by its name, or one of your own from a TOML file.
+
+    Parameters
+    ----------
+    name_or_path : ``"pigeon"``, ``"bat"``, or a path: whatever ends in .toml or contains a separator.
+
+    Raises
+    ------
+    InvalidInputError : an unknown name, or everything that is wrong with the file, all at once.
+    FileError : the file is missing, unreadable, or not TOML.
+
+    >>> load_species("bat").free
+    ('frequency', 'flap_mean', 'flap_amplitude', 'pitch_mean', 'pitch_amplitude')
+    """
+    name, faults = name_or_path, FaultList()
+    if isinstance(name, str) and name in species_names():
+        return _build(packaged_text(name), f"{name}.toml", name)
+    if isinstance(name, str) and not (name.endswith(".toml") or any(s in name for s in _SEPARATORS)):
+        known = suggest(name.lower(), species_names())
+        faults.add("species", name, "is not in the box", f"{known}; or give the path of a .toml file")
+    elif not isinstance(name, str | os.PathLike):
+        faults.add("species", name, "must be a name or a path", f"the names are {', '.join(species_names())}")
+    faults.raise_if_any()
+    return _build(read_text(name, limit=_LARGEST), os.fspath(name), Path(name).stem)
+
+
+def _build(text: str, label: str, name: str) -> Species:
+    faults = FaultList()
+    content = read_species_text(text, label, name, faults)
+    numbers: dict[str, Number] = dict(content.numbers)
+    if WHOLE in numbers:
+        derive_body(numbers, content.numbers, faults)
+    bounds = content.free | {"body_pitch": content.body_pitch or _BODY_PITCH}
+    check_bounds(content, faults)
+    records = build_records(numbers, content.numbers, faults)
+    for other in content.alternatives.values():
+        build_records(other.numbers, other.numbers, faults)
+    faults.raise_if_any()
+    for key in KEYS:
+        if key.path not in numbers:
+            default = records["vehicle"].mass if key.path == WHOLE else default_of(key.path)
+            source = "body.mass and both wings" if key.path == WHOLE else "not given: the default"
+            numbers[key.path] = Number(default, key.unit, source)
+    species = Species(
+        name=content.name,
+        common_name=content.common_name,
+        scientific_name=content.scientific_name,
+        free=tuple(content.free),
+        bounds={key: bound.bounds for key, bound in content.free.items()},
+        guessed_bounds=frozenset(key for key, bound in bounds.items() if bound.guessed),
+        body_pitch_bounds=bounds["body_pitch"].bounds,
+        reasons={key: bound.reason for key, bound in bounds.items()},
+        numbers={key.path: numbers[key.path] for key in KEYS},
+        alternatives=content.alternatives,
+        warnings=(),
+        **records,
+    )
+    for other in content.alternatives.values():
+        species._patched(other.numbers, faults)
+    return dataclasses.replace(species, warnings=find_warnings(species))

@@ -1,0 +1,161 @@
+"""The record of a species, and the two ways to change its numbers."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import Wingbeat
+from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
+from wingbeat.species.settings import plain, settable
+from wingbeat.species_schema import Alternative, Number, Numbers, check_value, display, suggest, to_si
+from wingbeat.vehicle import Air, Vehicle
+
+__all__ = ["Species"]
+
+_SET_BY_HAND = "set by hand in place of"
+
+
+@dataclass(frozen=True)
+class Species:
+    """An animal or a robot, its stock wingbeat and the air it flies in.
+
+    Parameters
+    ----------
+    name, common_name, scientific_name : what it is called.
+    vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
+    free : the wingbeat parameters that an orbit may choose.
+    bounds : lowest and highest value of each free parameter, in SI units and radians.
+    guessed_bounds : those of `free`, and ``body_pitch``, whose bounds are a guess.
+    body_pitch_bounds : limits of body pitch along the whole path [rad].
+    reasons : why each bound stands where it stands.
+    numbers : every number by its path, with unit, source and plausible range.
+    alternatives : named sets of other numbers.
+    warnings : what looks odd, such as a number outside its plausible range.
+
+    >>> pigeon = load_species("pigeon")
+    >>> round(pigeon.vehicle.mass, 3), pigeon.vehicle.wing.semi_span
+    (0.316, 0.279)
+    >>> heavier = pigeon.with_values({"wing.mass": 0.025})
+    >>> round(heavier.vehicle.mass, 3)
+    0.326
+    """
+
+    name: str
+    common_name: str
+    scientific_name: str
+    vehicle: Vehicle
+    wingbeat: Wingbeat
+    air: Air
+    free: tuple[str, ...]
+    bounds: dict[str, tuple[float, float]]
+    guessed_bounds: frozenset[str]
+    body_pitch_bounds: tuple[float, float]
+    reasons: dict[str, str]
+    numbers: dict[str, Number]
+    alternatives: dict[str, Alternative]
+    warnings: tuple[str, ...]
+
+    def with_values(self, values: Mapping[str, Any]) -> Species:
+        """Return this species with some numbers set; nothing else moves, so a new wing mass changes the whole.
+
+        Parameters
+        ----------
+        values : paths as in the orbit record (``wing.mass``, ``wingbeat.twist_ratio``, ``air.density``; an
+            angle in degrees with ``_deg``) and their values in SI units.
+
+        Raises
+        ------
+        InvalidInputError : an unknown path, a path given twice, a wrong type or shape, the impossible.
+        """
+        faults, given = FaultList(), Numbers()
+        for path, value in values.items():
+            key, value = settable(path, faults), plain(value)
+            if key is None or not check_value(key, path, value, faults):
+                continue
+            if key.path in given:
+                faults.add(path, value, f"is given as {given.written[key.path][0]} too", "keep one of the two")
+                continue
+            old = self.numbers[key.path]
+            before = old.source.startswith(_SET_BY_HAND)
+            source = old.source if before else f"{_SET_BY_HAND} {words(key.path, old)}: {old.source}"
+            given.put(key, Number(to_si(value, path), key.unit, source, old.range), path, value)
+        return self._rebuilt(self.numbers | given, given, faults)
+
+    def with_alternative(self, name: str) -> Species:
+        """Return this species with the numbers of one of its `alternatives`.
+
+        The whole mass stays unless the alternative names a mass: heavier wings make a lighter body.
+
+        Raises
+        ------
+        InvalidInputError : there is no alternative of this name.
+        """
+        faults = FaultList()
+        if name not in self.alternatives:
+            fix = suggest(str(name), self.alternatives) if self.alternatives else f"{self.name} has none"
+            faults.add("alternative", name, "is unknown", fix)
+            faults.raise_if_any()
+        return self._patched(self.alternatives[name].numbers, faults)
+
+    def _patched(self, patch: Numbers, faults: FaultList) -> Species:
+        numbers = dict(self.numbers)
+        for path, number in patch.items():
+            numbers[path] = number if number.range else number._replace(range=numbers[path].range)
+        if BODY not in patch and {WHOLE, WING} & patch.keys():
+            derive_body(numbers, patch, faults)
+        return self._rebuilt(numbers, patch, faults)
+
+    def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
+        """Return a copy with other numbers: records checked, whole mass and warnings made anew."""
+        records = build_records(numbers, given, faults)
+        faults.raise_if_any()
+        if not math.isclose(mass := records["vehicle"].mass, numbers[WHOLE].value, rel_tol=1e-12):
+            numbers = numbers | {WHOLE: numbers[WHOLE]._replace(value=mass, source="body.mass and both wings")}
+        changed = dataclasses.replace(self, numbers=numbers, **records)
+        return dataclasses.replace(changed, warnings=find_warnings(changed))
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain numbers, lists and texts, fit for JSON.
+
+        ``vehicle``, ``wingbeat`` and ``air`` are just as in an orbit record.
+        """
+        plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        for record in ("vehicle", "wingbeat", "air"):
+            plain[record] = dataclasses.asdict(plain[record])
+        plain["guessed_bounds"] = sorted(self.guessed_bounds)
+        return _jsonable(plain)
+
+
+def find_warnings(species: Species) -> tuple[str, ...]:
+    """Return one line for each thing that is possible but odd."""
+    found = []
+    for path, number in species.numbers.items():
+        values = number.value if isinstance(number.value, tuple) else (number.value,)
+        if number.range and not all(number.range[0] <= value <= number.range[1] for value in values):
+            name, shown = display(path, number)
+            source = f" ({number.source})" if number.source else ""
+            low, high = shown.range or ()
+            found.append(
+                f"{name} = {words(path, number)} is outside its plausible range {low:g} to {high:g}{source}"
+            )
+    for name, (low, high) in species.bounds.items():
+        if not low <= getattr(species.wingbeat, name) <= high:
+            path = f"wingbeat.{name}"
+            guess = words(path, species.numbers[path])
+            found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer one")
+    if not species.free:
+        found.append("free: no wingbeat parameter is free, so no orbit can be sought; add the table [free]")
+    return tuple(found)
+
+
+def _jsonable(value: Any) -> Any:
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, dict):
+        return {key: _jsonable(item) for key, item in value.items()}
+    return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value

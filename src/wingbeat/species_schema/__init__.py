@@ -1,0 +1,38 @@
+"""Species files: what they may hold, faults in words, and the numbers read from them. No physics."""
+
+from wingbeat.species_schema.faults import check_value, shown, suggest
+from wingbeat.species_schema.keys import KEYS, Key
+from wingbeat.species_schema.models import json_schema
+from wingbeat.species_schema.reading import (
+    Alternative,
+    Bound,
+    Number,
+    Numbers,
+    SpeciesText,
+    display,
+    parse_toml,
+    read_species_text,
+    to_si,
+)
+from wingbeat.species_schema.box import packaged_text, species_names, template
+
+__all__ = [
+    "KEYS",
+    "Alternative",
+    "Bound",
+    "Key",
+    "Number",
+    "Numbers",
+    "SpeciesText",
+    "check_value",
+    "display",
+    "json_schema",
+    "packaged_text",
+    "parse_toml",
+    "read_species_text",
+    "shown",
+    "species_names",
+    "suggest",
+    "template",
+    "to_si",
+]

@@ -1,0 +1,34 @@
+"""The files in the box: the template to start from and the animals."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+__all__ = ["packaged_text", "species_names", "template"]
+
+_TEMPLATE = "template"
+
+
+def packaged_text(name: str) -> str:
+    """Return the text of a TOML file in the box."""
+    return resources.files("wingbeat").joinpath("data", f"{name}.toml").read_text(encoding="utf-8")
+
+
+def template() -> str:
+    """Return a complete, commented species file to start from; it loads as it is.
+
+    >>> "semi_span" in template()
+    True
+    """
+    return packaged_text(_TEMPLATE)
+
+
+def species_names() -> tuple[str, ...]:
+    """Return the names of the species in the box.
+
+    >>> species_names()
+    ('bat', 'pigeon')
+    """
+    files = (entry.name for entry in resources.files("wingbeat").joinpath("data").iterdir())
+    names = {name.removesuffix(".toml") for name in files if name.endswith(".toml")}
+    return tuple(sorted(names - {_TEMPLATE}))

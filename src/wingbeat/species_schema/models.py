@@ -1,0 +1,130 @@
+"""The shape of a species file as pydantic models, made from the list of keys, and as a JSON schema."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
+
+from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
+
+__all__ = ["ADAPTERS", "NUMBER_FIELDS", "TABLE", "TAGS", "BoundTable", "SpeciesFile", "json_schema"]
+
+_STRICT = ConfigDict(strict=True, extra="forbid")
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
+# Tags appear in pydantic's error paths; the blank keeps them apart from any key of a file.
+TAGS = NUMBER, LIST, TABLE = " number", " list", " table"
+
+NUMBER_FIELDS = ["value", "unit", "source", "range"]
+
+
+def _kind(value: Any) -> str:
+    return TABLE if isinstance(value, dict) else LIST if isinstance(value, list) else NUMBER
+
+
+_SHAPES: dict[str, Any] = {
+    "number": _Finite,
+    "stations": Annotated[
+        Annotated[_Finite, Tag(NUMBER)] | Annotated[list[_Finite], Field(min_length=2), Tag(LIST)],
+        Discriminator(_kind),
+    ],
+    "vector": Annotated[list[_Finite], Field(min_length=3, max_length=3)],
+}
+ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
+
+
+def _bare_or_table(bare: Any, table: type[BaseModel]) -> Any:
+    def kind(value: Any) -> str:
+        return TABLE if isinstance(value, dict) else NUMBER
+
+    return Annotated[Annotated[bare, Tag(NUMBER)] | Annotated[table, Tag(TABLE)], Discriminator(kind)]
+
+
+def _sourced(shape: str) -> Any:
+    """Return the type of a number: bare, or a table with unit, source and plausible range."""
+    plausible = Field(default=None, description="lowest and highest plausible value")
+    kinds = [(_SHAPES[shape], ...), (str, ""), (str, ""), (_Pair, plausible)]
+    fields: dict[str, Any] = dict(zip(NUMBER_FIELDS, kinds, strict=True))
+    table = create_model(f"Sourced_{shape}", __config__=_STRICT, **fields)
+    return _bare_or_table(_SHAPES[shape], table)
+
+
+class BoundTable(BaseModel):
+    """Bounds with their unit and reason."""
+
+    model_config = _STRICT
+    bounds: _Pair
+    unit: str = ""
+    reason: str = ""
+    guessed: bool = Field(default=False, description="true: an orbit that leans on this bound says so")
+
+
+def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
+    """Return a model of optional fields whose required ones stand in the JSON schema alone.
+
+    `reading` notes what is absent, since an angle may go by either of two names.
+    """
+    rules = [{"oneOf": [{"required": [n]} for n in names.split()]} for names in required]
+    schema: dict[str, Any] = ({"allOf": rules} if rules else {}) | extra
+    config = ConfigDict(strict=True, extra="forbid", json_schema_extra=schema)
+    return create_model(name, __config__=config, **fields)
+
+
+def _leaves(keys: Iterable[Key], bound: bool = False) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    for key in keys:
+        kind = _bare_or_table(_Pair, BoundTable) if bound else _sourced(key.shape)
+        for path in key.spellings:
+            unit = "deg" if path != key.path else key.unit
+            text = f"{key.meaning} [{unit}]"
+            fields[path.rsplit(".", 1)[1]] = (kind, Field(default=None, description=text))
+    return fields
+
+
+def _section(prefix: str, complete: bool, inner: dict[str, Any] | None = None) -> Any:
+    """Return the field of one table; TOML has no null, so a table that is absent is simply not checked."""
+    own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
+    required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
+    name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
+    inner = inner or {}
+    return (_table(name, _leaves(own) | inner, [*required, *inner] if complete else []), None)
+
+
+def _sections(complete: bool) -> dict[str, Any]:
+    inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing")}
+    sections = {"vehicle": _section("vehicle", complete, inner)}
+    return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
+
+
+_Alternative = create_model(
+    "Alternative",
+    __config__=_STRICT,
+    reason=(str, Field(default="", description="one line: why this is worth a trial")),
+    **_sections(complete=False),
+)
+SpeciesFile = _table(
+    "SpeciesFile",
+    {
+        "name": (str, Field(default=None, min_length=1)),
+        "common_name": (str, ""),
+        "scientific_name": (str, ""),
+        **_sections(complete=True),
+        "free": (_table("Free", _leaves(FREE, bound=True), []), None),
+        "path": (_table("Path", _leaves([BODY_PITCH], bound=True), []), None),
+        "alternatives": (dict[str, _Alternative], None),
+    },
+    ["vehicle", "wingbeat"],
+    title="wingbeat species file",
+    description="SI units and radians; _deg on a key means degrees. Give vehicle.mass or vehicle.body.mass.",
+)
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a species file, for editors that complete and check TOML.
+
+    >>> json_schema()["title"]
+    'wingbeat species file'
+    """
+    return SpeciesFile.model_json_schema()

@@ -1,0 +1,243 @@
+"""From the text of a species file to numbers in SI units, every fault of the file noted on the way."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from wingbeat.errors import Fault, FaultList, FileError
+from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
+from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
+
+__all__ = ["Alternative", "Bound", "Number", "Numbers", "SpeciesText", "display", "parse_toml", "read_species_text", "to_si"]
+
+Value = float | tuple[float, ...]
+
+
+class Number(NamedTuple):
+    """A number in SI units and radians, its unit, its source and its plausible range."""
+
+    value: Value
+    unit: str
+    source: str = ""
+    range: tuple[float, float] | None = None
+
+
+class Bound(NamedTuple):
+    """The bounds of a free quantity in SI units and radians, the reason, and whether they are a guess."""
+
+    bounds: tuple[float, float]
+    reason: str = ""
+    guessed: bool = False
+
+
+class Numbers(dict[str, Number]):
+    """Numbers by path, which remember how each was written, so that a fault can quote it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.written: dict[str, tuple[str, Any]] = {}
+
+    def put(self, key: Key, number: Number, path: str, value: Any) -> None:
+        """Add a number that was written as `value` under `path`."""
+        self[key.path] = number
+        self.written[key.path] = (path, value)
+
+    def quote(self, fault: Fault) -> Fault:
+        """Return a fault of a record's constructor in the words of the file: its path, value and unit."""
+        where = fault.where if fault.where.startswith(("wingbeat.", "air.")) else f"vehicle.{fault.where}"
+        for canonical, (path, value) in self.written.items():
+            rest = where[len(canonical) :]
+            if where.startswith(canonical) and rest[:1] in ("", "[", "."):
+                rule = fault.rule.replace(" rad", " deg") if path.endswith("_deg") else fault.rule
+                return Fault(path + rest, fault.value if rest else shown(value), rule, fault.fix)
+        return Fault(where, fault.value, fault.rule, fault.fix)
+
+
+class Alternative(NamedTuple):
+    """Numbers somebody measured or assumed in place of the defaults, and why they are worth a trial."""
+
+    reason: str
+    numbers: Numbers
+
+
+@dataclass
+class SpeciesText:
+    """What a species file says, before any physics."""
+
+    name: str
+    common_name: str = ""
+    scientific_name: str = ""
+    numbers: Numbers = field(default_factory=Numbers)
+    free: dict[str, Bound] = field(default_factory=dict)
+    body_pitch: Bound | None = None
+    alternatives: dict[str, Alternative] = field(default_factory=dict)
+    written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
+
+
+def parse_toml(text: str, label: str) -> dict[str, Any]:
+    """Return the tables of a TOML text.
+
+    Raises
+    ------
+    FileError : empty, not TOML, or nested beyond reason.
+    """
+    try:
+        raw = tomllib.loads(text)
+    except RecursionError:
+        raise FileError(f"cannot read {label!r}: it is nested too deeply; is it a species file?") from None
+    except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold
+        reason = " ".join(str(error).split())[:200]
+        raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
+    if not raw:
+        raise FileError(f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from")
+    return raw
+
+
+def read_species_text(text: str, label: str, name: str, faults: FaultList) -> SpeciesText:
+    """Return what a species file says; faults are noted and what they concern is left out.
+
+    Parameters
+    ----------
+    text, label : the TOML text, and how to call the file in a message.
+    name : the name of the species if the file gives none.
+    faults : takes every fault of keys, types, shapes, units and of what is missing.
+
+    Raises
+    ------
+    FileError : not TOML at all.
+    """
+    raw = parse_toml(text, label)
+    check_shape(raw, faults)
+    result = SpeciesText(name)
+    result.name = _line(raw.get("name")) or name
+    result.common_name = _line(raw.get("common_name"))
+    result.scientific_name = _line(raw.get("scientific_name"))
+    result.numbers = _numbers(raw, (), faults)
+    _note_missing(raw, result.numbers, faults)
+    result.free = _bounds(raw, FREE, result.written, faults)
+    result.body_pitch = _bounds(raw, [BODY_PITCH], result.written, faults).get(BODY_PITCH.name)
+    alternatives = raw.get("alternatives")
+    for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
+        if isinstance(content, dict):
+            reason = content.get("reason")
+            numbers = _numbers(content, ("alternatives", other), faults)
+            result.alternatives[other] = Alternative(_line(reason), numbers)
+    return result
+
+
+def to_si(value: Any, path: str) -> Value:
+    """Return a number or list of the right shape in SI units; `path` tells degrees from radians."""
+    if isinstance(value, list):
+        return tuple(float(v) for v in value)
+    return math.radians(value) if path.endswith("_deg") else float(value)
+
+
+def display(path: str, number: Number) -> tuple[str, Number]:
+    """Return path and number as a reader wants them: angles in degrees, named so."""
+    if number.unit != "rad":
+        return path, number
+
+    def degrees(angle: float) -> float:
+        return float(f"{math.degrees(angle):.12g}")  # 60 comes back as 60, not 59.99999999999999
+
+    limits = number.range and (degrees(number.range[0]), degrees(number.range[1]))
+    assert not isinstance(number.value, tuple), "angles are single numbers"
+    return f"{path}_deg", Number(degrees(number.value), "deg", number.source, limits)
+
+
+def _line(text: Any) -> str:
+    """Return a text on one line, as messages and tables want it; nothing if it is none."""
+    return " ".join(text.split()) if isinstance(text, str) else ""
+
+
+def _leaf(raw: dict[str, Any], path: str) -> Any:
+    """Return what stands at a path, or None."""
+    place: Any = raw
+    for part in path.split("."):
+        place = place.get(part) if isinstance(place, dict) else None
+    return place
+
+
+def _spelt(raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList) -> Iterator[tuple[str, Any]]:
+    """Yield the path and the leaf of a key under whichever of its names the file uses."""
+    found = [(path, leaf) for path in key.spellings if (leaf := _leaf(raw, path)) is not None]
+    if len(found) > 1:
+        where = dotted((*prefix, *found[1][0].split(".")))
+        faults.add(where, shown(_value(found[1][1])), f"is given as {key.path} too", "keep one of the two")
+    yield from found[:1]
+
+
+def _value(leaf: Any, name: str = "value") -> Any:
+    return leaf.get(name) if isinstance(leaf, dict) else leaf
+
+
+def _numbers(raw: dict[str, Any], prefix: tuple[str, ...], faults: FaultList) -> Numbers:
+    numbers = Numbers()
+    for key in KEYS:
+        for path, leaf in _spelt(raw, key, prefix, faults):
+            where, value = dotted((*prefix, *path.split("."))), _value(leaf)
+            table = leaf if isinstance(leaf, dict) else {}
+            _check_unit(where, table.get("unit"), key, path, faults)
+            limits = _range(f"{where}.range", table.get("range"), path, faults)
+            if has_shape(key.shape, value):
+                number = Number(to_si(value, path), key.unit, _line(table.get("source")), limits)
+                numbers.put(key, number, where, value)
+    if "vehicle.mass" in numbers and "vehicle.body.mass" in numbers:
+        where, value = numbers.written["vehicle.body.mass"]
+        faults.add(where, value, "is given beside vehicle.mass", "keep one: the other follows from it")
+    return numbers
+
+
+def _note_missing(raw: dict[str, Any], numbers: Numbers, faults: FaultList) -> None:
+    for key in KEYS:
+        if key.required and all(_leaf(raw, path) is None for path in key.spellings):
+            section = _leaf(raw, key.path.rpartition(".")[0])
+            if section is None or isinstance(section, dict):
+                names = " or ".join(key.spellings)
+                faults.add(names, NOTHING, "must be given", f"{key.meaning} [{key.unit}]")
+    if all(_leaf(raw, path) is None for path in ("vehicle.mass", "vehicle.body.mass")):
+        faults.add("vehicle.mass", NOTHING, "must be given", "or vehicle.body.mass, without the wings [kg]")
+
+
+def _bounds(
+    raw: dict[str, Any], keys: Iterable[Key], written: dict[str, tuple[str, Any]], faults: FaultList
+) -> dict[str, Bound]:
+    bounds = {}
+    for key in keys:
+        for path, leaf in _spelt(raw, key, (), faults):
+            table, pair = leaf if isinstance(leaf, dict) else {}, _value(leaf, "bounds")
+            _check_unit(path, table.get("unit"), key, path, faults)
+            if (limits := _range(path, pair, path, faults)) is None:
+                continue
+            if limits[0] == limits[1]:
+                faults.add(path, pair, "leaves no room between its bounds", "widen them, or take it out of free")
+            bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
+            written[key.name] = (path, pair)
+    return bounds
+
+
+def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, float] | None:
+    """Return a pair of numbers in SI units, or None if it is not one."""
+    if not has_shape("stations", pair) or not isinstance(pair, list) or len(pair) != 2:
+        return None
+    lowest, highest = (to_si(value, path) for value in pair)
+    if lowest > highest:  # type: ignore[operator]
+        faults.add(where, pair, "puts the highest value first", "write [lowest, highest]")
+    return lowest, highest  # type: ignore[return-value]
+
+
+def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -> None:
+    expected = "deg" if path.endswith("_deg") else key.unit
+    if isinstance(unit, str) and unit and _tidy(unit) != _tidy(expected):
+        faults.add(f"{where}.unit", unit, f"must be {expected!r}", "convert the value; files hold SI units")
+
+
+def _tidy(unit: str) -> str:
+    """Return a unit without the marks that tell nothing: m^2, m² and m**2 are m2."""
+    for old, new in (("**", ""), ("^", ""), ("²", "2"), ("³", "3"), (" ", ""), ("·", ""), ("*", "")):
+        unit = unit.replace(old, new)
+    return unit

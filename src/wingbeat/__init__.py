@@ -13,24 +13,25 @@ from wingbeat._version import __version__ as __version__
 if TYPE_CHECKING:
     from wingbeat import aero as aero
     from wingbeat import plots as plots
-    from wingbeat.equations_of_motion import air_forces as air_forces
-    from wingbeat.equations_of_motion import equations_of_motion as equations_of_motion
+    from wingbeat.five_coordinates import air_forces as air_forces
+    from wingbeat.five_coordinates import equations_of_motion as equations_of_motion
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
     from wingbeat.kinematics import Wingbeat as Wingbeat
-    from wingbeat.loads import loads as loads
+    from wingbeat.loads import flight_loads as flight_loads
     from wingbeat.model import FlightModel as FlightModel
     from wingbeat.model import State as State
     from wingbeat.model import flight_model as flight_model
     from wingbeat.orbits.objectives import Frequency as Frequency
     from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
     from wingbeat.orbits.solve import Status as Status
+    from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
     from wingbeat.results.orbit import solve_orbit as solve_orbit
-    from wingbeat.simulate import simulate_torque_driven as simulate_torque_driven
+    from wingbeat.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.species import Species as Species
     from wingbeat.species import load_species as load_species
     from wingbeat.species import species_names as species_names
@@ -43,6 +44,7 @@ _HOME = {
     "Air": "vehicle",
     "Body": "vehicle",
     "FileError": "errors",
+    "Flight": "results.flight",
     "FlightModel": "model",
     "Frequency": "orbits.objectives",
     "InvalidInputError": "errors",
@@ -55,14 +57,14 @@ _HOME = {
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
     "WingbeatError": "errors",
-    "air_forces": "equations_of_motion",
-    "equations_of_motion": "equations_of_motion",
+    "air_forces": "five_coordinates",
+    "equations_of_motion": "five_coordinates",
+    "flight_loads": "loads",
     "flight_model": "model",
     "load_orbit": "results.orbit",
     "load_species": "species",
-    "loads": "loads",
     "simulate": "results.flight",
-    "simulate_torque_driven": "simulate",
+    "simulate_torque_driven": "flights",
     "solve_orbit": "results.orbit",
     "species_names": "species",
 }

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from wingbeat.equations_of_motion import (
-    air_forces,
-    bias_accelerations,
-    drift_velocities,
-    equations_of_motion,
-    partial_velocities,
-    resistance,
-    wing_points,
-)
+from wingbeat.five_coordinates import air_forces_on, point_motion
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.model import FlightModel, State, body_rates, motion_table
@@ -54,7 +46,7 @@ class Loads(NamedTuple):
 
 
 @jax.jit
-def loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
+def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 
     Parameters
@@ -86,23 +78,17 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
     q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
     time = phase / wingbeat.frequency
 
-    terms = equations_of_motion(model, wingbeat, q, q_dot, time)
-    air = air_forces(model, wingbeat, q, q_dot, time)
-    tau = terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air.generalised
-    hinge_power = tau[3:] @ q_dot[3:]
-
-    points = wing_points(model, wingbeat, q, time)
-    partial = partial_velocities(model, wingbeat, q, time).mass
-    drift = drift_velocities(model, wingbeat, q, time).mass
-    turning, drifting = bias_accelerations(model, wingbeat, q, q_dot, time)
-    inertial = partial @ q_acceleration + turning @ q_dot + drifting
-    needed = inertial + jnp.asarray([0.0, 0.0, model.air.gravity])
-    in_body = partial[..., 3:] @ q_dot[3:] + drift
+    points = point_motion(model, wingbeat, q, q_dot, time)
+    air = air_forces_on(model, wingbeat, q, q_dot, time, points)
     mass = strips_of(model.vehicle.wing, model.strips).mass
+    # What every mass point must be pushed with, gravity included: d'Alembert in place of D, C, h and g.
+    partial = points.partial.mass
+    needed = partial @ q_acceleration + points.bias.mass + model.air.gravity * jnp.asarray([0.0, 0.0, 1.0])
+    tau = jnp.einsum("n,knai,kna->i", mass, partial[..., 3:], needed) - air.generalised[3:]
+    in_body = partial[..., 3:] @ q_dot[3:] + points.drift.mass
     inertial_power = jnp.einsum("n,kna,kna->", mass, needed, in_body)
 
-    velocity = partial @ q_dot + drift
-    whole = _whole_body(model, q, q_dot, points.mass, velocity, mass)
+    whole = _whole_body(model, q, q_dot, points.place.mass, points.velocity.mass, mass)
     return Loads(
         flap=flap,
         flap_rate=flap_rate,
@@ -111,7 +97,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         span_ratio=span_ratio(wingbeat, phase),
         fold=fold_angle(wingbeat, phase),
         acceleration=body,
-        strip_position=points.quarter_chord,
+        strip_position=points.place.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
         alpha=air.strips.alpha,
@@ -119,9 +105,9 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         drag=air.strips.drag,
         strip_force=air.strip_force,
         air_force=air.generalised,
-        flap_torque=tau[3],
-        pitch_torque=tau[4],
-        hinge_power=hinge_power,
+        flap_torque=tau[0],
+        pitch_torque=tau[1],
+        hinge_power=tau @ q_dot[3:],
         actuator_power=inertial_power - air.power_in_body,
         air_power=air.power,
         **whole,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.jax64 import jax
 
 
@@ -35,11 +35,8 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
     try:
         angles = np.asarray(alpha, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        faults = FaultList()
-        fix = "inside a function that JAX traces, use kernel()"
-        faults.add("alpha", alpha, "must be a number or an array of numbers [rad]", fix)
-        faults.raise_if_any()
-        raise AssertionError from error
+        rule, fix = "must be a number or an array of numbers [rad]", "under JAX's jit, use kernel()"
+        raise InvalidInputError([Fault("alpha", alpha, rule, fix)]) from error
     with np.errstate(invalid="ignore"):
         remainder = np.fmod(angles, 2 * math.pi)
     return remainder - 2 * math.pi * np.round(remainder / (2 * math.pi))
@@ -101,10 +98,8 @@ class CoefficientModel:
         InvalidInputError : the model has none.
         """
         if not self.has_centre_of_pressure:
-            faults = FaultList()
             fix = "use su-fan, or a table with the column x_cp"
-            faults.add("coefficients", self.name, "has no centre of pressure", fix)
-            faults.raise_if_any()
+            raise InvalidInputError([Fault("coefficients", self.name, "has no centre of pressure", fix)])
         return _over_angles(_centre_of_pressure, self.kernel(), alpha)
 
     def moment(self, alpha: ArrayLike, about: float = 0.5) -> NDArray[np.float64]:

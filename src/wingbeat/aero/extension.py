@@ -22,9 +22,9 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
+from wingbeat.aero.blends import Function, Jet, Join, even_blend, jet_of, odd_blend
 from wingbeat.elementary import horner
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jax, jnp
@@ -32,8 +32,6 @@ from wingbeat.jax64 import jax, jnp
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
 MAX_BLEND_WIDTH_DEG = 3.0
 RIGHT_ANGLE = 0.5 * math.pi
-
-Function = Callable[[Any], Any]
 
 
 class Pieces(Protocol):
@@ -66,70 +64,6 @@ def check_extension(faults: FaultList, extension: Any, blend_width_deg: Any) -> 
         unit="degrees",
         fix="1 is the default; without a blend the coefficients jump at 0 and 90 degrees",
     )
-
-
-class Jet(NamedTuple):
-    """Value, slope and curvature of a function at one point."""
-
-    value: Any
-    slope: Any
-    curvature: Any
-
-    def seen_backwards(self) -> Jet:
-        """Return the jet of the same curve with its axis reversed."""
-        return Jet(self.value, -self.slope, self.curvature)
-
-    def turned_over(self) -> Jet:
-        """Return the jet of the negative of the curve."""
-        return Jet(-self.value, -self.slope, -self.curvature)
-
-
-def jet_of(function: Function, at: Any) -> Jet:
-    """Return value, slope and curvature of a function, by automatic differentiation."""
-    one = jnp.ones_like(at)
-
-    def value_and_slope(x: Any) -> Any:
-        return jax.jvp(function, (x,), (one,))
-
-    (value, slope), (_, curvature) = jax.jvp(value_and_slope, (at,), (one,))
-    return Jet(value, slope, curvature)
-
-
-def even_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
-    """Return the even polynomial, in powers of the squared distance, that has `jet` at distance `width`."""
-    f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
-    return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
-
-
-def odd_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
-    """Return the odd polynomial over the distance, in powers of its square, that has `jet` at `width`."""
-    f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
-    return (
-        (15 * f - 7 * s + k) / (8 * width),
-        (5 * (s - f) - k) / (4 * width**3),
-        (k - 3 * (s - f)) / (8 * width**5),
-    )
-
-
-class Join(NamedTuple):
-    """A quintic blend between two pieces that share no symmetry: its even and its odd part."""
-
-    even: tuple[Any, ...]
-    odd: tuple[Any, ...]
-
-    @classmethod
-    def between(cls, left: Jet, right: Jet, width: Any) -> Join:
-        """Return the blend that has `left` at distance -width and `right` at +width."""
-        mirror = left.seen_backwards()
-        even = Jet(*((r + m) / 2 for r, m in zip(right, mirror, strict=True)))
-        odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))
-        return cls(even_blend(even, width), odd_blend(odd, width))
-
-    def over(self, value: Any, distance: Any, width: Any) -> Any:
-        """Return `value`, replaced by the blend where the distance is below the width."""
-        squared = distance * distance
-        blend = horner(self.even, squared) + distance * horner(self.odd, squared)
-        return jnp.where(jnp.abs(distance) < width, blend, value)
 
 
 class SignedPatch(NamedTuple):

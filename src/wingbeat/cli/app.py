@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from difflib import get_close_matches
 
 from cyclopts import App, CycloptsError, UnknownCommandError
@@ -56,7 +58,7 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
     The exit code; a command asks for one other than 0 by returning it.
     """
     for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):  # an ASCII terminal shows a sign it lacks as an escape
+        if isinstance(stream, io.TextIOWrapper):  # an ASCII terminal shows a sign it lacks as an escape
             stream.reconfigure(errors="backslashreplace")
     try:
         code = _run(list(sys.argv[1:] if argv is None else argv), app or build_app())
@@ -117,8 +119,6 @@ def _complain(lines: list[str], code: int) -> int:
 
 def _close_stdout() -> int:
     """Point stdout at nothing, so that the flush at exit does not fail again."""
-    try:
+    with suppress(OSError, ValueError):  # stdout is not a file, as under a test runner
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except (OSError, ValueError):  # stdout is not a file, as under a test runner
-        pass
     return EXIT_BROKEN_PIPE

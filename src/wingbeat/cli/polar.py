@@ -116,7 +116,7 @@ def _print_table(model: CoefficientModel, columns: Columns, about: float) -> Non
     for heading in ("alpha [deg]", "C_L", "C_D", "C_N", "C_M", "x_cp [chords]"):
         table.add_column(Text(heading), justify="right")
     for angle, *values in zip(*columns.values(), strict=True):
-        table.add_row(f"{angle:g}", *("-" if value is None else f"{value:.4f}" for value in values))
+        table.add_row(f"{angle:g}", *("-" if value is None else f"{value:z.4f}" for value in values))
     Console().print(table)
 
 

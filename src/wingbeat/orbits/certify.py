@@ -14,7 +14,7 @@ import numpy as np
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
-from wingbeat.simulate import integrate, state_rates
+from wingbeat.flights import integrate, state_rates
 
 SAMPLES = 256
 
@@ -43,19 +43,17 @@ class Certificate:
 
 @jax.jit
 def _fly_with_variations(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
-    period = 1.0 / wingbeat.frequency
-
     def rates(phase: Any, state: Any, args: Any) -> Any:
         def body(pitch_state: Any) -> Any:
-            return period * state_rates(*args, phase, jnp.concatenate([state[:2], pitch_state]))
+            place = jnp.zeros(2)  # nothing depends on where the vehicle is
+            return state_rates(*args, phase, jnp.concatenate([place, pitch_state])) / args[1].frequency
 
-        variations = state[6:].reshape(4, 4)
         value, along = jax.linearize(body, state[2:6])
-        turned = jax.vmap(along, in_axes=1, out_axes=1)(variations)
-        return jnp.concatenate([value, turned[2:].ravel()])
+        varied = jax.vmap(along, in_axes=1, out_axes=1)(state[6:].reshape(4, 4))
+        return jnp.concatenate([value, varied[2:].ravel()])
 
     first = jnp.concatenate([start, jnp.eye(4).ravel()])
-    return integrate(rates, first, phases, 1e-3, (model, wingbeat))
+    return integrate(rates, first, phases, (model, wingbeat))
 
 
 def certify(model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray) -> Certificate:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.loads import Loads, loads
+from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import FlightModel, State
 from wingbeat.nomenclature import NOMENCLATURE
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
     """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
-    found = loads(model, wingbeat, State(*np.asarray(states).T), np.asarray(phase))
+    found = flight_loads(model, wingbeat, State(*np.asarray(states).T), np.asarray(phase))
     return Loads(*(np.asarray(value) for value in found))
 
 

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
@@ -15,7 +15,7 @@ from wingbeat.species.settings import plain, settable
 from wingbeat.species_schema import Alternative, Number, Numbers, check_value, display, suggest, to_si
 from wingbeat.vehicle import Air, Vehicle
 
-__all__ = ["Species"]
+__all__ = ["Species", "find_warnings"]
 
 _SET_BY_HAND = "set by hand in place of"
 
@@ -61,7 +61,9 @@ class Species:
     warnings: tuple[str, ...]
 
     def with_values(self, values: Mapping[str, Any]) -> Species:
-        """Return this species with some numbers set; nothing else moves, so a new wing mass changes the whole.
+        """Return this species with some numbers set.
+
+        Nothing else moves, so a new wing mass changes the whole mass.
 
         Parameters
         ----------
@@ -74,15 +76,18 @@ class Species:
         """
         faults, given = FaultList(), Numbers()
         for path, value in values.items():
-            key, value = settable(path, faults), plain(value)
+            value = plain(value)
+            key = settable(path, value, faults)
             if key is None or not check_value(key, path, value, faults):
                 continue
             if key.path in given:
-                faults.add(path, value, f"is given as {given.written[key.path][0]} too", "keep one of the two")
+                other = given.written[key.path][0]
+                faults.add(path, value, f"is given as {other} too", "keep one of the two")
                 continue
             old = self.numbers[key.path]
-            before = old.source.startswith(_SET_BY_HAND)
-            source = old.source if before else f"{_SET_BY_HAND} {words(key.path, old)}: {old.source}"
+            source = old.source
+            if not source.startswith(_SET_BY_HAND):
+                source = f"{_SET_BY_HAND} {words(key.path, old)}" + (f": {source}" if source else "")
             given.put(key, Number(to_si(value, path), key.unit, source, old.range), path, value)
         return self._rebuilt(self.numbers | given, given, faults)
 
@@ -114,8 +119,9 @@ class Species:
         """Return a copy with other numbers: records checked, whole mass and warnings made anew."""
         records = build_records(numbers, given, faults)
         faults.raise_if_any()
-        if not math.isclose(mass := records["vehicle"].mass, numbers[WHOLE].value, rel_tol=1e-12):
-            numbers = numbers | {WHOLE: numbers[WHOLE]._replace(value=mass, source="body.mass and both wings")}
+        mass, whole = records["vehicle"].mass, numbers[WHOLE]
+        if not math.isclose(mass, cast(float, whole.value), rel_tol=1e-12):
+            numbers = numbers | {WHOLE: whole._replace(value=mass, source="body.mass and both wings")}
         changed = dataclasses.replace(self, numbers=numbers, **records)
         return dataclasses.replace(changed, warnings=find_warnings(changed))
 
@@ -138,10 +144,11 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         values = number.value if isinstance(number.value, tuple) else (number.value,)
         if number.range and not all(number.range[0] <= value <= number.range[1] for value in values):
             name, shown = display(path, number)
+            unit = "" if shown.unit == "1" else f" {shown.unit}"
             source = f" ({number.source})" if number.source else ""
-            low, high = shown.range or ()
+            low, high = shown.range or number.range
             found.append(
-                f"{name} = {words(path, number)} is outside its plausible range {low:g} to {high:g}{source}"
+                f"{name} = {words(path, number)} is outside its plausible range {low:g} to {high:g}{unit}{source}"
             )
     for name, (low, high) in species.bounds.items():
         if not low <= getattr(species.wingbeat, name) <= high:

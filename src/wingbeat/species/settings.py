@@ -48,15 +48,15 @@ def parse_setting(text: str) -> tuple[str, Any]:
     return path, table["value"]
 
 
-def settable(path: Any, faults: FaultList) -> Key | None:
-    """Return the number that a path names, with or without ``vehicle.`` in front; else note a fault."""
+def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
+    """Return the number that a path names, with or without ``vehicle.`` in front, or note a fault."""
     if isinstance(path, str) and path in _SETTABLE:
         return _SETTABLE[path]
     if path in ("mass", "vehicle.mass"):
         fix = "set body.mass or wing.mass, the whole mass follows from both"
     else:
         fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
-    faults.add("setting", shown(path), "is not the path of a number", fix)
+    faults.add(str(shown(path)), shown(value), "is not the path of a number", fix)
     return None
 
 

@@ -1,5 +1,6 @@
 """Species files: what they may hold, faults in words, and the numbers read from them. No physics."""
 
+from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, suggest
 from wingbeat.species_schema.keys import KEYS, Key
 from wingbeat.species_schema.models import json_schema
@@ -14,7 +15,6 @@ from wingbeat.species_schema.reading import (
     read_species_text,
     to_si,
 )
-from wingbeat.species_schema.box import packaged_text, species_names, template
 
 __all__ = [
     "KEYS",

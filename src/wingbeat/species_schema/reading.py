@@ -12,7 +12,17 @@ from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
 
-__all__ = ["Alternative", "Bound", "Number", "Numbers", "SpeciesText", "display", "parse_toml", "read_species_text", "to_si"]
+__all__ = [
+    "Alternative",
+    "Bound",
+    "Number",
+    "Numbers",
+    "SpeciesText",
+    "display",
+    "parse_toml",
+    "read_species_text",
+    "to_si",
+]
 
 Value = float | tuple[float, ...]
 
@@ -93,7 +103,9 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
         reason = " ".join(str(error).split())[:200]
         raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
     if not raw:
-        raise FileError(f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from")
+        raise FileError(
+            f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from"
+        )
     return raw
 
 
@@ -162,7 +174,9 @@ def _leaf(raw: dict[str, Any], path: str) -> Any:
     return place
 
 
-def _spelt(raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList) -> Iterator[tuple[str, Any]]:
+def _spelt(
+    raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList
+) -> Iterator[tuple[str, Any]]:
     """Yield the path and the leaf of a key under whichever of its names the file uses."""
     found = [(path, leaf) for path in key.spellings if (leaf := _leaf(raw, path)) is not None]
     if len(found) > 1:
@@ -214,7 +228,9 @@ def _bounds(
             if (limits := _range(path, pair, path, faults)) is None:
                 continue
             if limits[0] == limits[1]:
-                faults.add(path, pair, "leaves no room between its bounds", "widen them, or take it out of free")
+                faults.add(
+                    path, pair, "leaves no room between its bounds", "widen them, or take it out of free"
+                )
             bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
             written[key.name] = (path, pair)
     return bounds

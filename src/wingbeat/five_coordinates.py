@@ -122,18 +122,48 @@ def equations_of_motion(
     )
 
 
+class PointMotion(NamedTuple):
+    """Wing points with their velocities, partial velocities, drifts and bias accelerations (``r''`` at q'' = 0)."""
+
+    place: WingPoints
+    velocity: WingPoints
+    partial: WingPoints
+    drift: WingPoints
+    bias: WingPoints
+
+
+def point_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> PointMotion:
+    """Differentiate the wing's place once for all that a given motion needs."""
+
+    def place(along: Any) -> WingPoints:
+        return wing_points(model, wingbeat, q + along * q_dot, time + along)
+
+    def velocity(along: Any) -> tuple[WingPoints, WingPoints]:
+        return jax.jvp(place, (along,), (jnp.ones_like(along),))
+
+    still = jnp.zeros_like(time)
+    (points, velocities), (_, bias) = jax.jvp(velocity, (still,), (jnp.ones_like(time),))
+    partial = partial_velocities(model, wingbeat, q, time)
+    drift = jax.tree_util.tree_map(lambda v, p: v - p @ q_dot, velocities, partial)
+    return PointMotion(points, velocities, partial, drift, bias)
+
+
 def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
     """Return the generalised air loads f_aero (5) of both wings and the body, and their powers [W].
 
     `power` is the power on everything that moves through the air, `power_in_body` that of the wings' loads along
     the wings' velocities in body axes, which the actuators must supply.
     """
+    return air_forces_on(model, wingbeat, q, q_dot, time, point_motion(model, wingbeat, q, q_dot, time))
+
+
+def air_forces_on(
+    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, motion: PointMotion
+) -> AirForces:
+    """Return what `air_forces` returns, from the motion of the wing points."""
     strips = strips_of(model.vehicle.wing, model.strips)
-    points = wing_points(model, wingbeat, q, time)
-    partial = partial_velocities(model, wingbeat, q, time)
-    drift = drift_velocities(model, wingbeat, q, time)
-    velocity = partial.quarter_chord @ q_dot + drift.quarter_chord
     length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
+    points, velocity = motion.place, motion.velocity.quarter_chord
     forces = strip_forces(
         model.kernel,
         model.air.density,
@@ -142,17 +172,16 @@ def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time:
         jnp.sum(velocity * points.normal, axis=-1),
     )
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
-    lever, sliding = partial.quarter_chord, drift.quarter_chord
+    lever, sliding = motion.partial.quarter_chord, motion.drift.quarter_chord
     if model.at_centre_of_pressure:
         ahead = pressure_offset(model.kernel, forces.alpha, strips.chord)[:, None]
-        lever = lever + ahead[..., None] * partial.chordwise
-        sliding = sliding + ahead * drift.chordwise
+        lever = lever + ahead[..., None] * motion.partial.chordwise
+        sliding = sliding + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
     drag = body_drag(
         model.vehicle.body.drag_area, model.air.density, world_to_body(q[2], q_dot[0], q_dot[1])
     )
-    drag = jnp.stack(body_to_world(q[2], *drag))
-    generalised = wings.at[:2].add(drag)
+    generalised = wings.at[:2].add(jnp.stack(body_to_world(q[2], *drag)))
     sliding_power = 2.0 * jnp.sum(force * sliding)
     return AirForces(
         generalised,

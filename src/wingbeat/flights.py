@@ -4,35 +4,19 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import diffrax
 import numpy as np
 
-from wingbeat.equations_of_motion import accelerations_from_torques
+from wingbeat.five_coordinates import accelerations_from_torques
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel, State, body_rates, check_state, motion_table
+from wingbeat.model import FlightModel, State, body_rates, motion_table
 
 RTOL, ATOL = 1e-10, 1e-12
 MAX_STEPS = 4096
-
-
-@dataclass(frozen=True)
-class Flight:
-    """A flight sampled at phases: beats flown since the start, and the state at each."""
-
-    model: FlightModel
-    wingbeat: Wingbeat
-    phase: np.ndarray
-    state: State
-
-    @property
-    def time(self) -> np.ndarray:
-        """Time since the start [s]."""
-        return self.phase / self.wingbeat.frequency
 
 
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) -> Any:
@@ -40,84 +24,69 @@ def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) 
     return jnp.concatenate([state[3:5], body_rates(model, motion_table(model, wingbeat, phase), state[2:])])
 
 
-def integrate(rates: Callable[..., Any], start: Any, times: Any, first_step: Any, args: Any) -> Any:
-    """Integrate with Dopri8 at rtol 1e-10, stepping exactly onto `times`; not-a-number where it fails."""
+def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any) -> Any:
+    """Integrate with Dopri8 at rtol 1e-10, stepping exactly onto `times`; not-a-number where it gives up.
+
+    Every step is kept and those onto `times` picked out: diffrax's own sampling at given times interpolates, and
+    checks them by a callback that keeps the compiled function out of the cache on disk.
+    """
+    rates = jax.jit(rates)  # traced once, however often diffrax asks for its shape
+    controller = diffrax.ClipStepSizeController(
+        diffrax.PIDController(rtol=RTOL, atol=ATOL), step_ts=times, store_rejected_steps=None
+    )
     solution = diffrax.diffeqsolve(
         diffrax.ODETerm(rates),  # type: ignore[arg-type]
         diffrax.Dopri8(),
         times[0],
         times[-1],
-        first_step,
+        None,
         start,
         args=args,
-        saveat=diffrax.SaveAt(ts=times),
-        stepsize_controller=diffrax.ClipStepSizeController(
-            diffrax.PIDController(rtol=RTOL, atol=ATOL), step_ts=times
-        ),
+        saveat=diffrax.SaveAt(t0=True, steps=True),
+        stepsize_controller=controller,
         adjoint=diffrax.ForwardMode(),
         max_steps=MAX_STEPS,
         throw=False,
     )
-    return jnp.where(jnp.isfinite(solution.ys), solution.ys, jnp.nan)
+    assert solution.ts is not None
+    here = jnp.minimum(jnp.searchsorted(solution.ts, times), MAX_STEPS)
+    met = jnp.abs(solution.ts[here] - times) <= 1e-12 * (times[-1] - times[0])
+    found = jax.tree_util.tree_map(lambda ys: ys[here], solution.ys)
+    return jnp.where(met[:, None] & jnp.isfinite(found), found, jnp.nan)
 
 
 @jax.jit
 def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
-    period = 1.0 / wingbeat.frequency
-
     def rates(phase: Any, state: Any, args: Any) -> Any:
-        return period * state_rates(*args, phase, state)
+        return state_rates(*args, phase, state) / args[1].frequency
 
-    return integrate(rates, start, phases, 1e-3, (model, wingbeat))
+    return integrate(rates, start, phases, (model, wingbeat))
 
 
-def simulate(
-    model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128
-) -> Flight:
-    """Fly an initial state for a number of wingbeats with prescribed wings.
+def fly_beats(
+    model: FlightModel, wingbeat: Wingbeat, state: State, beats: int, samples: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Fly an initial state with prescribed wings; return ``beats * samples + 1`` phases and the states there.
 
-    Parameters
-    ----------
-    model : the flight model.
-    wingbeat : the prescribed wingbeat.
-    state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
-    beats : number of wingbeats.
-    samples : samples a beat.
-
-    Returns
-    -------
-    Flight : the states at ``beats * samples + 1`` phases; not-a-number from where the vehicle tumbled so fast that
-        the integrator gave up.
-
-    Raises
-    ------
-    InvalidInputError : a state that is not finite, beats or samples that are not whole numbers of at least 1.
+    States are (x, z, body_pitch, u, w, pitch_rate); not-a-number from where the integrator gave up.
     """
-    faults = FaultList()
-    for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
-        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
-            faults.add(name, value, f"must be a whole number from 1 to {most}")
-    faults.raise_if_any()
-    check_state(state)
     one_beat = np.linspace(0.0, 1.0, samples + 1)
     current, pieces = np.array(state, dtype=float), [np.array([state], dtype=float)]
     for _ in range(beats):
         flown = np.asarray(_fly(model, wingbeat, current, one_beat))
         current = flown[-1]
         pieces.append(flown[1:])
-    states = np.concatenate(pieces)
-    phase = np.linspace(0.0, beats, beats * samples + 1)
-    return Flight(model, wingbeat, phase, State(*states.T))
+    return np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
 
 
 @functools.partial(jax.jit, static_argnames=("torques",))
 def _drive(model: FlightModel, wingbeat: Wingbeat, start: Any, times: Any, torques: Any, args: Any) -> Any:
     def rates(time: Any, state: Any, args: Any) -> Any:
         q, q_dot = state[:5], state[5:]
-        forced = accelerations_from_torques(model, wingbeat, q, q_dot, time, torques(time, args))
-        return jnp.concatenate([q_dot, forced])
+        torque = torques(time, args[2])
+        return jnp.concatenate([q_dot, accelerations_from_torques(*args[:2], q, q_dot, time, torque)])
 
-    return integrate(rates, start, times, 1e-3 / wingbeat.frequency, args)
+    return integrate(rates, start, times, (model, wingbeat, args))
 
 
 def simulate_torque_driven(

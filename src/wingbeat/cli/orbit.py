@@ -1,0 +1,136 @@
+"""``wingbeat orbit``: find and certify the wingbeat that flies at a speed."""
+
+from __future__ import annotations
+
+import contextlib
+import json as json_format
+import math
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import (
+    AeroName,
+    BlendWidth,
+    Extension,
+    ForcePoint,
+    Settings,
+    Strips,
+    aero_with,
+    species_with,
+)
+from wingbeat.cli.report import print_orbit
+from wingbeat.errors import FaultList
+from wingbeat.files import writing
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Progress
+from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.storage import save_dataset
+
+FIGURES = (".png", ".pdf", ".svg")
+
+
+def orbit(
+    species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
+    *,
+    speed: Annotated[float | None, Parameter(help="Mean forward speed [m/s]; 0 is hover.")] = None,
+    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    aero: AeroName = "su-fan",
+    extension: Extension = "mirrored",
+    blend_width_deg: BlendWidth = 1.0,
+    force_point: ForcePoint = "quarter-chord",
+    flap_amplitude_max: Annotated[
+        float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
+    ] = None,
+    strips: Strips = 10,
+    starts: Annotated[int, Parameter(help="Number of searches; more find better optima.")] = 6,
+    seed: Annotated[int, Parameter(help="Seed of the random starts.")] = 0,
+    set_: Settings = None,
+    from_: Annotated[
+        Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
+    ] = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
+    ] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find the wingbeat of least frequency that flies level at a speed, and certify it.
+
+    Exit code 0: certified. 3: nothing certified, the message says what to change.
+
+    Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
+    wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc
+    """
+    faults = FaultList()
+    if plot is not None and plot.suffix.lower() not in FIGURES:
+        faults.add("--plot", str(plot), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
+    if from_ is not None and (species is not None or speed is not None or set_):
+        faults.add("--from", str(from_), "comes with its own inputs", "leave out SPECIES, --speed and --set")
+    if from_ is None and species is None:
+        faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
+    if from_ is None and speed is None:
+        faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
+    faults.raise_if_any()
+    if from_ is not None:
+        saved = load_orbit(from_)
+        problem, starts, seed = saved.problem, saved.inputs["starts"], saved.inputs["seed"]
+    else:
+        assert species is not None
+        assert speed is not None
+        animal = species_with(species, set_)
+        bounds = None
+        if flap_amplitude_max is not None:
+            least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
+            faults.number("--flap-amplitude-max", flap_amplitude_max, above=0, below=180, unit="degrees")
+            faults.raise_if_any()
+            bounds = {"flap_amplitude": (least, math.radians(flap_amplitude_max))}
+        loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+        problem = OrbitProblem(animal, speed=speed, climb=climb, aero=loads, bounds=bounds)
+    # The outputs are opened first: a folder that cannot be written is told before the work, not after.
+    with ExitStack() as outputs:
+        netcdf = outputs.enter_context(writing(output)) if output else None
+        picture = outputs.enter_context(writing(plot)) if plot else None
+        found = _solve(problem, starts, seed)
+        if netcdf:
+            save_dataset(found.dataset, netcdf)
+        if picture:
+            from wingbeat.plots import save_figure, wingbeat_page
+
+            save_figure(wingbeat_page(found.dataset), picture)
+    record = found.record()
+    if json:
+        print(json_format.dumps(record, indent=2, allow_nan=False))
+    else:
+        print_orbit(record, Console())
+    return EXIT_GOOD if record["status"] == "converged" else EXIT_NOT_CERTIFIED
+
+
+def _solve(problem: OrbitProblem, starts: int, seed: int) -> Orbit:
+    with _progress(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
+        return solve_orbit(problem, starts, seed, progress)
+
+
+@contextlib.contextmanager
+def _progress(what: str) -> Iterator[Progress | None]:
+    """Show searches done and time left on stderr, if that is a terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+
+        def update(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total)
+
+        yield update

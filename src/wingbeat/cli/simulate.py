@@ -1,0 +1,126 @@
+"""``wingbeat simulate``: fly an initial state for some beats with prescribed wings."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from cyclopts import Parameter
+from rich.console import Console
+from rich.table import Table
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import (
+    AeroName,
+    BlendWidth,
+    Extension,
+    ForcePoint,
+    Settings,
+    Strips,
+    aero_with,
+    species_with,
+)
+from wingbeat.errors import FaultList
+from wingbeat.files import writing
+from wingbeat.model import State, flight_model
+from wingbeat.results.flight import Flight
+from wingbeat.results.flight import simulate as fly
+from wingbeat.results.orbit import load_orbit
+from wingbeat.results.record import beat_mean
+from wingbeat.results.storage import save_dataset
+
+
+def simulate(
+    species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
+    *,
+    beats: Annotated[int, Parameter(help="Number of wingbeats.")] = 5,
+    samples: Annotated[int, Parameter(help="Samples a beat.")] = 128,
+    u: Annotated[float | None, Parameter(help="Forward velocity at the start [m/s].")] = None,
+    w: Annotated[float | None, Parameter(help="Upward velocity at the start [m/s].")] = None,
+    body_pitch_deg: Annotated[float | None, Parameter(help="Body pitch at the start, nose up [deg].")] = None,
+    pitch_rate: Annotated[float | None, Parameter(help="Pitch rate at the start [rad/s].")] = None,
+    aero: AeroName = "su-fan",
+    extension: Extension = "mirrored",
+    blend_width_deg: BlendWidth = 1.0,
+    force_point: ForcePoint = "quarter-chord",
+    strips: Strips = 10,
+    set_: Settings = None,
+    from_: Annotated[
+        Path | None,
+        Parameter(name="--from", help="Take wingbeat, vehicle, air loads and start from this orbit."),
+    ] = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
+    ] = None,
+) -> int:
+    """Fly an initial state for some wingbeats with the wings prescribed.
+
+    The wingbeat is the species' own (change it with --set wingbeat.frequency=7 ...) or that of an orbit (--from),
+    whose start is then disturbed by whatever of -u, -w, --body-pitch-deg, --pitch-rate is given.
+    Exit code 3: the vehicle tumbled and the flight could not be finished.
+    """
+    faults = FaultList()
+    if (from_ is None) == (species is None):
+        faults.add("SPECIES", species, "or --from must be given, and not both", "name one of them")
+    if from_ is not None and set_:
+        faults.add("--set", set_, "does not go with --from", "change the numbers of a species instead")
+    faults.raise_if_any()
+    if from_ is not None:
+        orbit = load_orbit(from_)
+        model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+    else:
+        assert species is not None
+        animal = species_with(species, set_)
+        loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+        model, wingbeat = flight_model(animal.vehicle, loads, animal.air), animal.wingbeat
+        start = State(u=10.0)
+    given = {"u": u, "w": w, "pitch_rate": pitch_rate}
+    given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
+    start = start._replace(**{name: value for name, value in given.items() if value is not None})
+    with ExitStack() as outputs:
+        netcdf = outputs.enter_context(writing(output)) if output else None
+        flight = fly(model, wingbeat, start, beats, samples)
+        if netcdf:
+            save_dataset(flight.dataset, netcdf)
+    rows = beat_rows(flight, samples)
+    if json:
+        print(json_format.dumps({"completed": flight.completed, "beats": rows}, indent=2, allow_nan=False))
+    else:
+        _print(rows, flight.completed)
+    return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
+
+
+def beat_rows(flight: Flight, samples: int) -> list[dict[str, Any]]:
+    """Return one row a beat: state at its end, mean velocities and mean power; None where it was lost."""
+    period = 1.0 / flight.wingbeat.frequency
+    power = flight.dataset["hinge_power"].to_numpy()
+    rows = []
+    for beat in range((len(flight.phase) - 1) // samples):
+        first, last = flight.states[beat * samples], flight.states[(beat + 1) * samples]
+        mean = beat_mean(power[beat * samples : (beat + 1) * samples + 1])
+        row = {
+            "beat": beat + 1,
+            "mean_u": (last[0] - first[0]) / period,
+            "mean_w": (last[1] - first[1]) / period,
+            **dict(zip(State._fields, last, strict=True)),
+            "mean_power": mean,
+        }
+        rows.append({name: float(v) if np.isfinite(v) else None for name, v in row.items()} | {"beat": beat + 1})
+    return rows
+
+
+def _print(rows: list[dict[str, Any]], completed: bool) -> None:
+    table = Table("beat", "mean u [m/s]", "mean w [m/s]", "body pitch [deg]", "pitch rate [rad/s]", "power [W]")
+    for row in rows:
+        pitch = None if row["body_pitch"] is None else math.degrees(row["body_pitch"])
+        values = (row["mean_u"], row["mean_w"], pitch, row["pitch_rate"], row["mean_power"])
+        table.add_row(str(row["beat"]), *("lost" if v is None else f"{v:.3f}" for v in values))
+    console = Console()
+    console.print(table)
+    if not completed:
+        console.print("the vehicle tumbled: the flight could not be finished", style="red")

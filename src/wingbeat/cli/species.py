@@ -1,0 +1,197 @@
+"""``wingbeat species``: the animals in the box or a file of your own, with the source of every number."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import App, Parameter
+
+from wingbeat.errors import FileError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from wingbeat.species import Species
+
+species = App(name="species", help="Show the animals in the box, or a file of your own.")
+
+_SPEED = 10.0  # m/s, of the Reynolds numbers in the list
+
+
+@species.default
+def show(
+    name: Annotated[str | None, Parameter(help="Name of a species, or path of a .toml file.")] = None,
+    *,
+    alternative: Annotated[str | None, Parameter(help="Take the numbers of this alternative.")] = None,
+    set_: Annotated[
+        list[str] | None,
+        Parameter(name="--set", negative="", help="PATH=VALUE, for example wing.mass=0.02; may be repeated."),
+    ] = None,
+    json: Annotated[bool, Parameter(negative="", help="Print JSON: SI units and radians.")] = False,
+    schema: Annotated[bool, Parameter(negative="", help="Print the JSON schema of species files.")] = False,
+) -> None:
+    """List the species in the box; with a name or a file, every number of it with its source."""
+    if schema:
+        from wingbeat.species_schema import json_schema
+
+        print(json_format.dumps(json_schema(), indent=2))
+        return
+
+    from wingbeat.species import load_species, parse_setting, species_names
+
+    if name is None:
+        if alternative is not None or set_:
+            raise _no_name("--alternative" if alternative is not None else "--set")
+        everyone = [load_species(each) for each in species_names()]
+        _print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
+        return
+    chosen = load_species(name)
+    if alternative is not None:
+        chosen = chosen.with_alternative(alternative)
+    chosen = chosen.with_values(_settings(set_ or [], parse_setting))
+    if json:
+        _print_json(chosen.as_dict())
+    else:
+        _print_species(chosen)
+
+
+@species.command
+def new(
+    path: Annotated[Path, Parameter(help="File to write, for example my.toml.")],
+    *,
+    force: Annotated[bool, Parameter(negative="", help="Replace a file that is there.")] = False,
+) -> None:
+    """Write a commented template for a species of your own."""
+    from wingbeat.files import write_atomically
+    from wingbeat.species_schema import template
+
+    if os.path.lexists(path) and not path.is_dir() and not force:
+        raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
+    write_atomically(path, template())
+    print(f"wrote {path}; try: wingbeat species {path}")
+
+
+def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
+    """Return the settings; all that cannot be read are told at once."""
+    from wingbeat.errors import FaultList, InvalidInputError
+
+    faults, values = FaultList(), {}
+    for text in texts:
+        try:
+            path, value = parse(text)
+        except InvalidInputError as error:
+            faults.faults += error.faults
+            continue
+        if path in values:
+            faults.add(path, value, "is given twice", "keep one of the two")
+        values[path] = value
+    faults.raise_if_any()
+    return values
+
+
+def _no_name(option: str) -> Exception:
+    from wingbeat.errors import Fault, InvalidInputError
+
+    fault = Fault(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
+    return InvalidInputError([fault])
+
+
+def _print_json(content: Any) -> None:
+    print(json_format.dumps(content, indent=2, allow_nan=False))
+
+
+def _summary(animal: Species) -> dict[str, Any]:
+    wing = animal.vehicle.wing
+    reynolds = _SPEED * wing.mean_chord / animal.air.viscosity
+    return {
+        "name": animal.name,
+        "common_name": animal.common_name,
+        "mass": animal.vehicle.mass,
+        "semi_span": wing.semi_span,
+        "chord": wing.mean_chord,
+        "reynolds_at_10_m_per_s": reynolds if math.isfinite(reynolds) else None,
+    }
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    # Names and sources come from files: what looks like markup in them is text.
+    return Console(markup=False, highlight=False, emoji=False)
+
+
+def _table(title: str, *columns: str) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in columns:
+        name, _, right = column.partition(">")
+        table.add_column(name, justify="right" if right else "left", overflow="fold")
+    return table
+
+
+def _print_list(everyone: list[Species]) -> None:
+    table = _table("", "name", "animal", "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r")
+    for animal in everyone:
+        row = _summary(animal)
+        lengths = [f"{1e3 * row[key]:.4g}" for key in ("mass", "semi_span", "chord")]
+        table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}")
+    console = _console()
+    console.print(table)
+    console.print(
+        "wingbeat species NAME shows every number of one; wingbeat species new FILE starts your own."
+    )
+
+
+def _print_species(animal: Species) -> None:
+    console = _console()
+    names = [name for name in (animal.common_name, animal.scientific_name) if name]
+    console.print(f"{animal.name}{': ' if names else ''}{', '.join(names)}")
+    sources: dict[str, int] = {}
+    console.print(_numbers_table("numbers", animal.numbers, sources))
+    console.print(_free_table(animal))
+    for name, other in animal.alternatives.items():
+        console.print(_numbers_table(f"alternative {name}: {other.reason}", other.numbers, sources))
+    console.print("sources")
+    for source, number in sources.items():
+        console.print(f"[{number}] {source}")
+    for warning in animal.warnings:
+        console.print(f"warning: {warning}", style="yellow")
+
+
+def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
+    """Return a table of numbers; their sources are long and shared, so they are numbered and listed below."""
+    from wingbeat.species_schema import display
+
+    table = _table(title, "number", "value>r", "unit", "plausible>r", "source>r")
+    for path, number in numbers.items():
+        name, shown = display(path, number)
+        limits = f"{shown.range[0]:g} to {shown.range[1]:g}" if shown.range else ""
+        value = shown.value if isinstance(shown.value, tuple) else (shown.value,)
+        mark = f"[{sources.setdefault(shown.source, len(sources) + 1)}]" if shown.source else ""
+        unit = "" if shown.unit == "1" else shown.unit
+        name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
+        table.add_row(name, ", ".join(f"{each:g}" for each in value), unit, limits, mark)
+    return table
+
+
+def _free_table(animal: Species) -> Table:
+    from wingbeat.species_schema import Number, display
+
+    table = _table("free in an orbit, and the limits of its path", "quantity", "bounds>r", "unit", "reason")
+    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
+    for path, limits in (bounds | {"body_pitch": animal.body_pitch_bounds}).items():
+        unit = animal.numbers[path].unit if path in animal.numbers else "rad"
+        name, shown = display(path, Number(0.0, unit, range=limits))
+        low, high = shown.range or limits
+        short = path.removeprefix("wingbeat.")
+        guess = "guess: " if short in animal.guessed_bounds else ""
+        reason = animal.reasons[short].removeprefix("guess: ")
+        table.add_row(name, f"{low:g} to {high:g}", shown.unit, guess + reason)
+    return table

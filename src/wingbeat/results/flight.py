@@ -1,0 +1,92 @@
+"""Flights from an initial state with prescribed wings: the verb, and what it gives back."""
+
+from __future__ import annotations
+
+import functools
+import json
+from dataclasses import dataclass
+from os import PathLike
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.errors import FaultList
+from wingbeat.flights import fly_beats
+from wingbeat.kinematics import Wingbeat
+from wingbeat.model import FlightModel, State, check_state
+from wingbeat.results.dataset import evaluate, flight_dataset
+from wingbeat.results.storage import KIND, save_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A flight sampled at phases (beats flown since the start), shape (K,), with states of shape (K, 6)."""
+
+    model: FlightModel
+    wingbeat: Wingbeat
+    phase: np.ndarray
+    states: np.ndarray
+
+    @property
+    def completed(self) -> bool:
+        """Whether the flight went to the end; False where the vehicle tumbled and the integrator gave up."""
+        return bool(np.isfinite(self.states).all())
+
+    @functools.cached_property
+    def dataset(self) -> xr.Dataset:
+        """The time series, labelled; its phase runs on from beat to beat."""
+        found = evaluate(self.model, self.wingbeat, self.phase, self.states)
+        attributes = {
+            KIND: "flight",
+            "vehicle": json.dumps({"body": vars(self.model.vehicle.body), "wing": vars(self.model.vehicle.wing)}),
+            "air": json.dumps(vars(self.model.air)),
+            "wingbeat": json.dumps(vars(self.wingbeat)),
+            "version": __version__,
+        }
+        return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the dataset to a NetCDF-4 file, whole or not at all.
+
+        Raises
+        ------
+        FileError : the file cannot be written.
+        """
+        save_dataset(self.dataset, path)
+
+
+def simulate(
+    model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128
+) -> Flight:
+    """Fly an initial state for a number of wingbeats with prescribed wings.
+
+    Parameters
+    ----------
+    model : the flight model, from `flight_model`.
+    wingbeat : the prescribed wingbeat.
+    state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
+    beats : number of wingbeats.
+    samples : samples a beat.
+
+    Raises
+    ------
+    InvalidInputError : a state that is not finite, beats or samples that are not whole numbers of at least 1.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), beats=1)
+    >>> flight.states.shape, flight.completed
+    ((129, 6), True)
+    """
+    faults = FaultList()
+    for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
+            faults.add(name, value, f"must be a whole number from 1 to {most}")
+    faults.raise_if_any()
+    check_state(state)
+    return Flight(model, wingbeat, *fly_beats(model, wingbeat, state, beats, samples))

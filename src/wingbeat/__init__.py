@@ -13,11 +13,12 @@ from wingbeat._version import __version__ as __version__
 if TYPE_CHECKING:
     from wingbeat import aero as aero
     from wingbeat import plots as plots
-    from wingbeat.five_coordinates import air_forces as air_forces
-    from wingbeat.five_coordinates import equations_of_motion as equations_of_motion
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
+    from wingbeat.five_coordinates import air_forces as air_forces
+    from wingbeat.five_coordinates import equations_of_motion as equations_of_motion
+    from wingbeat.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.kinematics import Wingbeat as Wingbeat
     from wingbeat.loads import flight_loads as flight_loads
     from wingbeat.model import FlightModel as FlightModel
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
     from wingbeat.results.orbit import solve_orbit as solve_orbit
-    from wingbeat.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.species import Species as Species
     from wingbeat.species import load_species as load_species
     from wingbeat.species import species_names as species_names
@@ -70,7 +70,7 @@ _HOME = {
 }
 _MODULES = ("aero", "plots")
 
-__all__ = [*_HOME, *_MODULES, "__version__"]  # noqa: PLE0604
+__all__ = [*_HOME, *_MODULES, "__version__"]
 
 
 def __getattr__(name: str) -> Any:

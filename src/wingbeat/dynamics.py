@@ -15,7 +15,6 @@ from wingbeat.jax64 import jnp
 from wingbeat.vehicle import Vehicle
 from wingbeat.wing_motion import WingMotion, dot, turned
 
-
 Pair = tuple[Any, Any]
 
 
@@ -50,8 +49,7 @@ def wing_loads(
         ahead = pressure_offset(kernel, strips.alpha, chord)
         moment = moment + across * ahead * dot(turned(motion.chordwise), motion.normal)
     force = tuple(
-        2.0 * jnp.sum(along * c + across * n, axis=-1)
-        for c, n in zip(motion.chordwise, motion.normal, strict=True)
+        2.0 * jnp.sum(along * c + across * n, axis=-1) for c, n in zip(motion.chordwise, motion.normal, strict=True)
     )
     return strips, BodyLoads((force[0], force[1]), 2.0 * jnp.sum(moment, axis=-1))
 

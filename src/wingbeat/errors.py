@@ -68,9 +68,14 @@ class FaultList:
         """Note a fault unless `value` is a finite real number within the limits; say whether it is."""
         if isinstance(value, bool) or not isinstance(value, Real):
             self.add(where, value, "must be a number", fix)
-        elif not math.isfinite(value):
+            return False
+        try:
+            number = float(value)
+        except OverflowError:  # a whole number beyond the largest float
+            number = math.inf
+        if not math.isfinite(number):
             self.add(where, value, "must be finite", fix)
-        elif not (value > above and value >= at_least and value < below and value <= at_most):
+        elif not (above < number < below and at_least <= number <= at_most):
             limits = [
                 f"{sign} {limit:g}"
                 for sign, limit in ((">", above), (">=", at_least), ("<", below), ("<=", at_most))

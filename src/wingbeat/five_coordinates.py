@@ -78,9 +78,7 @@ def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) 
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 
-def bias_accelerations(
-    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any
-) -> tuple[Any, Any]:
+def bias_accelerations(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> tuple[Any, Any]:
     """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``."""
 
     def by_q(at: Any) -> Any:
@@ -101,9 +99,7 @@ def _point_masses(model: FlightModel) -> Any:
     return strips_of(model.vehicle.wing, model.strips).mass
 
 
-def equations_of_motion(
-    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any
-) -> EquationsOfMotion:
+def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
     """Return D (5, 5), C (5, 5), h (5) and g (5) at coordinates q, rates q_dot and time [s].
 
     The wingbeat gives span and fold as functions of time (and the twist); its flap and pitch laws do not enter.
@@ -117,8 +113,7 @@ def equations_of_motion(
         own + jnp.einsum("n,knai,knaj->ij", mass, partial, partial),
         jnp.einsum("n,knai,knaj->ij", mass, partial, turning),
         jnp.einsum("n,knai,kna->i", mass, partial, drifting),
-        jnp.einsum("n,knai,a->i", mass, partial, down)
-        + jnp.zeros(5).at[1].set(body.mass * model.air.gravity),
+        jnp.einsum("n,knai,a->i", mass, partial, down) + jnp.zeros(5).at[1].set(body.mass * model.air.gravity),
     )
 
 
@@ -178,9 +173,7 @@ def air_forces_on(
         lever = lever + ahead[..., None] * motion.partial.chordwise
         sliding = sliding + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
-    drag = body_drag(
-        model.vehicle.body.drag_area, model.air.density, world_to_body(q[2], q_dot[0], q_dot[1])
-    )
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, world_to_body(q[2], q_dot[0], q_dot[1]))
     generalised = wings.at[:2].add(jnp.stack(body_to_world(q[2], *drag)))
     sliding_power = 2.0 * jnp.sum(force * sliding)
     return AirForces(

@@ -9,8 +9,8 @@ from typing import Any
 import diffrax
 import numpy as np
 
-from wingbeat.five_coordinates import accelerations_from_torques
 from wingbeat.errors import FaultList
+from wingbeat.five_coordinates import accelerations_from_torques
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, State, body_rates, motion_table
@@ -57,8 +57,9 @@ def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any) -> A
 
 @jax.jit
 def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
-    def rates(phase: Any, state: Any, args: Any) -> Any:
-        return state_rates(*args, phase, state) / args[1].frequency
+    def rates(phase: Any, state: Any, args: tuple[FlightModel, Wingbeat]) -> Any:
+        flown, beat = args
+        return state_rates(flown, beat, phase, state) / beat.frequency
 
     return integrate(rates, start, phases, (model, wingbeat))
 
@@ -83,8 +84,9 @@ def fly_beats(
 def _drive(model: FlightModel, wingbeat: Wingbeat, start: Any, times: Any, torques: Any, args: Any) -> Any:
     def rates(time: Any, state: Any, args: Any) -> Any:
         q, q_dot = state[:5], state[5:]
-        torque = torques(time, args[2])
-        return jnp.concatenate([q_dot, accelerations_from_torques(*args[:2], q, q_dot, time, torque)])
+        flown, beat, more = args
+        torque = torques(time, more)
+        return jnp.concatenate([q_dot, accelerations_from_torques(flown, beat, q, q_dot, time, torque)])
 
     return integrate(rates, start, times, (model, wingbeat, args))
 

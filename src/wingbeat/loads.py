@@ -65,9 +65,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
 
 
 def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
-    flap, flap_rate, flap_acceleration = time_rates(
-        lambda p: flap_angle(wingbeat, p), phase, wingbeat.frequency
-    )
+    flap, flap_rate, flap_acceleration = time_rates(lambda p: flap_angle(wingbeat, p), phase, wingbeat.frequency)
     pitch, pitch_rate, pitch_acceleration = time_rates(
         lambda p: pitch_angle(wingbeat, p), phase, wingbeat.frequency
     )
@@ -114,9 +112,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
     )
 
 
-def _whole_body(
-    model: FlightModel, q: Any, q_dot: Any, points: Any, velocity: Any, mass: Any
-) -> dict[str, Any]:
+def _whole_body(model: FlightModel, q: Any, q_dot: Any, points: Any, velocity: Any, mass: Any) -> dict[str, Any]:
     """Return centre of mass, momenta and energies of body and both wings."""
     body = model.vehicle.body
     plane = jnp.asarray([0, 2])

@@ -37,6 +37,8 @@ _MEAN = {"color": "0.35", "linestyle": "-.", "linewidth": 0.8}
 _SHADE, _RED = "0.91", "#C00000"
 _STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
 _STYLE |= {"axes.labelpad": 2, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+# Without pieces, the line of a flight of thousands of beats is too long for the PNG writer.
+_SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.path.chunksize": 20_000}
 _NEEDED = ["flap", "wing_pitch", "fold", "span_ratio", "x", "z", "u", "w", "body_pitch", "pitch_rate"]
 _NEEDED += ["alpha", "strip_force", "hinge_power", "actuator_power"]
 
@@ -64,7 +66,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     faults.raise_if_any()
     kind = os.path.splitext(path)[1][1:].lower()
     undated: dict[str, Any] = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
-    with rc_context({"pdf.fonttype": 42, "svg.hashsalt": "wingbeat"}), writing(path) as beside:
+    with rc_context(_SAVING), writing(path) as beside:  # type: ignore[arg-type]
         figure.savefig(beside, format=kind, dpi=300, metadata=undated)
 
 
@@ -97,17 +99,16 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
     lines, weight = _described(dataset)
     head, foot = 2.5 + _LINE * len(lines), 1.0 + _LINE
     height = head + _PANELS + foot
-    with rc_context(_STYLE):
+    with rc_context(_STYLE):  # type: ignore[arg-type]
         figure = Figure(figsize=(_WIDTH / _INCH, height / _INCH), layout="constrained")
         layout: Any = figure.get_layout_engine()
-        layout.set(
-            rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02
-        )
+        layout.set(rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
         for i, (text, style) in enumerate(lines):
             # A name of the user's own may hold a dollar sign, which is no formula.
             where = (2 / _WIDTH, 1 - (1.5 + _LINE * i) / height)
             figure.text(*where, text, va="top", parse_math=False, **style)
-        note = f"Downstroke shaded. h, i: one of the {dataset.sizes['station']} equal strips, both wings together."
+        note = "Downstroke shaded. g: effective angle. "
+        note += f"h, i: one of the {dataset.sizes['station']} equal strips, both wings together."
         figure.text(2 / _WIDTH, 1.5 / height, note, fontsize=7)
         panels = figure.subplots(3, 3)
         _draw_motion(dataset, panels[0])
@@ -154,14 +155,12 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     status, style = f"{about['message'][:1].upper()}{about['message'][1:]}", _TEXT
     if about["status"] != "converged":
         status, style = f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM
-    lines = [
-        (line, look) for text, look in ((second, _TEXT), (status, style)) for line in textwrap.wrap(text, 120)
-    ]
+    lines = [(line, look) for text, look in ((second, _TEXT), (status, style)) for line in textwrap.wrap(text, 120)]
     return [(first[:1].upper() + first[1:], _TITLE), *lines]
 
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
-    phase, flown = dataset["phase"].values, np.isfinite(dataset["u"].values)
+    phase, flown = dataset["phase"].values, _flown(dataset)
     first = f"Flight of {phase[-1]:g} beats from {float(dataset['u'][0]):.4g} m/s, {frequency}"
     if flown.all():
         return [(first, _TITLE)]
@@ -189,10 +188,13 @@ def _draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     _over_phase(pitch, phase, "body pitch ψ [deg]")
     pitch.plot(phase, np.degrees(dataset["body_pitch"].values), **_FIRST)
     _over_phase(power, phase, "power of both wings [W]")
-    hinge = dataset["hinge_power"].values
-    mean = np.trapezoid(hinge, phase) / (phase[-1] - phase[0])
-    power.axhline(mean, **_MEAN)
-    lines = power.plot(phase, hinge, label=f"hinge, mean {mean:.3g} W", **_FIRST)
+    hinge, flown, label = dataset["hinge_power"].values, _flown(dataset), "hinge"
+    if flown.sum() > 1:
+        beats = phase[flown]
+        mean = np.trapezoid(hinge[flown], beats) / (beats[-1] - beats[0])
+        power.axhline(mean, **_MEAN)
+        label += f", mean {mean:.3g} W"
+    lines = power.plot(phase, hinge, label=label, **_FIRST)
     _legend(power, lines + power.plot(phase, dataset["actuator_power"].values, label="actuator", **_SECOND))
 
 
@@ -202,10 +204,10 @@ def _draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
 
     phase, time, z = (dataset[name].values for name in ("phase", "time", "z"))
     pitch, rate = np.degrees(dataset["body_pitch"].values), np.degrees(dataset["pitch_rate"].values)
-    scale, unit = (1e3, "mm") if np.nanmax(np.abs(z)) < 0.5 else (1.0, "m")
+    scale, unit = (1e3, "mm") if np.fmax.reduce(np.abs(z)) < 0.5 else (1.0, "m")
     down = np.mod(phase, 1.0) < 0.5 - 1e-9
     halves = np.arange(math.ceil(2 * phase[0] - 1e-9), math.floor(2 * phase[-1] + 1e-9) + 1)
-    size = 1.0 if phase[-1] - phase[0] <= 6 else 0.5
+    size = 1.0 if phase[-1] - phase[0] <= 6 else 0.6
     marks: list[Any] = []
     for axes, place, speed, labels in (
         (
@@ -218,7 +220,7 @@ def _draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
         (panels[2], pitch, rate, ("body pitch ψ [deg]", "pitch rate q [deg/s]")),
     ):
         _dress(axes, *labels)
-        axes.locator_params(axis="x", nbins=4)
+        axes.locator_params(axis="x", nbins=5)
         axes.margins(0.08)
         for mask, label, style in ((down, "downstroke", _FIRST), (~down, "upstroke", _SECOND)):
             # Each piece between two samples belongs to the stroke of its first.
@@ -230,12 +232,15 @@ def _draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
             (halves[halves % 2 == 1], "o", 4),
         ):
             at = [np.interp(starts / 2, phase, values) for values in (place, speed)]
-            marks += axes.plot(*at, "k", linestyle="", marker=marker, markersize=size * points, zorder=3)
-    x = dataset["x"].values
-    advance = (x[-1] - x[0]) / (phase[-1] - phase[0])
-    mean = (x[-1] - x[0]) / (time[-1] - time[0])
-    label = f"mean {mean:.3g} m/s, {advance:.3g} m a beat"
-    _legend(panels[0], panels[0].plot(x[[0, -1]], [mean, mean], label=label, **_MEAN))
+            marks += axes.plot(
+                *at, "k", linestyle="", marker=marker, markersize=size * points, mew=0.9 * size, zorder=3
+            )
+    flown = _flown(dataset)
+    if flown.sum() > 1:
+        beats, span, x = (np.ptp(phase[flown]), np.ptp(time[flown]), dataset["x"].values[flown][[0, -1]])
+        mean, advance = (x[1] - x[0]) / span, (x[1] - x[0]) / beats
+        label = f"mean {mean:.4g} m/s, {advance:.3g} m a beat"
+        _legend(panels[0], panels[0].plot(x, [mean, mean], label=label, **_MEAN))
     _legend(panels[1], panels[1].get_lines()[:2])
     starts = {"labels": ["start of down- and upstroke"], "handler_map": {tuple: HandlerTuple(None)}}
     _legend(panels[2], [tuple(marks)], **starts)
@@ -255,9 +260,14 @@ def _draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
         axes.axhline(0, color=_MEAN["color"], linewidth=0.5)
         for station, name, style in ((0.25, "1/4 span", _FIRST), (0.75, "3/4 span", _SECOND)):
             # Strip centres need not lie there: linear in between, and the last one beyond.
-            line = np.array([np.interp(station, place, row) for row in strips])
+            line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
             axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
         _legend(axes, axes.get_lines()[1:])
+
+
+def _flown(dataset: xr.Dataset) -> np.ndarray:
+    """Return which samples were reached before the vehicle tumbled, if it did."""
+    return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
 
 
 def _turned(angle: np.ndarray) -> np.ndarray:
@@ -282,6 +292,7 @@ def _legend(axes: Axes, handles: Any, **options: Any) -> None:
 def _dress(axes: Axes, xlabel: str, ylabel: str) -> None:
     axes.set(xlabel=xlabel, ylabel=ylabel)
     axes.tick_params(labelsize=7, length=2, pad=2)  # said here, for ticks are made only when drawn
+    axes.ticklabel_format(style="plain", useOffset=False)  # a common factor would stand in the legend
     axes.locator_params(nbins=6)
 
 

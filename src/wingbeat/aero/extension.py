@@ -127,9 +127,7 @@ class ExtendedKernel(NamedTuple):
         near_zero, near_right = acute < self.width, -short < self.width
         squared, short_squared = folded * folded, short * short
 
-        lift = jnp.where(
-            near_right, short * horner(self.lift.at_right, short_squared), self.pieces.lift(acute)
-        )
+        lift = jnp.where(near_right, short * horner(self.lift.at_right, short_squared), self.pieces.lift(acute))
         lift = jnp.where(near_zero, folded * horner(self.lift.at_zero, squared), sign * lift)
         drag = jnp.where(near_right, horner(self.drag.at_right, short_squared), self.pieces.drag(acute))
         drag = jnp.where(near_zero, horner(self.drag.at_zero, squared), drag)
@@ -156,9 +154,7 @@ class ExtendedKernel(NamedTuple):
         return centre
 
 
-def _patch(
-    piece: Function, behind: Jet, width: Any, extension: str, name: str, signed: tuple[str, ...]
-) -> Any:
+def _patch(piece: Function, behind: Jet, width: Any, extension: str, name: str, signed: tuple[str, ...]) -> Any:
     """Return what `extension` lays over one mirrored coefficient; `behind` is its jet beyond -90 degrees."""
     if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
         return SignedPatch(Join.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))

@@ -92,9 +92,7 @@ class FormulaTerms:
         for name in ("constant", "amplitude", "rate", "phase_deg"):
             faults.number(f"terms.{name}", getattr(self, name))
         if self.decay_amplitude is not None or self.decay_rate is not None:
-            faults.number(
-                "terms.decay_amplitude", self.decay_amplitude, fix="give both decay terms or neither"
-            )
+            faults.number("terms.decay_amplitude", self.decay_amplitude, fix="give both decay terms or neither")
             fix = "give both decay terms or neither; the term is exp(-decay_rate a), a in degrees"
             faults.number("terms.decay_rate", self.decay_rate, at_least=0, unit="1/deg", fix=fix)
         faults.raise_if_any()
@@ -114,9 +112,7 @@ class FormulaTerms:
             decay_amplitude = decay_rate = 0.0 if with_decay else None
         else:
             decay_rate = decay_rate * _DEG
-        return Wave(
-            self.constant, self.amplitude, self.rate, self.phase_deg / _DEG, decay_amplitude, decay_rate
-        )
+        return Wave(self.constant, self.amplitude, self.rate, self.phase_deg / _DEG, decay_amplitude, decay_rate)
 
 
 @register_record
@@ -156,16 +152,11 @@ class CentreTerms:
 def _check_range(faults: FaultList, where: str, limits: Any) -> None:
     if not isinstance(limits, tuple) or len(limits) != 2:
         faults.add(where, limits, "must be a pair", "give (lowest, highest)")
-    elif (
-        all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)])
-        and limits[0] > limits[1]
-    ):
+    elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
         faults.add(where, limits, "must not fall", "give (lowest, highest)")
 
 
-@register_record(
-    static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension")
-)
+@register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension"))
 @dataclass(frozen=True)
 class FormulaCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from formulas fitted to one side of a wing.

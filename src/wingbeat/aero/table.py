@@ -107,12 +107,8 @@ class TableCoefficients(CoefficientModel):
     def __post_init__(self) -> None:
         faults = FaultList()
         check_extension(faults, self.extension, self.blend_width_deg)
-        raw = {
-            name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL) if getattr(self, name) is not None
-        }
-        columns = {
-            name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw
-        }
+        raw = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL) if getattr(self, name) is not None}
+        columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
                 rule = f"has not the length of alpha_deg, {len(columns['alpha_deg'])}"
@@ -171,9 +167,7 @@ def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
     except OSError as error:
         raise FileError(f"{path}: cannot be read ({error.strerror}); give the path to a CSV file") from None
     lines = enumerate(csv.reader(text.splitlines()), start=1)
-    return [
-        (i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")
-    ]
+    return [(i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")]
 
 
 def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> None:
@@ -191,9 +185,7 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
             faults.add(where, column, "stands there twice", "keep one")
 
 
-def load_table(
-    path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
-) -> TableCoefficients:
+def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
     """Read a coefficient table from a CSV file with the columns alpha_deg, c_l, c_d and, if known, x_cp.
 
     Blank rows and rows that begin with # are skipped.

@@ -44,9 +44,7 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
             faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
     for i, drag in enumerate(columns["c_d"]):
         if drag < 0:
-            faults.add(
-                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "turn its sign"
-            )
+            faults.add(where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "turn its sign")
     if len(angles) < MIN_ROWS:
         rule = f"has fewer than {MIN_ROWS} rows, which is too few for a cubic spline"
         faults.add("rows", len(angles), rule, "measure at more angles")
@@ -75,11 +73,7 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         faults.add(at_first, first, rule, "drop the negative rows or use signed")
     elif first > -90 and extension.startswith("signed"):
         rule = f"the extension {extension} needs the table to begin at -90 degrees or below"
-        fix = (
-            "use mirrored"
-            if first >= 0
-            else "add rows down to -90, or drop the negative rows and use mirrored"
-        )
+        fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"
         faults.add(at_first, first, rule, fix)
 
 

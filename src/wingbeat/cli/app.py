@@ -39,7 +39,7 @@ COMMANDS = {
 
 def build_app() -> App:
     """Return the command line with every command registered and none imported."""
-    app = App(name="wingbeat", version=__version__, help=HELP)
+    app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
         app.command(f"wingbeat.cli.{name}:{name}", name=name, help=text)
     return app

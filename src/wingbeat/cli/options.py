@@ -48,8 +48,6 @@ def species_with(name: str, settings: list[str] | None) -> Species:
     return species.with_values(values) if values else species
 
 
-def aero_with(
-    name: str, extension: str, blend_width_deg: float, strips: int, force_point: str
-) -> BladeElement:
+def aero_with(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
     """Return the air loads that the options ask for."""
     return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point)

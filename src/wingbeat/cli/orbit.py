@@ -85,7 +85,7 @@ def orbit(
         assert species is not None
         assert speed is not None
         animal = species_with(species, set_)
-        bounds = None
+        bounds = {}
         if flap_amplitude_max is not None:
             least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
             faults.number("--flap-amplitude-max", flap_amplitude_max, above=0, below=180, unit="degrees")

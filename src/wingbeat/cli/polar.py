@@ -28,9 +28,7 @@ Columns = dict[str, list[float] | list[None]]
 def polar(
     model: Annotated[str, Parameter(help="Name of a coefficient model, or path of a table ending in .csv.")],
     *,
-    alpha: Annotated[
-        str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")
-    ] = "0:110:2",
+    alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "0:110:2",
     about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
         str,
@@ -153,9 +151,7 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
         axes.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 2, 3, 4.5, 5, 6, 9, 10]))
         if axes.get_subplotspec().is_last_row():
             axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
-    figure.legend(
-        *figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9
-    )
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure
 
 

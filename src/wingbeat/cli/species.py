@@ -30,7 +30,12 @@ def show(
     alternative: Annotated[str | None, Parameter(help="Take the numbers of this alternative.")] = None,
     set_: Annotated[
         list[str] | None,
-        Parameter(name="--set", negative="", help="PATH=VALUE, for example wing.mass=0.02; may be repeated."),
+        Parameter(
+            name="--set",
+            consume_multiple=True,
+            negative="",
+            help="Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...",
+        ),
     ] = None,
     json: Annotated[bool, Parameter(negative="", help="Print JSON: SI units and radians.")] = False,
     schema: Annotated[bool, Parameter(negative="", help="Print the JSON schema of species files.")] = False,
@@ -144,9 +149,7 @@ def _print_list(everyone: list[Species]) -> None:
         table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}")
     console = _console()
     console.print(table)
-    console.print(
-        "wingbeat species NAME shows every number of one; wingbeat species new FILE starts your own."
-    )
+    console.print("wingbeat species NAME shows every number of one; wingbeat species new FILE starts your own.")
 
 
 def _print_species(animal: Species) -> None:

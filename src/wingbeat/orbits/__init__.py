@@ -1,0 +1,1 @@
+"""Periodic orbits: the problem, the search for it, the certificate."""

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat.flights import integrate, state_rates
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
-from wingbeat.flights import integrate, state_rates
 
 SAMPLES = 256
 
@@ -43,10 +43,12 @@ class Certificate:
 
 @jax.jit
 def _fly_with_variations(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
-    def rates(phase: Any, state: Any, args: Any) -> Any:
+    def rates(phase: Any, state: Any, args: tuple[FlightModel, Wingbeat]) -> Any:
+        flown, beat = args
+
         def body(pitch_state: Any) -> Any:
             place = jnp.zeros(2)  # nothing depends on where the vehicle is
-            return state_rates(*args, phase, jnp.concatenate([place, pitch_state])) / args[1].frequency
+            return state_rates(flown, beat, phase, jnp.concatenate([place, pitch_state])) / beat.frequency
 
         value, along = jax.linearize(body, state[2:6])
         varied = jax.vmap(along, in_axes=1, out_axes=1)(state[6:].reshape(4, 4))

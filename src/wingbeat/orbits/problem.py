@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat.aero import BladeElement, SuFan
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, flight_model
 from wingbeat.orbits.objectives import Frequency, Objective
@@ -68,10 +68,10 @@ class OrbitProblem:
     speed: float
     climb: float = 0.0
     aero: Any = field(default_factory=SuFan)
-    free: tuple[str, ...] | None = None
-    bounds: Bounds | None = None
+    free: tuple[str, ...] = ()
+    bounds: Bounds = field(default_factory=dict)
     minimise: Objective = field(default_factory=Frequency)
-    air: Air | None = None
+    air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -87,8 +87,9 @@ class OrbitProblem:
         aero = self.aero if isinstance(self.aero, BladeElement) else BladeElement(self.aero)
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
-        free = tuple(self.species.free if self.free is None else self.free)
-        bounds = {**self.species.bounds, "body_pitch": self.species.body_pitch_bounds, **(self.bounds or {})}
+        object.__setattr__(self, "bounds", dict(self.bounds or {}))
+        free = tuple(self.free or self.species.free)
+        bounds = {**self.species.bounds, "body_pitch": self.species.body_pitch_bounds, **self.bounds}
         self._check_free(faults, free, bounds)
         object.__setattr__(self, "free", free)
         object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, "body_pitch")})
@@ -107,14 +108,26 @@ class OrbitProblem:
             if name not in free:
                 fix = f"add {name} to free"
                 faults.add("free", free, f"leaves {self.minimise.name} nothing to change", fix)
-        for name, pair in (self.bounds or {}).items():
+        for name, pair in self.bounds.items():
             if name != "body_pitch" and name not in free:
                 faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
                 faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
-            elif all(faults.number(f"bounds.{name}", value) for value in pair) and not pair[0] < pair[1]:
-                faults.add(f"bounds.{name}", pair, "lower must be below upper")
+            elif all(faults.number(f"bounds.{name}", value) for value in pair):
+                if not pair[0] < pair[1]:
+                    faults.add(f"bounds.{name}", pair, "lower must be below upper")
+                if name != "body_pitch":
+                    self._check_reach(faults, name, pair)
         faults.raise_if_any()
+
+    def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:
+        """Note a fault where a bound lets the search reach a wingbeat that cannot be."""
+        for value in pair:
+            try:
+                dataclasses.replace(self.species.wingbeat, **{name: value})
+            except InvalidInputError as error:
+                faults.add(f"bounds.{name}", pair, f"reaches the impossible: {error.faults[0].rule}")
+                return
 
     @property
     def vehicle(self) -> Vehicle:
@@ -132,7 +145,7 @@ class OrbitProblem:
         The bounds of the start's velocities are generous: they keep the search out of nonsense and are not meant
         to be met.
         """
-        free, bounds = self.free or (), self.bounds or {}
+        free, bounds = self.free, self.bounds
         wander = 5.0 + 0.5 * self.speed
         limits = [
             bounds["body_pitch"],
@@ -147,7 +160,7 @@ class OrbitProblem:
 
     def wingbeat(self, unknowns: np.ndarray) -> Wingbeat:
         """Return the species' wingbeat with the free parameters taken from the unknowns."""
-        values = dict(zip(self.free or (), (float(v) for v in unknowns[4:]), strict=True))
+        values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
         return dataclasses.replace(self.species.wingbeat, **values)
 
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
@@ -159,7 +172,7 @@ class OrbitProblem:
         """Return the derivative of the miss from that of the end of the period."""
         jacobian = np.array(end_jacobian)
         jacobian[2:, :4] -= np.eye(4)
-        if "frequency" in (self.free or ()):
-            column = 4 + (self.free or ()).index("frequency")
+        if "frequency" in self.free:
+            column = 4 + self.free.index("frequency")
             jacobian[:2, column] += np.array([self.speed, self.climb]) / frequency**2
         return jacobian

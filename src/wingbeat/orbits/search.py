@@ -85,7 +85,7 @@ def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 40) 
     found = least_squares(
         misses,
         np.clip(scaled, problem.lower + inside, problem.upper - inside),
-        jac=jacobian,
+        jac=jacobian,  # type: ignore[arg-type]
         bounds=(problem.lower, problem.upper),
         max_nfev=evaluations,
         xtol=1e-9,
@@ -116,9 +116,7 @@ def active_bounds(problem: Transcription, scaled: np.ndarray) -> tuple[str, ...]
     """Return the names of the unknowns at a bound; ``body_pitch`` stands for the whole path."""
     names = [
         name
-        for name, x, lower, upper in zip(
-            problem.unknowns.names, scaled, problem.lower, problem.upper, strict=True
-        )
+        for name, x, lower, upper in zip(problem.unknowns.names, scaled, problem.lower, problem.upper, strict=True)
         if name != "body_pitch" and min(x - lower, upper - x) <= _AT_BOUND * (upper - lower)
     ]
     if problem.pitch_margin(scaled).min() <= _AT_BOUND:

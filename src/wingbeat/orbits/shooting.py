@@ -59,8 +59,11 @@ def tabulate_tangents(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], values: Any, steps: int
 ) -> tuple[StageTables, StageTables]:
     """Tabulate the wing and its derivatives (leading axis) with respect to the free parameters."""
-    tables, along = jax.linearize(lambda v: tabulate(model, unpack(free, wingbeat, v), steps), values)
-    return tables, jax.vmap(along)(jnp.eye(len(free)))
+
+    def along(seed: Any) -> tuple[StageTables, StageTables]:
+        return jax.jvp(lambda v: tabulate(model, unpack(free, wingbeat, v), steps), (values,), (seed,))
+
+    return jax.vmap(along, out_axes=(None, 0))(jnp.eye(len(free)))
 
 
 def _rk4(model: FlightModel, motion: WingMotion, step: Any, state: Any) -> tuple[Any, Any]:

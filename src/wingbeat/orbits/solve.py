@@ -92,9 +92,7 @@ def _size(miss: np.ndarray) -> float:
     return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
 
 
-def find_orbit(
-    problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None
-) -> Solution:
+def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
     Parameters

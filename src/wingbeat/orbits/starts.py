@@ -11,7 +11,7 @@ def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
     """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
     unknowns = problem.unknowns()
     stock = vars(problem.species.wingbeat)
-    first = np.array([0.1, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free or ())])
+    first = np.array([0.1, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free)])
     if index == 0:
         return np.clip(first, unknowns.lower, unknowns.upper)
     random = np.random.default_rng([seed, index])

@@ -38,7 +38,7 @@ class Transcription:
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
-        self.pitch_bounds = np.array((problem.bounds or {})["body_pitch"])
+        self.pitch_bounds = np.array(problem.bounds["body_pitch"])
         self.shift = np.zeros(6)
         self.flights = 0
         self.jacobians = 0
@@ -73,7 +73,7 @@ class Transcription:
     def _differentiated(self, scaled: np.ndarray) -> Point:
         point, unknowns, wingbeat = self._at(scaled)
         if point.closure_jacobian is None:
-            free = self.problem.free or ()
+            free = self.problem.free
             tangents = fly_with_tangents(self.model, wingbeat, free, unknowns[4:], unknowns[:4], self.steps)
             self.jacobians += 1
             closure = self.problem.closure_jacobian(np.asarray(tangents.end_jacobian), wingbeat.frequency)

@@ -59,9 +59,7 @@ class Flight:
         save_dataset(self.dataset, path)
 
 
-def simulate(
-    model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128
-) -> Flight:
+def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128) -> Flight:
     """Fly an initial state for a number of wingbeats with prescribed wings.
 
     Parameters

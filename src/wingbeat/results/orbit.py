@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 class Orbit:
     """One periodic orbit and everything about it; made by `solve_orbit` or `load_orbit`."""
 
-    def __init__(
-        self, record: dict[str, Any], inputs: dict[str, Any], series: Callable[[], xr.Dataset]
-    ) -> None:
+    def __init__(self, record: dict[str, Any], inputs: dict[str, Any], series: Callable[[], xr.Dataset]) -> None:
         self._record = record
         self._inputs = inputs
         self._series = series
@@ -85,9 +83,7 @@ class Orbit:
         save_dataset(self.dataset, path)
 
 
-def solve_orbit(
-    problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None
-) -> Orbit:
+def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None) -> Orbit:
     """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
 
     A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what to do.
@@ -119,9 +115,7 @@ def solve_orbit(
 
     def series() -> xr.Dataset:
         attributes = orbit_attributes(record, inputs, inputs_hash(inputs))
-        return flight_dataset(
-            model, solution.wingbeat, certificate.phase, certificate.states, found, attributes
-        )
+        return flight_dataset(model, solution.wingbeat, certificate.phase, certificate.states, found, attributes)
 
     return Orbit(record, inputs, series)
 

@@ -100,7 +100,7 @@ def _coefficients(aero: dict[str, Any]) -> Any:
     extension, width = aero["extension"], aero["blend_width_deg"]
     if "table" not in aero:
         return load_coefficients(aero["coefficients"], extension, width)
-    table = {key: tuple(v) if isinstance(v, list) else v for key, v in aero["table"].items()}
+    table: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in aero["table"].items()}
     return TableCoefficients(**table, extension=extension, blend_width_deg=width)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement
 from wingbeat.loads import Loads
+from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Solution, Status
 from wingbeat.results.warnings import orbit_warnings
@@ -51,7 +52,7 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "climb": float(problem.climb),
         "objective": problem.minimise.name,
         "wingbeat": dict(vars(wingbeat)),
-        "initial_state": dict(zip(certificate_names(), certificate.states[0].tolist(), strict=True)),
+        "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
         "optimality": solution.optimality,
@@ -73,11 +74,6 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
     return finite_or_none(record)
 
 
-def certificate_names() -> tuple[str, ...]:
-    """Return the names of the columns of a certificate's states."""
-    return ("x", "z", "body_pitch", "u", "w", "pitch_rate")
-
-
 def beat_mean(values: np.ndarray) -> float:
     """Return the mean over one beat of samples at equal phases from 0 to 1, both ends included."""
     return float(np.trapezoid(values, dx=1.0 / (len(values) - 1)))
@@ -87,8 +83,7 @@ def power_summary(solution: Solution, found: Loads) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
     problem = solution.problem
     positive = beat_mean(np.maximum(found.hinge_power, 0.0))
-    weight = problem.vehicle.mass * problem.species.air.gravity if problem.air is None else None
-    weight = weight or problem.vehicle.mass * problem.air.gravity  # type: ignore[union-attr]
+    weight = problem.vehicle.mass * problem.air.gravity
     return {
         "mean_power": beat_mean(found.hinge_power),
         "peak_power": float(found.hinge_power.max()),
@@ -102,19 +97,18 @@ def power_summary(solution: Solution, found: Loads) -> dict[str, float | None]:
 def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: float) -> dict[str, float | None]:
     """Return Strouhal number, reduced frequency and Reynolds number; None in hover; the chord is the mean chord."""
     wing, speed = problem.vehicle.wing, problem.speed
-    air = problem.air or problem.species.air
     if speed == 0:
         return {"strouhal": None, "reduced_frequency": None, "reynolds": None}
     return {
         "strouhal": 2.0 * frequency * wing.semi_span * math.sin(flap_amplitude) / speed,
         "reduced_frequency": math.pi * frequency * wing.mean_chord / speed,
-        "reynolds": speed * wing.mean_chord / air.viscosity,
+        "reynolds": speed * wing.mean_chord / problem.air.viscosity,
     }
 
 
 def alpha_range(found: Loads, station: float) -> list[float]:
     """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
-    alpha = at_station(np.unwrap(found.alpha, axis=0), station)
+    alpha = at_station(found.alpha, station)
     return [float(alpha.min()), float(alpha.max())]
 
 

@@ -19,7 +19,7 @@ _MENTION = 0.01
 def orbit_warnings(solution: Solution, found: Loads) -> list[str]:
     """Return everything a reader should know before trusting an orbit."""
     problem = solution.problem
-    air = problem.air or problem.species.air
+    air = problem.air
     notes = list(problem.species.warnings)
     notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
     notes += fitted_range(solution, found)
@@ -52,7 +52,7 @@ def fitted_range(solution: Solution, found: Loads) -> list[str]:
     """Warn of the share of the beat, over all strips, outside the coefficients' Reynolds and alpha range."""
     problem = solution.problem
     coefficients = problem.aero.coefficients
-    air = problem.air or problem.species.air
+    air = problem.air
     notes = []
     if coefficients.reynolds_range is not None:
         chord = np.asarray(strips_of(problem.vehicle.wing, problem.aero.strips).chord)

@@ -37,6 +37,7 @@ class Species:
     alternatives : named sets of other numbers.
     warnings : what looks odd, such as a number outside its plausible range.
 
+    >>> from wingbeat.species import load_species
     >>> pigeon = load_species("pigeon")
     >>> round(pigeon.vehicle.mass, 3), pigeon.vehicle.wing.semi_span
     (0.316, 0.279)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from wingbeat.errors import FaultList, FileError
-from wingbeat.species_schema import KEYS, Key, parse_toml, shown, suggest
+from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken, suggest
 
 __all__ = ["parse_setting", "plain", "settable"]
 
@@ -43,7 +43,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     except FileError:
         table = {}
     if list(table) != ["value"] or not isinstance(table["value"], list):
-        faults.add(path, value, "is not a number or a list of numbers", "for example 0.02 or [0.1, 0.08]")
+        faults.add(spoken(path), value, "is not a number or a list of numbers", "for example 0.02 or [0.1, 0.08]")
         faults.raise_if_any()
     return path, table["value"]
 
@@ -56,7 +56,7 @@ def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
         fix = "set body.mass or wing.mass, the whole mass follows from both"
     else:
         fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
-    faults.add(str(shown(path)), shown(value), "is not the path of a number", fix)
+    faults.add(spoken(path), shown(value), "is not the path of a number", fix)
     return None
 
 

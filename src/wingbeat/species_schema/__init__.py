@@ -1,7 +1,7 @@
 """Species files: what they may hold, faults in words, and the numbers read from them. No physics."""
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
-from wingbeat.species_schema.faults import check_value, shown, suggest
+from wingbeat.species_schema.faults import check_value, shown, spoken, suggest
 from wingbeat.species_schema.keys import KEYS, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
@@ -32,6 +32,7 @@ __all__ = [
     "read_species_text",
     "shown",
     "species_names",
+    "spoken",
     "suggest",
     "template",
     "to_si",

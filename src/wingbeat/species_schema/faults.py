@@ -14,7 +14,7 @@ from wingbeat.errors import FaultList
 from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, SpeciesFile
 
-__all__ = ["NOTHING", "Shown", "check_shape", "check_value", "dotted", "has_shape", "shown", "suggest"]
+__all__ = ["NOTHING", "Shown", "check_shape", "check_value", "dotted", "has_shape", "shown", "spoken", "suggest"]
 
 MAX_FAULTS = 100
 
@@ -53,6 +53,12 @@ def dotted(path: Iterable[Any]) -> str:
             bare = re.fullmatch(r"[A-Za-z0-9_-]+", part)
             text += "." * bool(text) + (part if bare else json.dumps(part))[:80]
     return text
+
+
+def spoken(path: Any) -> str:
+    """Return a path somebody typed as it is if it can be printed, else in quotes with escapes."""
+    text = str(shown(path))
+    return text if text.isprintable() and text.strip() and len(text) <= 80 else json.dumps(text)[:80]
 
 
 def suggest(word: str, known: Iterable[str]) -> str:

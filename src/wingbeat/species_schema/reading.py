@@ -24,6 +24,8 @@ __all__ = [
     "to_si",
 ]
 
+# tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
+MAX_LINE = 4096
 Value = float | tuple[float, ...]
 
 
@@ -95,6 +97,11 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
     ------
     FileError : empty, not TOML, or nested beyond reason.
     """
+    longest = max(map(len, text.split("\n")))
+    if longest > MAX_LINE:
+        raise FileError(
+            f"cannot read {label!r}: a line has {longest} characters, more than {MAX_LINE}; break it up"
+        )
     try:
         raw = tomllib.loads(text)
     except RecursionError:
@@ -103,9 +110,7 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
         reason = " ".join(str(error).split())[:200]
         raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
     if not raw:
-        raise FileError(
-            f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from"
-        )
+        raise FileError(f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from")
     return raw
 
 
@@ -174,9 +179,7 @@ def _leaf(raw: dict[str, Any], path: str) -> Any:
     return place
 
 
-def _spelt(
-    raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList
-) -> Iterator[tuple[str, Any]]:
+def _spelt(raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList) -> Iterator[tuple[str, Any]]:
     """Yield the path and the leaf of a key under whichever of its names the file uses."""
     found = [(path, leaf) for path in key.spellings if (leaf := _leaf(raw, path)) is not None]
     if len(found) > 1:
@@ -228,9 +231,7 @@ def _bounds(
             if (limits := _range(path, pair, path, faults)) is None:
                 continue
             if limits[0] == limits[1]:
-                faults.add(
-                    path, pair, "leaves no room between its bounds", "widen them, or take it out of free"
-                )
+                faults.add(path, pair, "leaves no room between its bounds", "widen them, or take it out of free")
             bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
             written[key.name] = (path, pair)
     return bounds

@@ -1,0 +1,101 @@
+"""Tables of what the numbers of the method do to the answer: strips, steps, blend width, extension.
+
+Run from the root of a clone; it rewrites docs/convergence.md::
+
+    uv run python benchmarks/convergence.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+import wingbeat as wb
+from wingbeat.orbits.shooting import fly
+from wingbeat.orbits.solve import find_orbit
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "convergence.md"
+CASES = (("pigeon", 10.0), ("bat", 8.0))
+
+
+def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    lines = [header, tuple("---" for _ in header), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def solved(name: str, speed: float, aero: object) -> wb.Orbit:
+    return wb.solve_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed, aero=aero), starts=6)
+
+
+def row(label: str, orbit: wb.Orbit) -> tuple[str, ...]:
+    record = orbit.record()
+    return (
+        label,
+        f"{record['wingbeat']['frequency']:.4f}",
+        f"{record['mean_power']:.3f}",
+        f"{record['peak_power']:.2f}",
+        f"{max(abs(v) for v in record['closure'].values()):.0e}",
+        record["status"],
+    )
+
+
+HEAD = ("frequency [Hz]", "mean hinge power [W]", "peak [W]", "closure", "status")
+
+
+def strips(name: str, speed: float) -> str:
+    blade = wb.aero.BladeElement
+    rows = [row(str(n), solved(name, speed, blade(wb.aero.SuFan(), n))) for n in (5, 10, 20, 40, 80)]
+    return table(("strips", *HEAD), rows)
+
+
+def widths(name: str, speed: float) -> str:
+    rows = [
+        row(f"{width:g}", solved(name, speed, wb.aero.SuFan(blend_width_deg=width)))
+        for width in (0.5, 1.0, 1.5, 2.0, 3.0)
+    ]
+    return table(("blend width [deg]", *HEAD), rows)
+
+
+def extensions(name: str, speed: float) -> str:
+    rows = [
+        row(f"{maker().name}, {kind}", solved(name, speed, maker(extension=kind)))
+        for maker in (wb.aero.SuFan, wb.aero.Dickinson)
+        for kind in wb.aero.EXTENSIONS
+    ]
+    return table(("coefficients, extension", *HEAD), rows)
+
+
+def steps(name: str, speed: float) -> str:
+    """Fly one certified orbit with fixed steps: the largest miss against the certifier's end."""
+    solution = find_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed), starts=2)
+    start, end = solution.certificate.states[0][2:], solution.certificate.end
+    rows = []
+    for count in (32, 64, 128, 256, 512, 1024):
+        flown = fly(solution.problem.model, solution.wingbeat, start, count)
+        rows.append((str(count), f"{np.abs(np.asarray(flown.end) - end).max():.1e}"))
+    return table(("RK4 steps a beat", "largest miss (m, rad, m/s, rad/s)"), rows)
+
+
+def main() -> None:
+    parts = [
+        "# Convergence\n",
+        "Written by `uv run python benchmarks/convergence.py`; default wings and bounds, mirrored extension, Su-Fan "
+        "coefficients and minimum frequency where nothing else is said.\n",
+    ]
+    for title, make in (
+        ("Number of strips", strips),
+        ("Steps of the search", steps),
+        ("Width of the blends at 0, 90 and 180 degrees", widths),
+        ("Extension to negative angles", extensions),
+    ):
+        parts.append(f"## {title}\n")
+        for name, speed in CASES:
+            print(title, name, flush=True)
+            parts.append(f"{name.capitalize()} at {speed:g} m/s:\n\n{make(name, speed)}")
+    PAGE.parent.mkdir(exist_ok=True)
+    PAGE.write_text("\n".join(parts), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

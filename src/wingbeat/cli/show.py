@@ -1,0 +1,36 @@
+"""``wingbeat show``: print what a saved orbit or flight holds."""
+
+from __future__ import annotations
+
+import json as json_format
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.results.storage import KIND, parse_attributes
+
+
+def show(
+    file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
+    *,
+    json: Annotated[bool, Parameter(negative="", help="Print JSON alone: SI units and radians.")] = False,
+) -> None:
+    """Print a saved orbit's record, or a flight's summary.
+
+    Angles are printed in degrees; with --json in radians, as everywhere in files.
+    """
+    from rich.console import Console
+
+    dataset = read_result(file)
+    # Names and messages come from files: what looks like markup in them is text.
+    console = Console(markup=False, highlight=False, emoji=False)
+    is_orbit = dataset.attrs[KIND] == "orbit"
+    record = parse_attributes(dataset.attrs, file)[0] if is_orbit else flight_summary(dataset, file)
+    if json:
+        print(json_format.dumps(record, indent=2, allow_nan=False))
+    elif is_orbit:
+        print_orbit(record, console)
+    else:
+        print_flight(record, console)

@@ -1,0 +1,284 @@
+"""The command line around species: what it prints, what it refuses and how, and how soon it answers."""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cyclopts import App
+
+from wingbeat._version import __version__
+from wingbeat.cli import main
+from wingbeat.cli.app import COMMANDS, build_app
+from wingbeat.errors import FileError
+from wingbeat.species import load_species, template
+
+HEAVY = ("jax", "numpy", "scipy", "matplotlib", "xarray", "pandas", "pydantic", "diffrax")
+
+
+def wingbeat(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
+    """Run the real program, as a shell would."""
+    command = [sys.executable, "-W", "error", "-c", "import sys; from wingbeat.cli import main; sys.exit(main())"]
+    return subprocess.run([*command, *words], capture_output=True, text=True, check=False, **options)
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Run the program in this process: exit code, stdout, lines on stderr."""
+    monkeypatch.setenv("COLUMNS", "160")
+
+    def run_here(*words: str, app: App | None = None) -> tuple[int, str, list[str]]:
+        code = main(words, app=app)
+        printed = capsys.readouterr()
+        return code, printed.out, printed.err.splitlines()
+
+    return run_here
+
+
+# --- the program itself ---
+
+
+def test_help_names_every_command_and_imports_nothing_heavy() -> None:
+    code = (
+        "import sys; from wingbeat.cli import main; assert main(['--help']) == 0;"
+        f"print('HEAVY', sorted(set({HEAVY!r}) & set(sys.modules)))"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert "HEAVY []" in shown
+    for name in COMMANDS:
+        assert f" {name} " in shown
+
+
+def test_help_takes_less_than_half_a_second_of_work() -> None:
+    # CPU time and not the clock's: other tests run beside this one.
+    def work() -> float:
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    def one() -> float:
+        before = work()
+        assert wingbeat("--help").returncode == 0
+        return work() - before
+
+    assert min(one() for _ in range(4)) < 0.5
+
+
+def test_version_and_no_command() -> None:
+    assert wingbeat("--version").stdout.strip() == __version__
+    nothing = wingbeat()
+    assert (nothing.returncode, nothing.stderr) == (0, "")
+    assert "Usage: wingbeat COMMAND" in nothing.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["specis"], "error: unknown command 'specis'; did you mean 'species'?"),
+        (["--jsno"], "error: unknown option '--jsno'; use one of "),
+        (["species", "--jsno"], "error: Unknown option: --jsno. Did you mean --json?"),
+        (["species", "pigeon", "bat"], "error: "),
+        (["species", "pigon"], "error: species = 'pigon': is not in the box; did you mean pigeon"),
+        (["species", "none.toml"], "error: cannot read 'none.toml': no such file or directory"),
+        (["species", "--set", "wing.mass=1"], "error: --set = 'no species': needs a species to change"),
+        (["species", "pigeon", "--set", "wing.mas=1"], "error: wing.mas = 1.0: is not the path of a number; did"),
+        (["species", "pigeon", "--alternative", "x"], "error: alternative = 'x': is unknown; use one of avin"),
+        (["species", "new"], "error: "),
+        (["species", "new", "no/such/folder/x.toml"], "error: cannot write 'no/such/folder/x.toml': no such"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(run: Any, words: list[str], line: str) -> None:
+    code, out, errors = run(*words)
+    assert (code, out, len(errors)) == (2, "", 1)
+    assert errors[0].startswith(line)
+
+
+def test_the_real_program_ends_the_same_way(tmp_path: Path) -> None:
+    (tmp_path / "bad.toml").write_text("[vehicle]\nmass = -1\n[air]\ndensity = 0\n")
+    ended = wingbeat("species", "bad.toml", cwd=tmp_path)
+    lines = ended.stderr.splitlines()
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert all(line.startswith("error: ") for line in lines)
+    assert len(lines) > 5
+    assert any(line.startswith("error: air.density = 0: must be > 0 kg/m3") for line in lines)
+
+
+def test_a_command_whose_module_is_missing_does_not_break_the_others(
+    run: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(COMMANDS, "nowhere", "is not there")
+    assert run("nowhere")[::2] == (2, ["error: the command 'nowhere' is not part of this installation"])
+    assert run("species")[0] == 0
+    assert "nowhere" in run("--help")[1]
+
+
+def test_numbers_below_zero_are_values_and_codes_are_handed_on(run: Any) -> None:
+    app, seen = build_app(), []
+
+    @app.command
+    def probe(*, climb: float, alpha: str) -> int:
+        seen.append((climb, alpha))
+        return 3
+
+    assert run("probe", "--climb", "-1", "--alpha=-180:180:1", app=app)[0] == 3
+    assert run("probe", "--climb=-1.5e-3", "--alpha", "-5", app=app)[0] == 3
+    assert seen == [(-1.0, "-180:180:1"), (-1.5e-3, "-5")]
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "lines"),
+    [
+        (KeyboardInterrupt(), 130, ["error: interrupted"]),
+        (BrokenPipeError(), 141, []),
+        (FileError("one\ntwo"), 2, ["error: one", "error: two"]),
+        (SystemExit(5), 5, []),
+        (SystemExit(None), 0, []),
+    ],
+)
+def test_how_a_command_may_end(run: Any, error: BaseException, code: int, lines: list[str]) -> None:
+    app = build_app()
+
+    @app.command
+    def probe() -> None:
+        raise error
+
+    assert run("probe", app=app)[::2] == (code, lines)
+
+
+def test_a_fault_of_our_own_is_not_hidden(run: Any) -> None:
+    app = build_app()
+
+    @app.command
+    def probe() -> None:
+        raise ImportError("a broken installation")
+
+    with pytest.raises(ImportError):
+        run("probe", app=app)
+
+
+@pytest.mark.parametrize("words", ["--help", "species pigeon", "species pigeon --json"])
+def test_a_reader_who_leaves_early_is_no_error(words: str) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    code = f"from wingbeat.cli import main; import sys; sys.exit(main({words.split()!r}))"
+    ended = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code], stdout=writing, stderr=subprocess.PIPE, check=False
+    )
+    os.close(writing)
+    assert (ended.returncode, ended.stderr) == (141, b"")
+
+
+# --- wingbeat species ---
+
+
+def test_the_list(run: Any) -> None:
+    code, out, errors = run("species")
+    rows = {line.split()[0]: line for line in out.splitlines() if line.strip()}
+    assert (code, errors) == (0, [])
+    assert [word in rows["pigeon"] for word in ("316", "279", "112", "7.5e+04")] == [True] * 4
+    assert [word in rows["bat"] for word in ("68", "300", "100", "6.7e+04")] == [True] * 4
+
+
+def test_the_list_as_json(run: Any) -> None:
+    animals = {animal["name"]: animal for animal in json.loads(run("species", "--json")[1])}
+    assert list(animals) == ["bat", "pigeon"]
+    assert animals["pigeon"]["mass"] == pytest.approx(0.316)
+    assert animals["pigeon"]["reynolds_at_10_m_per_s"] == pytest.approx(0.112 * 10 / 1.5e-5)
+
+
+@pytest.mark.parametrize("name", ["pigeon", "bat"])
+def test_one_species_shows_every_number_bound_source_and_alternative(run: Any, name: str) -> None:
+    code, out, errors = run("species", name)
+    animal = load_species(name)
+    text = " ".join(out.split())
+    assert (code, errors) == (0, [])
+    for path, number in animal.numbers.items():
+        shown = path.removeprefix("vehicle.") + ("_deg" if number.unit == "rad" else "")
+        assert f" {shown} " in text
+        assert " ".join(number.source.split()) in text
+    for key in animal.free:
+        assert animal.reasons[key].removeprefix("guess: ") in text
+    for key, other in animal.alternatives.items():
+        assert f"alternative {key}: {other.reason}" in text
+
+
+@pytest.mark.parametrize("width", ["1", "20"])
+def test_a_narrow_terminal_is_no_error(run: Any, monkeypatch: pytest.MonkeyPatch, width: str) -> None:
+    monkeypatch.setenv("COLUMNS", width)
+    assert run("species", "pigeon")[::2] == (0, [])
+
+
+def test_a_terminal_that_knows_ascii_alone_is_no_error(tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(template().replace('name = "my-flyer"', 'name = "M\u00f6we"'), encoding="utf-8")
+    ended = wingbeat("species", str(path), env=os.environ | {"PYTHONIOENCODING": "ascii"})
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout.startswith("M\\xf6we")
+
+
+def test_one_species_as_json_is_its_dict(run: Any) -> None:
+    plain = json.loads(run("species", "bat", "--json")[1])
+    assert plain == json.loads(json.dumps(load_species("bat").as_dict()))
+
+
+def test_set_and_alternative(run: Any) -> None:
+    words = ("species", "pigeon", "--alternative", "avinertia", "--set", "wing.mass=0.05", "air.density=1")
+    changed = json.loads(run(*words, "--json")[1])
+    assert changed["vehicle"]["wing"]["mass"] == 0.05
+    assert changed["vehicle"]["wing"]["mass_exponent"] == 4.0
+    assert changed["air"]["density"] == 1.0
+    assert "warning: vehicle.wing.mass = 0.05 kg is outside" in run(*words)[1]
+
+
+def test_all_bad_settings_are_told_at_once(run: Any) -> None:
+    code, _, errors = run("species", "bat", "--set", "x", "--set", "wing.mass=y", "--set", "=1")
+    assert (code, len(errors)) == (2, 3)
+    code, _, errors = run("species", "bat", "--set", "wing.mass=1", "--set", "wing.mass=2")
+    assert (code, len(errors)) == (2, 1)
+
+
+def test_markup_in_a_file_is_text(run: Any, tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(template().replace('name = "my-flyer"', 'name = "[bold]:bat:[/x]"'))
+    code, out, _ = run("species", str(path))
+    assert code == 0
+    assert out.startswith("[bold]:bat:[/x]\n")
+
+
+def test_the_schema_is_json(run: Any) -> None:
+    assert json.loads(run("species", "--schema")[1])["title"] == "wingbeat species file"
+
+
+# --- wingbeat species new ---
+
+
+def test_new_writes_a_file_that_loads(run: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    code, out, errors = run("species", "new", str(path))
+    assert (code, errors) == (0, [])
+    assert str(path) in out
+    assert path.read_text() == template()
+    assert run("species", str(path))[0] == 0
+
+
+def test_new_does_not_replace_a_file_unless_forced(run: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text("precious")
+    code, _, errors = run("species", "new", str(path))
+    assert code == 2
+    assert "--force" in errors[0]
+    assert path.read_text() == "precious"
+    assert run("species", "new", str(path), "--force")[0] == 0
+    assert path.read_text() == template()
+    assert os.listdir(tmp_path) == ["mine.toml"]
+
+
+def test_new_refuses_folders_and_unwritable_places(run: Any, tmp_path: Path) -> None:
+    for path in (tmp_path, tmp_path / "none" / "x.toml", Path("/proc/x.toml")):
+        code, out, errors = run("species", "new", str(path), "--force")
+        assert (code, out, len(errors)) == (2, "", 1)
+        assert errors[0].startswith("error: cannot write")
+    assert os.listdir(tmp_path) == []

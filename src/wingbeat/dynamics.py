@@ -10,12 +10,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.frames import body_to_world, world_to_body
+from wingbeat.frames import Pair, body_to_world, world_to_body
 from wingbeat.jax64 import jnp
 from wingbeat.vehicle import Vehicle
 from wingbeat.wing_motion import WingMotion, dot, turned
-
-Pair = tuple[Any, Any]
 
 
 class BodyLoads(NamedTuple):

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.dynamics import body_drag, pressure_offset
-from wingbeat.frames import body_to_world, world_to_body
+from wingbeat.frames import Triple, body_to_world, world_to_body
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.model import FlightModel
@@ -50,9 +50,9 @@ class WingPoints(NamedTuple):
     normal: Any
 
 
-def _to_world(body_pitch: Any, vector: Any) -> Any:
-    x, z = body_to_world(body_pitch, vector[..., 0], vector[..., 2])
-    return jnp.stack([x, vector[..., 1], z], axis=-1)
+def _to_world(body_pitch: Any, vector: Triple) -> Any:
+    x, z = body_to_world(body_pitch, vector[0], vector[2])
+    return jnp.stack([x, vector[1], z], axis=-1)
 
 
 def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:

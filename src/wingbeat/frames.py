@@ -1,7 +1,8 @@
-"""Frames: body axes in the world, and the bases of stroke plane and wing, as plain tuples of components.
+"""Frames: body axes in the world, and the bases of stroke plane and wing, as tuples of components.
 
 World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive).
-Only the plane of symmetry turns, so in-plane vectors are pairs (forward, up).
+Only the plane of symmetry turns, so in-plane vectors are pairs (forward, up) and others triples (forward, left,
+up). Components stay apart because XLA on CPU works along the last axis, and three is a short axis.
 """
 
 from __future__ import annotations
@@ -9,30 +10,32 @@ from __future__ import annotations
 from typing import Any
 
 from wingbeat.elementary import cos, sin
-from wingbeat.jax64 import jnp
+
+Pair = tuple[Any, Any]
+Triple = tuple[Any, Any, Any]
 
 
-def body_to_world(body_pitch: Any, forward: Any, up: Any) -> tuple[Any, Any]:
+def body_to_world(body_pitch: Any, forward: Any, up: Any) -> Pair:
     """Turn an in-plane vector from body axes into the world (x, z)."""
     c, s = cos(body_pitch), sin(body_pitch)
     return c * forward - s * up, s * forward + c * up
 
 
-def world_to_body(body_pitch: Any, x: Any, z: Any) -> tuple[Any, Any]:
+def world_to_body(body_pitch: Any, x: Any, z: Any) -> Pair:
     """Turn an in-plane vector from the world into body axes (forward, up)."""
     c, s = cos(body_pitch), sin(body_pitch)
     return c * x + s * z, c * z - s * x
 
 
-def span_axis(flap: Any, stroke_plane_angle: Any) -> Any:
-    """Return the spanwise unit vector ``e_s = cos(phi) y + sin(phi) d_up`` in body axes, shape (..., 3)."""
+def span_axis(flap: Any, stroke_plane_angle: Any) -> Triple:
+    """Return the spanwise unit vector ``e_s = cos(phi) y + sin(phi) d_up`` in body axes."""
     cb, sb = cos(stroke_plane_angle), sin(stroke_plane_angle)
     c, s = cos(flap), sin(flap)
-    return jnp.stack([-s * cb, c, s * sb], axis=-1)
+    return -s * cb, c, s * sb
 
 
-def wing_axes(flap: Any, pitch: Any, stroke_plane_angle: Any) -> tuple[Any, Any]:
-    """Return the chordwise (to the leading edge) and normal unit vectors in body axes, shape (..., 3) each.
+def wing_axes(flap: Any, pitch: Any, stroke_plane_angle: Any) -> tuple[Triple, Triple]:
+    """Return the chordwise (to the leading edge) and normal unit vectors in body axes.
 
     ``e_c = cos(theta) e_c0 + sin(theta) e_n0``, ``e_n = -sin(theta) e_c0 + cos(theta) e_n0`` with
     ``e_c0 = (sin beta, 0, cos beta)`` and ``e_n0 = e_c0 x e_s = cos(phi) d_up - sin(phi) y``.
@@ -40,6 +43,6 @@ def wing_axes(flap: Any, pitch: Any, stroke_plane_angle: Any) -> tuple[Any, Any]
     cb, sb = cos(stroke_plane_angle), sin(stroke_plane_angle)
     cf, sf = cos(flap), sin(flap)
     cp, sp = cos(pitch), sin(pitch)
-    chordwise = jnp.stack([cp * sb - sp * cf * cb, -sp * sf, cp * cb + sp * cf * sb], axis=-1)
-    normal = jnp.stack([-sp * sb - cp * cf * cb, -cp * sf, -sp * cb + cp * cf * sb], axis=-1)
+    chordwise = cp * sb - sp * cf * cb, -sp * sf, cp * cb + sp * cf * sb
+    normal = -sp * sb - cp * cf * cb, -cp * sf, -sp * cb + cp * cf * sb
     return chordwise, normal

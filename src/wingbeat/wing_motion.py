@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from wingbeat.frames import span_axis, wing_axes
+from wingbeat.frames import Pair, Triple, span_axis, wing_axes
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.vehicle import Vehicle, Wing
@@ -23,11 +23,11 @@ class Strips(NamedTuple):
 
 
 class WingShape(NamedTuple):
-    """Where the strips are, body axes (forward, left, up), shape (..., N, 3) each."""
+    """Where the strips are, body axes: triples (forward, left, up) of arrays of shape (..., N)."""
 
-    quarter_chord: Any
-    chordwise: Any
-    normal: Any
+    quarter_chord: Triple
+    chordwise: Triple
+    normal: Triple
 
 
 class WingMotion(NamedTuple):
@@ -84,11 +84,14 @@ def wing_shape(
     wing = vehicle.wing
     length = wing.semi_span * span_ratio(wingbeat, phase)
     hand_flap = flap - fold_angle(wingbeat, phase)
-    arm = jnp.minimum(strips.span_fraction, wingbeat.wrist)[:, None]
-    hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)[:, None]
-    arm_axis = span_axis(flap, wing.stroke_plane_angle)[..., None, :]
-    hand_axis = span_axis(hand_flap, wing.stroke_plane_angle)[..., None, :]
-    reach = jnp.asarray(length)[..., None, None] * (arm * arm_axis + hand * hand_axis)
+    arm = jnp.minimum(strips.span_fraction, wingbeat.wrist)
+    hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)
+    arm_axis = span_axis(flap, wing.stroke_plane_angle)
+    hand_axis = span_axis(hand_flap, wing.stroke_plane_angle)
+    x, y, z = (
+        place + arm * (length * a)[..., None] + hand * (length * h)[..., None]
+        for place, a, h in zip(wing.shoulder, arm_axis, hand_axis, strict=True)
+    )
     strip_flap = jnp.where(
         strips.span_fraction <= wingbeat.wrist,
         jnp.asarray(flap)[..., None],
@@ -96,7 +99,7 @@ def wing_shape(
     )
     strip_pitch = jnp.asarray(pitch)[..., None] * twist_factors(wingbeat, strips.span_fraction)
     chordwise, normal = wing_axes(strip_flap, strip_pitch, wing.stroke_plane_angle)
-    return WingShape(jnp.asarray(wing.shoulder, dtype=float) + reach, chordwise, normal)
+    return WingShape((x, y, z), chordwise, normal)
 
 
 def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -> WingShape:
@@ -105,14 +108,17 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -
     return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
 
 
-def mass_points(shape: WingShape, strips: Strips) -> Any:
-    """Return the mass points, body axes, shape (..., 2, N, 3); each carries half its strip's mass.
+def mass_points(shape: WingShape, strips: Strips) -> Triple:
+    """Return the mass points, body axes, a triple of shape (..., 2, N); each carries half its strip's mass.
 
     Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     """
-    fore = strips.chord[:, None] * shape.chordwise
-    offsets = jnp.asarray([-0.25 + 0.5 / math.sqrt(3), -0.25 - 0.5 / math.sqrt(3)])
-    return shape.quarter_chord[..., None, :, :] + offsets[:, None, None] * fore[..., None, :, :]
+    offsets = strips.chord * jnp.asarray([[-0.25 + 0.5 / math.sqrt(3)], [-0.25 - 0.5 / math.sqrt(3)]])
+    x, y, z = (
+        place[..., None, :] + offsets * fore[..., None, :]
+        for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True)
+    )
+    return x, y, z
 
 
 def time_rates(function: Any, phase: Any, frequency: Any) -> tuple[Any, Any, Any]:
@@ -126,19 +132,20 @@ def time_rates(function: Any, phase: Any, frequency: Any) -> tuple[Any, Any, Any
     return value, first, second
 
 
-def in_plane(vector: Any) -> tuple[Any, Any]:
-    """Return the (forward, up) pair of body vectors (forward, left, up)."""
-    return vector[..., 0], vector[..., 2]
+def in_plane(vector: Triple) -> Pair:
+    """Return the (forward, up) pair of a triple (forward, left, up)."""
+    return vector[0], vector[2]
 
 
-def turned(pair: tuple[Any, Any]) -> tuple[Any, Any]:
+def turned(pair: Pair) -> Pair:
     """Turn an in-plane pair nose-up by a right angle."""
     return -pair[1], pair[0]
 
 
-def dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
-    """Return the scalar product of two in-plane pairs."""
-    return a[0] * b[0] + a[1] * b[1]
+def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
+    """Return the scalar product of two pairs or of two triples."""
+    products = [one * other for one, other in zip(a, b, strict=True)]
+    return sum(products[1:], products[0])
 
 
 def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> WingMotion:
@@ -167,8 +174,8 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) ->
         normal=normal,
         lever_chord=dot(lever, chordwise),
         lever_normal=dot(lever, normal),
-        drift_chord=jnp.sum(shape_rate.quarter_chord * shape.chordwise, axis=-1),
-        drift_normal=jnp.sum(shape_rate.quarter_chord * shape.normal, axis=-1),
+        drift_chord=dot(shape_rate.quarter_chord, shape.chordwise),
+        drift_normal=dot(shape_rate.quarter_chord, shape.normal),
         area=length[..., None] / count * strips.chord,
         first_moment=(total(place[0]), total(place[1])),
         first_moment_rate=(total(speed[0]), total(speed[1])),

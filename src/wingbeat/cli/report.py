@@ -203,10 +203,8 @@ def _number(value: Any, unit: str, factor: float) -> str:
 def _print_status(status: str, good: bool, message: str, console: Console) -> None:
     from rich.text import Text
 
-    text = Text(status, style="bold green" if good else "bold red")
-    if message:
-        text.append(f": {message.removeprefix(f'{status}: ')}", style="" if good else "not bold red")
-    console.print(text, soft_wrap=False)
+    message = message.removeprefix(f"{status}: ")
+    console.print(Text.assemble((status, f"bold {'green' if good else 'red'}"), ": " if message else "", message))
 
 
 def _print_groups(groups: dict[str, Rows], console: Console) -> None:

@@ -40,7 +40,7 @@ def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Any) -> Wingbeat:
 
 
 class StageTables(NamedTuple):
-    """The wing at start, middle and end of each step, leading axes (steps, 3), and the length of a step [s]."""
+    """The wing at the ends and middles of all steps, leading axis 2 steps + 1, and the length of a step [s]."""
 
     motion: WingMotion
     step: Any
@@ -49,8 +49,7 @@ class StageTables(NamedTuple):
 @functools.partial(jax.jit, static_argnames=("steps",))
 def tabulate(model: FlightModel, wingbeat: Wingbeat, steps: int) -> StageTables:
     """Tabulate the wing for a march of `steps` equal steps over one period."""
-    table = motion_table(model, wingbeat, jnp.linspace(0.0, 1.0, 2 * steps + 1))
-    motion = jax.tree_util.tree_map(lambda a: jnp.stack([a[:-1:2], a[1::2], a[2::2]], axis=1), table)
+    motion = motion_table(model, wingbeat, jnp.linspace(0.0, 1.0, 2 * steps + 1))
     return StageTables(motion, 1.0 / (wingbeat.frequency * steps))
 
 
@@ -59,11 +58,8 @@ def tabulate_tangents(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], values: Any, steps: int
 ) -> tuple[StageTables, StageTables]:
     """Tabulate the wing and its derivatives (leading axis) with respect to the free parameters."""
-
-    def along(seed: Any) -> tuple[StageTables, StageTables]:
-        return jax.jvp(lambda v: tabulate(model, unpack(free, wingbeat, v), steps), (values,), (seed,))
-
-    return jax.vmap(along, out_axes=(None, 0))(jnp.eye(len(free)))
+    tables, along = jax.linearize(lambda v: tabulate(model, unpack(free, wingbeat, v), steps), values)
+    return tables, jax.vmap(along)(jnp.eye(len(free)))
 
 
 def _rk4(model: FlightModel, motion: WingMotion, step: Any, state: Any) -> tuple[Any, Any]:
@@ -98,7 +94,8 @@ def march(model: FlightModel, tables: StageTables, start: Any) -> March:
         states, rates = _rk4(model, motion, tables.step, state)
         return state + tables.step * _combine(rates), (states, rates)
 
-    last, (states, rates) = jax.lax.scan(advance, start, tables.motion)
+    stages = jax.tree_util.tree_map(lambda a: jnp.stack([a[:-1:2], a[1::2], a[2::2]], axis=1), tables.motion)
+    last, (states, rates) = jax.lax.scan(advance, start, stages)
     place = tables.step * jnp.sum(_combine(jnp.moveaxis(states, 1, 0))[:, 1:3], axis=0)
     path = jnp.concatenate([states[:, 0], last[None]])
     return March(Period(jnp.concatenate([place, last]), path), states, rates)
@@ -126,11 +123,9 @@ def differentiate(
     model: FlightModel, tables: StageTables, table_tangents: StageTables, flight: March
 ) -> PeriodTangents:
     """Differentiate a flown period: every stage of every step is a lane of one right-hand side."""
-    four = jnp.asarray([0, 1, 1, 2])
-    lanes, lane_tangents = (
-        jax.tree_util.tree_map(lambda a, axis=axis: jnp.take(a, four, axis=axis), tree)
-        for tree, axis in ((tables.motion, 1), (table_tangents.motion, 2))
-    )
+    stage = 2 * jnp.arange(flight.states.shape[0])[:, None] + jnp.asarray([0, 1, 1, 2])
+    lanes = jax.tree_util.tree_map(lambda a: a[stage], tables.motion)
+    lane_tangents = jax.tree_util.tree_map(lambda a: a[:, stage], table_tangents.motion)
 
     def by_state(seed: Any) -> Any:
         tangent = jnp.broadcast_to(seed, flight.states.shape)

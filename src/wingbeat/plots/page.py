@@ -1,0 +1,123 @@
+"""One page of a wingbeat or a flight: nine panels, what flies above them, how to read them below."""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import FaultList
+from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_WIDTH, _PANELS, _LINE = 183.0, 148.0, 4.0  # mm: two columns of a journal, three rows of panels, a line of text
+_INCH = 25.4
+_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
+_STYLE |= {"axes.labelpad": 2, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+_TITLE, _TEXT = {"fontsize": 9, "fontweight": "bold"}, {"fontsize": 7.5}
+_ALARM = {"fontsize": 7.5, "color": "#C00000"}
+_NEEDED = ["flap", "wing_pitch", "fold", "span_ratio", "time", "x", "z", "u", "w", "body_pitch", "pitch_rate"]
+_NEEDED += ["alpha", "strip_force", "hinge_power", "actuator_power"]
+
+
+def wingbeat_page(dataset: xr.Dataset) -> Figure:
+    """Draw one page, 183 mm wide, of an orbit's or a flight's time series; downstrokes are shaded.
+
+    a wing kinematics, b body pitch, c power, d to f phase portraits, g effective angle of attack, h and i
+    horizontal and vertical force on one strip of both wings at 1/4 and 3/4 of the span, over the weight.
+    An orbit that is not certified says so in red.
+
+    Parameters
+    ----------
+    dataset : `Orbit.dataset`, `Flight.dataset` or what was saved of them.
+
+    Raises
+    ------
+    InvalidInputError : the dataset is neither an orbit nor a flight, or lacks a quantity.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
+    >>> page = wb.plots.wingbeat_page(flight.dataset)
+    >>> f"{25.4 * page.get_figwidth():.0f} mm wide"
+    '183 mm wide'
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    lines, weight = _described(dataset)
+    head, foot = 2.5 + _LINE * len(lines), 1.0 + _LINE
+    height = head + _PANELS + foot
+    with rc_context(_STYLE):  # type: ignore[arg-type]
+        figure = Figure(figsize=(_WIDTH / _INCH, height / _INCH), layout="constrained")
+        layout: Any = figure.get_layout_engine()
+        layout.set(rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
+        for i, (text, style) in enumerate(lines):
+            # A name of the user's own may hold a dollar sign, which is no formula.
+            where = (2 / _WIDTH, 1 - (1.5 + _LINE * i) / height)
+            figure.text(*where, text, va="top", parse_math=False, **style)
+        figure.text(2 / _WIDTH, 1.5 / height, _note(dataset), fontsize=7)
+        panels = figure.subplots(3, 3)
+        draw_motion(dataset, panels[0])
+        draw_portraits(dataset, panels[1])
+        draw_loads(dataset, panels[2], weight)
+        figure.align_ylabels(panels)
+        for letter, axes in zip("abcdefghi", panels.flat, strict=True):
+            corner = {"xycoords": "axes fraction", "textcoords": "offset points", "in_layout": False}
+            axes.annotate(letter, (0, 1), (-28, 4), fontsize=8, fontweight="bold", **corner)
+    return figure
+
+
+def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], float]:
+    """Return the lines above the panels with their styles, and the weight [N]; refuse what is not ours."""
+    faults = FaultList()
+    kind = dataset.attrs.get("wingbeat_kind")
+    if kind not in ("orbit", "flight"):
+        faults.add("dataset", kind, "is neither an orbit nor a flight of wingbeat", "give orbit.dataset")
+    elif missing := [name for name in _NEEDED if name not in dataset]:
+        faults.add("dataset", missing, "is missing from it", "solve or fly it again")
+    faults.raise_if_any()
+    try:
+        vehicle, air, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat"))
+        weight = (vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]) * air["gravity"]
+        title = _orbit_title if kind == "orbit" else _flight_title
+        return title(dataset, f"{beat['frequency']:.4g} Hz"), weight
+    except (KeyError, TypeError, ValueError) as error:
+        faults.add("attributes", str(error), "cannot be understood", "solve or fly it again")
+    faults.raise_if_any()
+    raise AssertionError
+
+
+def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
+    about = dataset.attrs
+    aero, bounds = json.loads(about["aero"]), json.loads(about["active_bounds"])
+    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
+    first = f"{about['species']} at {about['speed']:.4g} m/s{climb}, {frequency}"
+    loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips a wing"
+    second = f"{loads}; least {about['objective']}, on the bound of {', '.join(bounds) or 'nothing'}"
+    status, style = f"{about['message'][:1].upper()}{about['message'][1:]}", _TEXT
+    if about["status"] != "converged":
+        status, style = f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM
+    lines = [(line, look) for text, look in ((second, _TEXT), (status, style)) for line in textwrap.wrap(text, 120)]
+    return [(first[:1].upper() + first[1:], _TITLE), *lines]
+
+
+def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
+    phase, reached = dataset["phase"].values, flown(dataset)
+    first = f"Flight of {phase[-1]:g} beats from {float(dataset['u'][0]):.4g} m/s, {frequency}"
+    if reached.all():
+        return [(first, _TITLE)]
+    end = phase[reached][-1] if reached.any() else 0.0
+    return [(first, _TITLE), (f"NOT FINISHED: the vehicle tumbled after {end:.3g} beats", _ALARM)]
+
+
+def _note(dataset: xr.Dataset) -> str:
+    """Return the line below the panels."""
+    mean = mean_power(dataset)
+    power = "" if mean is None else f" c: mean hinge power {mean:.3g} W."
+    strips = f"h, i: one of {dataset.sizes['station']} equal strips, both wings together."
+    return f"Downstroke shaded.{power} g: effective angle. {strips}"

@@ -1,0 +1,45 @@
+"""Figures as files: PNG, PDF or SVG, the same bytes for the same figure."""
+
+from __future__ import annotations
+
+import os
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import FaultList
+from wingbeat.files import writing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
+
+# Without pieces, the line of a flight of thousands of beats is too long for the PNG writer.
+_SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.path.chunksize": 20_000}
+
+
+def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
+    """Note a fault unless the name ends like a figure that can be written."""
+    if os.path.splitext(path)[1].lower() not in FIGURE_SUFFIXES:
+        faults.add(where, os.fspath(path), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+
+
+def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
+    """Write a figure as PNG (300 dots an inch), PDF or SVG, by its suffix, whole or not at all.
+
+    The same figure gives the same bytes: no date is written. Text in a PDF stays text.
+
+    Raises
+    ------
+    InvalidInputError : another suffix.
+    FileError : the file cannot be written.
+    """
+    from matplotlib import rc_context
+
+    faults = FaultList()
+    check_figure_name(faults, "path", path)
+    faults.raise_if_any()
+    kind = os.path.splitext(path)[1][1:].lower()
+    undated: dict[str, Any] = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
+    with rc_context(_SAVING), writing(path) as beside:  # type: ignore[arg-type]
+        figure.savefig(beside, format=kind, dpi=300, metadata=undated)

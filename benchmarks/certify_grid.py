@@ -82,13 +82,11 @@ def main() -> None:
         other = second_opinion(orbit) if orbit.status is wb.Status.CONVERGED else np.inf
         if orbit.status is wb.Status.CONVERGED:
             worst = max(worst, own, other)
-        print(
-            f"{record['species']:7s} {record['aero']['coefficients']:10s} {record['speed']:6.2f} m/s "
-            f"{record['status']:13s} {record['wingbeat']['frequency']:7.3f} Hz  closure {own:.1e} (scipy {other:.1e}) "
-            f"kkt {record['optimality'] or np.nan:.0e}  {record['starts']:2d} starts {record['distinct_optima']} optima  "
-            f"{record['solve_seconds']:.2f} s  {', '.join(record['active_bounds'])}",
-            flush=True,
-        )
+        what = f"{record['species']:7s} {record['aero']['coefficients']:10s} {record['speed']:6.2f} m/s"
+        found = f"{record['status']:13s} {record['wingbeat']['frequency']:7.3f} Hz"
+        miss = f"closure {own:.1e} (scipy {other:.1e}) kkt {record['optimality'] or np.nan:.0e}"
+        effort = f"{record['starts']:2d} starts {record['distinct_optima']} optima {record['solve_seconds']:6.2f} s"
+        print(f"{what} {found}  {miss}  {effort}  {', '.join(record['active_bounds'])}", flush=True)
     counts = {status: statuses.count(status) for status in sorted(set(statuses))}
     print(f"{counts}; worst closure of the converged {worst:.1e}")
     print(f"median {np.median(seconds):.2f} s an orbit, {time.perf_counter() - begun:.0f} s in all")

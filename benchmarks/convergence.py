@@ -80,8 +80,8 @@ def steps(name: str, speed: float) -> str:
 def main() -> None:
     parts = [
         "# Convergence\n",
-        "Written by `uv run python benchmarks/convergence.py`; default wings and bounds, mirrored extension, Su-Fan "
-        "coefficients and minimum frequency where nothing else is said.\n",
+        "Written by `uv run python benchmarks/convergence.py`; default wings and bounds, mirrored extension,\n"
+        "Su-Fan coefficients and minimum frequency where nothing else is said.\n",
     ]
     for title, make in (
         ("Number of strips", strips),

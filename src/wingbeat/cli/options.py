@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import inspect
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.species import Species, load_species, parse_setting
 
+
+def _whole(type_: type, tokens: Sequence[Token]) -> int:
+    """Return a whole number; cyclopts by itself would round 1.5."""
+    text = tokens[0].value
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f'"{text}" is not a whole number') from None
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
 Settings = Annotated[
     list[str] | None,
     Parameter(
@@ -27,7 +42,7 @@ Extension = Annotated[
     Parameter(help="How angles beyond the fit are reached: mirrored, signed-drag, signed, clipped-drag."),
 ]
 BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
-Strips = Annotated[int, Parameter(help="Number of strips of one wing.")]
+Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
 ForcePoint = Annotated[str, Parameter(help="Where the force acts: quarter-chord or centre-of-pressure.")]
 
 
@@ -35,6 +50,8 @@ def species_with(name: str, settings: list[str] | None) -> Species:
     """Load a species and change the numbers given with ``--set``; all faults of the settings at once."""
     species = load_species(name)
     values, faults = {}, FaultList()
+    if settings is not None and not settings:
+        faults.add("--set", "", "must be PATH=VALUE", "for example wing.mass=0.02")
     for text in settings or []:
         try:
             path, value = parse_setting(text)
@@ -51,3 +68,22 @@ def species_with(name: str, settings: list[str] | None) -> Species:
 def aero_with(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
     """Return the air loads that the options ask for."""
     return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point)
+
+
+def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
+    """Return the options of a command, but those allowed, that are not at their default, as they are typed."""
+    defaults = inspect.signature(command).parameters
+    names = [name for name, value in values.items() if name not in allowed and value != defaults[name].default]
+    return ["SPECIES" if name == "species" else "--" + name.strip("_").replace("_", "-") for name in names]
+
+
+@contextmanager
+def unpacking(path: Path) -> Iterator[None]:
+    """Turn whatever goes wrong while the orbit in the file at `path` is set up again into a `FileError`."""
+    try:
+        yield
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        raise FileError(
+            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve it again"
+        ) from None

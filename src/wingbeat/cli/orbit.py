@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json as json_format
 import math
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -22,8 +23,11 @@ from wingbeat.cli.options import (
     ForcePoint,
     Settings,
     Strips,
+    Whole,
     aero_with,
+    given_beside,
     species_with,
+    unpacking,
 )
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
@@ -49,8 +53,8 @@ def orbit(
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
     strips: Strips = 10,
-    starts: Annotated[int, Parameter(help="Number of searches; more find better optima.")] = 6,
-    seed: Annotated[int, Parameter(help="Seed of the random starts.")] = 0,
+    starts: Annotated[Whole, Parameter(help="Number of searches; more find better optima.")] = 6,
+    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     from_: Annotated[
         Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
@@ -68,11 +72,14 @@ def orbit(
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
     wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc
     """
+    beside = given_beside(orbit, locals(), "from_", "json", "output", "plot")
     faults = FaultList()
     if plot is not None and plot.suffix.lower() not in FIGURES:
         faults.add("--plot", str(plot), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
-    if from_ is not None and (species is not None or speed is not None or set_):
-        faults.add("--from", str(from_), "comes with its own inputs", "leave out SPECIES, --speed and --set")
+    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
+        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    if from_ is not None and beside:
+        faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
     if from_ is None and speed is None:
@@ -80,7 +87,8 @@ def orbit(
     faults.raise_if_any()
     if from_ is not None:
         saved = load_orbit(from_)
-        problem, starts, seed = saved.problem, saved.inputs["starts"], saved.inputs["seed"]
+        with unpacking(from_):
+            problem, starts, seed = saved.problem, saved.inputs["starts"], saved.inputs["seed"]
     else:
         assert species is not None
         assert speed is not None
@@ -88,7 +96,15 @@ def orbit(
         bounds = {}
         if flap_amplitude_max is not None:
             least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
-            faults.number("--flap-amplitude-max", flap_amplitude_max, above=0, below=180, unit="degrees")
+            lowest = math.degrees(least)
+            faults.number(
+                "--flap-amplitude-max",
+                flap_amplitude_max,
+                above=lowest,
+                below=180,
+                unit="degrees",
+                fix=f"the flap amplitude of {animal.name} is searched from {lowest:g} degrees up",
+            )
             faults.raise_if_any()
             bounds = {"flap_amplitude": (least, math.radians(flap_amplitude_max))}
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)

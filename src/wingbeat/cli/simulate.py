@@ -21,8 +21,11 @@ from wingbeat.cli.options import (
     ForcePoint,
     Settings,
     Strips,
+    Whole,
     aero_with,
+    given_beside,
     species_with,
+    unpacking,
 )
 from wingbeat.errors import FaultList
 from wingbeat.files import writing
@@ -37,9 +40,9 @@ from wingbeat.results.storage import save_dataset
 def simulate(
     species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
     *,
-    beats: Annotated[int, Parameter(help="Number of wingbeats.")] = 5,
-    samples: Annotated[int, Parameter(help="Samples a beat.")] = 128,
-    u: Annotated[float | None, Parameter(help="Forward velocity at the start [m/s].")] = None,
+    beats: Annotated[Whole, Parameter(help="Number of wingbeats.")] = 5,
+    samples: Annotated[Whole, Parameter(help="Samples a beat.")] = 128,
+    u: Annotated[float | None, Parameter(help="Forward velocity at the start [m/s]; 10 or that of --from.")] = None,
     w: Annotated[float | None, Parameter(help="Upward velocity at the start [m/s].")] = None,
     body_pitch_deg: Annotated[float | None, Parameter(help="Body pitch at the start, nose up [deg].")] = None,
     pitch_rate: Annotated[float | None, Parameter(help="Pitch rate at the start [rad/s].")] = None,
@@ -61,18 +64,22 @@ def simulate(
     """Fly an initial state for some wingbeats with the wings prescribed.
 
     The wingbeat is the species' own (change it with --set wingbeat.frequency=7 ...) or that of an orbit (--from),
-    whose start is then disturbed by whatever of -u, -w, --body-pitch-deg, --pitch-rate is given.
+    whose start is then disturbed by whatever of --u, --w, --body-pitch-deg, --pitch-rate is given.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
+    own = ("beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate")
+    beside = given_beside(simulate, locals(), "from_", "json", "output", *own)
     faults = FaultList()
-    if (from_ is None) == (species is None):
-        faults.add("SPECIES", species, "or --from must be given, and not both", "name one of them")
-    if from_ is not None and set_:
-        faults.add("--set", set_, "does not go with --from", "change the numbers of a species instead")
+    if from_ is None and species is None:
+        fix = "give a name such as pigeon, a species file, or --from with an orbit's file"
+        faults.add("SPECIES", None, "is missing", fix)
+    if from_ is not None and beside:
+        faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     faults.raise_if_any()
     if from_ is not None:
         orbit = load_orbit(from_)
-        model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+        with unpacking(from_):
+            model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
     else:
         assert species is not None
         animal = species_with(species, set_)
@@ -120,7 +127,7 @@ def _print(rows: list[dict[str, Any]], completed: bool) -> None:
         pitch = None if row["body_pitch"] is None else math.degrees(row["body_pitch"])
         values = (row["mean_u"], row["mean_w"], pitch, row["pitch_rate"], row["mean_power"])
         table.add_row(str(row["beat"]), *("lost" if v is None else f"{v:.3f}" for v in values))
-    console = Console()
+    console = Console(markup=False, highlight=False)  # as markup, [m/s] would vanish
     console.print(table)
     if not completed:
         console.print("the vehicle tumbled: the flight could not be finished", style="red")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -80,10 +81,14 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
     """
     shown = repr(os.fspath(path))
     try:
+        # A pipe or a terminal would wait for ever.
+        mode = os.stat(path).st_mode
+        if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
+            raise FileError(f"cannot read {shown}: it is not a plain file; give a file of `orbit -o`")
         with open(path, "rb") as file:
             start = file.read(8)
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+    except (OSError, ValueError) as error:
+        reason = (getattr(error, "strerror", None) or str(error)).lower()
         raise FileError(f"cannot read {shown}: {reason}; check the path") from None
     if start not in _SIGNATURES:
         raise FileError(f"cannot read {shown}: it is not a NetCDF-4 file; give a file of `orbit -o`")

@@ -51,7 +51,7 @@ def vehicles(count: int = 200, seed: int = 2026):
 
 
 def second_opinion(orbit: wb.Orbit) -> float:
-    """Return the largest closure miss of a flight by SciPy's DOP853 at rtol 1e-10."""
+    """Return the largest closure miss of a flight by SciPy's DOP853 at rtol 1e-12."""
     problem, beat = orbit.problem, orbit.wingbeat
     start = np.array(orbit.initial_state)
     model = problem.model
@@ -60,8 +60,8 @@ def second_opinion(orbit: wb.Orbit) -> float:
         (0.0, 1.0 / beat.frequency),
         start,
         method="DOP853",
-        rtol=1e-10,
-        atol=1e-12,
+        rtol=1e-12,
+        atol=1e-14,
     )
     travelled = np.array([problem.speed, problem.climb, 0, 0, 0, 0]) / beat.frequency
     return float(np.abs(flown.y[:, -1] - start - travelled).max())

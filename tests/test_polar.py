@@ -139,7 +139,7 @@ def test_figure_is_not_blank_and_leaves_the_numbers_on_stdout(tmp_path, capsys):
 
 
 def test_figure_in_a_missing_folder(tmp_path):
-    with pytest.raises(FileError, match="cannot be written"):
+    with pytest.raises(FileError, match="cannot write"):
         polar("su-fan", output=tmp_path / "missing" / "polar.png")
 
 

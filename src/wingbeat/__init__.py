@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from wingbeat.errors import WingbeatError as WingbeatError
     from wingbeat.five_coordinates import air_forces as air_forces
     from wingbeat.five_coordinates import equations_of_motion as equations_of_motion
+    from wingbeat.five_coordinates import generalised_torques as generalised_torques
     from wingbeat.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.kinematics import Wingbeat as Wingbeat
     from wingbeat.loads import flight_loads as flight_loads
@@ -61,6 +62,7 @@ _HOME = {
     "equations_of_motion": "five_coordinates",
     "flight_loads": "loads",
     "flight_model": "model",
+    "generalised_torques": "five_coordinates",
     "load_orbit": "results.orbit",
     "load_species": "species",
     "simulate": "results.flight",

@@ -8,21 +8,29 @@ exact derivatives of where the wing is (`wing_motion.wing_shape`).
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.dynamics import body_drag, pressure_offset
-from wingbeat.frames import Triple, body_to_world, world_to_body
+from wingbeat.frames import body_to_world, world_to_body
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.model import FlightModel
-from wingbeat.wing_motion import mass_points, strips_of, wing_shape
+from wingbeat.wing_motion import strips_of
+from wingbeat.wing_points import (
+    PointMotion,
+    bias_accelerations,
+    partial_velocities,
+    point_motion,
+)
 
 COORDINATES = ("x", "z", "body_pitch", "flap", "pitch")
 
 
 class EquationsOfMotion(NamedTuple):
-    """The terms of the equations of motion; C is in Christoffel form, so ``D' - 2 C`` is skew for rigid wings."""
+    """The terms of the equations of motion; C in Christoffel form: ``D' - 2 C`` is skew for rigid wings."""
 
     mass_matrix: Any
     velocity_matrix: Any
@@ -41,73 +49,16 @@ class AirForces(NamedTuple):
     strip_velocity: Any
 
 
-class WingPoints(NamedTuple):
-    """Left wing in the world: mass points (2, N, 3), quarter chords, chordwise and normal unit vectors (N, 3)."""
-
-    mass: Any
-    quarter_chord: Any
-    chordwise: Any
-    normal: Any
-
-
-def _to_world(body_pitch: Any, vector: Triple) -> Any:
-    x, z = body_to_world(body_pitch, vector[0], vector[2])
-    return jnp.stack([x, vector[1], z], axis=-1)
-
-
-def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Place the left wing in the world for coordinates q at a time [s]."""
-    strips = strips_of(model.vehicle.wing, model.strips)
-    shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
-    place = jnp.stack([q[0], jnp.zeros_like(q[0]), q[1]])
-    return WingPoints(
-        place + _to_world(q[2], mass_points(shape, strips)),
-        place + _to_world(q[2], shape.quarter_chord),
-        _to_world(q[2], shape.chordwise),
-        _to_world(q[2], shape.normal),
-    )
-
-
-def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Return ``dr/dq`` of all wing points, each with a last axis of five."""
-    return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
-
-
-def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Return ``dr/dt`` at fixed q of all wing points: what span and fold move by themselves."""
-    return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
-
-
-def bias_accelerations(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> tuple[Any, Any]:
-    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``."""
-
-    def by_q(at: Any) -> Any:
-        return partial_velocities(model, wingbeat, at, time).mass
-
-    def by_time(at: Any, when: Any) -> Any:
-        return drift_velocities(model, wingbeat, at, when).mass
-
-    still, one = jnp.zeros_like(time), jnp.ones_like(time)
-    turning = jax.jvp(by_q, (q,), (q_dot,))[1]
-    return turning, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
-        by_time, (q, time), (jnp.zeros_like(q), one)
-    )[1]
-
-
 def _point_masses(model: FlightModel) -> Any:
     """Return the mass of each point times two wings [kg], shape (N,): half a strip's mass, twice."""
     return strips_of(model.vehicle.wing, model.strips).mass
 
 
-def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
-    """Return D (5, 5), C (5, 5), h (5) and g (5) at coordinates q, rates q_dot and time [s].
-
-    The wingbeat gives span and fold as functions of time (and the twist); its flap and pitch laws do not enter.
-    """
+def _terms(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
     body, mass = model.vehicle.body, _point_masses(model)
     partial = partial_velocities(model, wingbeat, q, time).mass
     turning, drifting = bias_accelerations(model, wingbeat, q, q_dot, time)
-    own = jnp.diag(jnp.stack([body.mass, body.mass, body.pitch_inertia, 0.0, 0.0]))
+    own = jnp.diag(jnp.asarray([body.mass, body.mass, body.pitch_inertia, 0.0, 0.0]))
     down = model.air.gravity * jnp.asarray([0.0, 0.0, 1.0])
     return EquationsOfMotion(
         own + jnp.einsum("n,knai,knaj->ij", mass, partial, partial),
@@ -117,45 +68,10 @@ def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: A
     )
 
 
-class PointMotion(NamedTuple):
-    """Wing points with their velocities, partial velocities, drifts and bias accelerations (``r''`` at q'' = 0)."""
-
-    place: WingPoints
-    velocity: WingPoints
-    partial: WingPoints
-    drift: WingPoints
-    bias: WingPoints
-
-
-def point_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> PointMotion:
-    """Differentiate the wing's place once for all that a given motion needs."""
-
-    def place(along: Any) -> WingPoints:
-        return wing_points(model, wingbeat, q + along * q_dot, time + along)
-
-    def velocity(along: Any) -> tuple[WingPoints, WingPoints]:
-        return jax.jvp(place, (along,), (jnp.ones_like(along),))
-
-    still = jnp.zeros_like(time)
-    (points, velocities), (_, bias) = jax.jvp(velocity, (still,), (jnp.ones_like(time),))
-    partial = partial_velocities(model, wingbeat, q, time)
-    drift = jax.tree_util.tree_map(lambda v, p: v - p @ q_dot, velocities, partial)
-    return PointMotion(points, velocities, partial, drift, bias)
-
-
-def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
-    """Return the generalised air loads f_aero (5) of both wings and the body, and their powers [W].
-
-    `power` is the power on everything that moves through the air, `power_in_body` that of the wings' loads along
-    the wings' velocities in body axes, which the actuators must supply.
-    """
-    return air_forces_on(model, wingbeat, q, q_dot, time, point_motion(model, wingbeat, q, q_dot, time))
-
-
 def air_forces_on(
     model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, motion: PointMotion
 ) -> AirForces:
-    """Return what `air_forces` returns, from the motion of the wing points."""
+    """Return the air loads from the motion of the wing points."""
     strips = strips_of(model.vehicle.wing, model.strips)
     length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
     points, velocity = motion.place, motion.velocity.quarter_chord
@@ -190,8 +106,8 @@ def accelerations_from_torques(
     model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, torques: Any
 ) -> Any:
     """Return q'' (5) when the hinges are driven by torques (flap, pitch) of both wings together [N m]."""
-    terms = equations_of_motion(model, wingbeat, q, q_dot, time)
-    air = air_forces(model, wingbeat, q, q_dot, time).generalised
+    terms = _terms(model, wingbeat, q, q_dot, time)
+    air = _air_forces(model, wingbeat, q, q_dot, time).generalised
     tau = jnp.concatenate([jnp.zeros(3), jnp.asarray(torques)])
     return jnp.linalg.solve(terms.mass_matrix, tau + air - resistance(terms, q_dot))
 
@@ -199,3 +115,87 @@ def accelerations_from_torques(
 def resistance(terms: EquationsOfMotion, q_dot: Any) -> Any:
     """Return ``C q' + h + g``."""
     return terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
+
+
+def _air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
+    return air_forces_on(model, wingbeat, q, q_dot, time, point_motion(model, wingbeat, q, q_dot, time))
+
+
+def _torque(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, q_acceleration: Any) -> Any:
+    terms = _terms(model, wingbeat, q, q_dot, time)
+    air = _air_forces(model, wingbeat, q, q_dot, time).generalised
+    return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _over_axes(
+    function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, time: Any, *vectors: Any
+) -> Any:
+    """Apply a function of q, q', time and perhaps q'' to arrays with any leading axes."""
+    moment, *rows = (jnp.asarray(a, dtype=float) for a in (time, *vectors))
+    axes = jnp.broadcast_shapes(moment.shape, *(row.shape[:-1] for row in rows))
+    flat = [jnp.broadcast_to(row, (*axes, 5)).reshape(-1, 5) for row in rows]
+    times = jnp.broadcast_to(moment, axes).ravel()
+    found = jax.vmap(lambda t, q, q_dot, *more: function(model, wingbeat, q, q_dot, t, *more))(times, *flat)
+    return jax.tree_util.tree_map(lambda a: a.reshape(*axes, *a.shape[1:]), found)
+
+
+def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
+    """Return the terms D, C, h and g of the five-coordinate equations of motion.
+
+    Parameters
+    ----------
+    model : the flight model, from `flight_model`.
+    wingbeat : gives span and fold as functions of time, and the twist; its flap and pitch laws do not enter.
+    q, q_dot : (x, z, body pitch, flap, root wing pitch) and rates, shape (..., 5) [m, rad; per s].
+    time : [s], shape (...).
+
+    Returns
+    -------
+    EquationsOfMotion : ``mass_matrix`` D and ``velocity_matrix`` C of shape (..., 5, 5), ``time_force`` h and
+        ``gravity_force`` g of shape (..., 5); JAX arrays, so that they can be differentiated.
+
+    Su et al. 2023 (doi 10.48550/arXiv.2302.09602), with h for prescribed span and fold.
+
+    >>> import numpy as np, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> terms = wb.equations_of_motion(model, pigeon.wingbeat, np.zeros(5), np.zeros(5), 0.0)
+    >>> round(float(terms.mass_matrix[0, 0]), 3)
+    0.316
+    """
+    return _over_axes(_terms, model, wingbeat, time, q, q_dot)
+
+
+def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
+    """Return the generalised air loads f_aero of both wings and the body, and the loads of the strips.
+
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `equations_of_motion`.
+
+    Returns
+    -------
+    AirForces : ``generalised`` f_aero of shape (..., 5) [N, N m]; ``power``, that of the loads on everything that
+        moves through the air [W]; ``power_in_body``, that along the wings' velocities in body axes, which the
+        actuators must supply [W]; the strips of the left wing.
+    """
+    return _over_axes(_air_forces, model, wingbeat, time, q, q_dot)
+
+
+def generalised_torques(
+    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, q_acceleration: Any, time: Any
+) -> Any:
+    """Return what must act on the coordinates, ``tau = D q'' + C q' + h + g - f_aero``.
+
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `equations_of_motion`.
+    q_acceleration : q'' of shape (..., 5) [m/s2, rad/s2].
+
+    Returns
+    -------
+    tau of shape (..., 5): zero in its first three rows for a free flight, then the hinge torques of both wings
+    together [N m].
+    """
+    return _over_axes(_torque, model, wingbeat, time, q, q_dot, q_acceleration)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from wingbeat.five_coordinates import air_forces_on, point_motion
+from wingbeat.five_coordinates import air_forces_on
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.model import FlightModel, State, body_rates, motion_table
 from wingbeat.wing_motion import strips_of, time_rates
+from wingbeat.wing_points import point_motion
 
 
 class Loads(NamedTuple):
@@ -53,15 +54,23 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
     ----------
     model : the flight model.
     wingbeat : the prescribed wingbeat.
-    state : body state, fields of shape (P,) [m, rad, m/s, rad/s].
-    phase : phases, shape (P,).
+    state : body state, fields of shape (...) or one for all phases [m, rad, m/s, rad/s].
+    phase : phases, shape (...).
 
     Returns
     -------
-    Loads : every quantity with leading axis P.
+    Loads : every quantity with the axes of `phase` first; JAX arrays, so that they can be differentiated.
+
+    >>> import numpy as np, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> wb.flight_loads(model, pigeon.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 5)).alpha.shape
+    (5, 10)
     """
-    fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), jnp.shape(phase)) for f in state))
-    return jax.vmap(lambda s, p: _loads(model, wingbeat, s, p))(fields, jnp.asarray(phase, dtype=float))
+    phase = jnp.asarray(phase, dtype=float)
+    fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), phase.shape).ravel() for f in state))
+    found = jax.vmap(lambda s, p: _loads(model, wingbeat, s, p))(fields, phase.ravel())
+    return jax.tree_util.tree_map(lambda a: a.reshape(*phase.shape, *a.shape[1:]), found)
 
 
 def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:

@@ -38,6 +38,7 @@ from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
 from wingbeat.results.storage import save_dataset
 
 FIGURES = (".png", ".pdf", ".svg")
+_BESIDE_FROM = ("from_", "json", "output", "plot")
 
 
 def orbit(
@@ -72,7 +73,7 @@ def orbit(
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
     wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc
     """
-    beside = given_beside(orbit, locals(), "from_", "json", "output", "plot")
+    beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
     if plot is not None and plot.suffix.lower() not in FIGURES:
         faults.add("--plot", str(plot), "is not a figure's name", f"end it in {', '.join(FIGURES)}")

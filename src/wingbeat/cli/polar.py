@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv as csv_format
 import json as json_format
-import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -16,9 +15,9 @@ from numpy.typing import NDArray
 
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
 from wingbeat.cli.ranges import parse_range
-from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.plots import check_figure_name, save_figure
 
-FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 # Okabe and Ito's colours, told apart by colour-blind eyes.
 _BLUE, _ORANGE = "#0072B2", "#E69F00"
 
@@ -54,8 +53,8 @@ def polar(
     faults = FaultList()
     if csv and json:
         faults.add("--csv", "--json", "two formats at once", "choose --csv or --json")
-    if output is not None and output.suffix.lower() not in FIGURE_SUFFIXES:
-        faults.add("--output", str(output), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+    if output is not None:
+        check_figure_name(faults, "--output", output)
     faults.number("--about", about, fix="0 is the leading edge, 1 the trailing edge")
     angles = _collected(faults, lambda: parse_range(alpha, "--alpha"))
     coefficients = _collected(faults, lambda: load_coefficients(model, extension, blend_width_deg))
@@ -63,7 +62,7 @@ def polar(
 
     columns = polar_columns(coefficients, angles, about)
     if output is not None:
-        _save(_figure(coefficients, angles, about), output)
+        save_figure(_figure(coefficients, angles, about), output)
         print(f"wrote {output}", file=sys.stderr)
     if json:
         print(json_format.dumps(columns))
@@ -153,15 +152,3 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
             axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure
-
-
-def _save(figure: Any, output: Path) -> None:
-    """Write the figure beside its place and rename it, so that no reader meets half a file."""
-    beside = output.with_name(f".{output.name}.{os.getpid()}")
-    try:
-        figure.savefig(beside, format=output.suffix[1:].lower(), dpi=150)
-        beside.replace(output)
-    except OSError as error:
-        raise FileError(f"{output}: cannot be written ({error.strerror}); choose another folder") from None
-    finally:
-        beside.unlink(missing_ok=True)

@@ -36,6 +36,8 @@ from wingbeat.results.orbit import load_orbit
 from wingbeat.results.record import beat_mean
 from wingbeat.results.storage import save_dataset
 
+_BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate", "json", "output")
+
 
 def simulate(
     species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
@@ -67,8 +69,7 @@ def simulate(
     whose start is then disturbed by whatever of --u, --w, --body-pitch-deg, --pitch-rate is given.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
-    own = ("beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate")
-    beside = given_beside(simulate, locals(), "from_", "json", "output", *own)
+    beside = given_beside(simulate, locals(), *_BESIDE_FROM)
     faults = FaultList()
     if from_ is None and species is None:
         fix = "give a name such as pigeon, a species file, or --from with an orbit's file"

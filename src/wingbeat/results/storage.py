@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import stat
 from os import PathLike
@@ -15,7 +16,22 @@ if TYPE_CHECKING:
     import xarray as xr
 
 KIND = "wingbeat_kind"
-_TEXT = ("status", "message", "species", "objective", "version")
+# What a record holds, by kind; any other attribute is somebody else's, as the `history` of other tools.
+_TEXTS = ("status", "message", "species", "objective", "version")
+_TABLES = ("vehicle", "aero", "air", "wingbeat", "initial_state", "closure")
+_LISTS = ("active_bounds", "floquet_multipliers", "warnings", "alpha_quarter_span", "alpha_three_quarter_span")
+_NUMBERS = (
+    *("speed", "climb", "optimality", "starts", "distinct_optima", "stable", "solve_seconds", "body_pitch_range"),
+    *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
+    *("cost_of_transport", "strouhal", "reduced_frequency", "reynolds"),
+)
+_KINDS: dict[str, tuple[type, ...]] = {
+    **dict.fromkeys(_TABLES, (dict,)),
+    **dict.fromkeys(_LISTS, (list,)),
+    **dict.fromkeys(_NUMBERS, (int, float, type(None))),
+    **dict.fromkeys(_TEXTS, (str,)),
+    "inputs": (dict,),
+}
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n",)
 
 
@@ -38,27 +54,26 @@ def parse_attributes(
         kind = attributes.get(KIND, "not from wingbeat")
         raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; give a file of `orbit -o`")
     try:
-        names = [n for n in attributes if n not in (KIND, "Conventions", "inputs", "inputs_hash")]
-        record = {name: _decode(name, attributes[name]) for name in names}
-        return record, json.loads(attributes["inputs"])
-    except (KeyError, ValueError, TypeError) as error:
+        record = {name: _decode(name, value) for name, value in attributes.items() if name in _KINDS}
+        return record, record.pop("inputs")
+    except (KeyError, ValueError, TypeError, AttributeError) as error:
         raise FileError(
             f"cannot read {os.fspath(path)!r} as an orbit: its attributes are damaged ({error}); solve it again"
         ) from None
 
 
 def _encode(name: str, value: Any) -> Any:
-    if name in _TEXT or (isinstance(value, int | float) and not isinstance(value, bool)):
+    if name in _TEXTS or (isinstance(value, int | float) and not isinstance(value, bool)):
         return value
     return json.dumps(value)
 
 
 def _decode(name: str, value: Any) -> Any:
-    if name in _TEXT:
-        return str(value)
-    if isinstance(value, str):
-        return json.loads(value)
-    return value.item()
+    if name not in _TEXTS:
+        value = json.loads(value) if isinstance(value, str) else value.item()
+    if not isinstance(value, _KINDS[name]) or (isinstance(value, float) and not math.isfinite(value)):
+        raise ValueError(f"{name} is {value!r}")
+    return value
 
 
 def save_dataset(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
@@ -92,9 +107,12 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
         raise FileError(f"cannot read {shown}: {reason}; check the path") from None
     if start not in _SIGNATURES:
         raise FileError(f"cannot read {shown}: it is not a NetCDF-4 file; give a file of `orbit -o`")
+    import h5py
     import xarray as xr
 
     try:
+        with h5py.File(path, "r") as whole:
+            dict(whole.attrs)  # damage here would have h5netcdf complain once more on stderr when it is let go
         return xr.load_dataset(path, engine="h5netcdf")
     except Exception as error:
         # HDF5 reports damage through many kinds of exception, each with its own inner words.

@@ -1,0 +1,94 @@
+"""The wing's points in the world as functions of the five coordinates and time, and their exact derivatives.
+
+Coordinates q = (x, z, body pitch, flap, root wing pitch); partial velocities are ``dr/dq``, drift is ``dr/dt`` at
+fixed q (what span and fold move by themselves), bias what ``r''`` is at ``q'' = 0``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wingbeat.frames import Triple, body_to_world
+from wingbeat.jax64 import jax, jnp
+from wingbeat.kinematics import Wingbeat
+from wingbeat.model import FlightModel
+from wingbeat.wing_motion import mass_points, strips_of, wing_shape
+
+
+class WingPoints(NamedTuple):
+    """Left wing in the world: mass points (2, N, 3), quarter chords, chordwise and normal unit vectors (N, 3)."""
+
+    mass: Any
+    quarter_chord: Any
+    chordwise: Any
+    normal: Any
+
+
+def _to_world(body_pitch: Any, vector: Triple) -> Any:
+    x, z = body_to_world(body_pitch, vector[0], vector[2])
+    return jnp.stack([x, vector[1], z], axis=-1)
+
+
+def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
+    """Place the left wing in the world for coordinates q at a time [s]."""
+    strips = strips_of(model.vehicle.wing, model.strips)
+    shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
+    place = jnp.stack([q[0], jnp.zeros_like(q[0]), q[1]])
+    return WingPoints(
+        place + _to_world(q[2], mass_points(shape, strips)),
+        place + _to_world(q[2], shape.quarter_chord),
+        _to_world(q[2], shape.chordwise),
+        _to_world(q[2], shape.normal),
+    )
+
+
+def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
+    """Return ``dr/dq`` of all wing points, each with a last axis of five."""
+    return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
+
+
+def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
+    """Return ``dr/dt`` at fixed q of all wing points: what span and fold move by themselves."""
+    return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
+
+
+def bias_accelerations(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> tuple[Any, Any]:
+    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``."""
+
+    def by_q(at: Any) -> Any:
+        return partial_velocities(model, wingbeat, at, time).mass
+
+    def by_time(at: Any, when: Any) -> Any:
+        return drift_velocities(model, wingbeat, at, when).mass
+
+    still, one = jnp.zeros_like(time), jnp.ones_like(time)
+    turning = jax.jvp(by_q, (q,), (q_dot,))[1]
+    return turning, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
+        by_time, (q, time), (jnp.zeros_like(q), one)
+    )[1]
+
+
+class PointMotion(NamedTuple):
+    """Wing points with their velocities, partial velocities, drifts and bias accelerations (``r''`` at q'' = 0)."""
+
+    place: WingPoints
+    velocity: WingPoints
+    partial: WingPoints
+    drift: WingPoints
+    bias: WingPoints
+
+
+def point_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> PointMotion:
+    """Differentiate the wing's place once for all that a given motion needs."""
+
+    def place(along: Any) -> WingPoints:
+        return wing_points(model, wingbeat, q + along * q_dot, time + along)
+
+    def velocity(along: Any) -> tuple[WingPoints, WingPoints]:
+        return jax.jvp(place, (along,), (jnp.ones_like(along),))
+
+    still = jnp.zeros_like(time)
+    (points, velocities), (_, bias) = jax.jvp(velocity, (still,), (jnp.ones_like(time),))
+    partial = partial_velocities(model, wingbeat, q, time)
+    drift = jax.tree_util.tree_map(lambda v, p: v - p @ q_dot, velocities, partial)
+    return PointMotion(points, velocities, partial, drift, bias)

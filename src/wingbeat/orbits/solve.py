@@ -21,7 +21,7 @@ from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
 _AIM = 1e-7
-_CORRECTIONS = 6
+_CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 _SAME = 1e-3
 

@@ -6,7 +6,6 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-import diffrax
 import numpy as np
 
 from wingbeat.errors import FaultList
@@ -14,6 +13,7 @@ from wingbeat.five_coordinates import accelerations_from_torques
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, State, body_rates, motion_table
+from wingbeat.stored import stored
 
 RTOL, ATOL = 1e-10, 1e-12
 MAX_STEPS = 4096
@@ -30,6 +30,8 @@ def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any) -> A
     Every step is kept and those onto `times` picked out: diffrax's own sampling at given times interpolates, and
     checks them by a callback that keeps the compiled function out of the cache on disk.
     """
+    import diffrax  # half a second to import, and not needed where the traced program is on disk
+
     rates = jax.jit(rates)  # traced once, however often diffrax asks for its shape
     controller = diffrax.ClipStepSizeController(
         diffrax.PIDController(rtol=RTOL, atol=ATOL), step_ts=times, store_rejected_steps=None
@@ -55,7 +57,7 @@ def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any) -> A
     return jnp.where(met[:, None] & jnp.isfinite(found), found, jnp.nan)
 
 
-@jax.jit
+@stored
 def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
     def rates(phase: Any, state: Any, args: tuple[FlightModel, Wingbeat]) -> Any:
         flown, beat = args

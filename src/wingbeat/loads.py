@@ -8,6 +8,7 @@ from wingbeat.five_coordinates import air_forces_on
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.model import FlightModel, State, body_rates, motion_table
+from wingbeat.stored import stored
 from wingbeat.wing_motion import strips_of, time_rates
 from wingbeat.wing_points import point_motion
 
@@ -46,7 +47,7 @@ class Loads(NamedTuple):
     potential_energy: Any
 
 
-@jax.jit
+@stored
 def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 

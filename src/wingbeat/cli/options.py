@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,6 +12,7 @@ from cyclopts import Parameter, Token
 
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.files import writing
 from wingbeat.species import Species, load_species, parse_setting
 
 
@@ -87,3 +88,15 @@ def unpacking(path: Path) -> Iterator[None]:
         raise FileError(
             f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve it again"
         ) from None
+
+
+class _Enough(Exception):
+    """A path can be written; there is nothing to write yet."""
+
+
+def check_outputs(*paths: Path | None) -> None:
+    """Refuse a path that cannot be written before hours of work and not after; leave what stands there."""
+    for path in paths:
+        if path is not None:
+            with suppress(_Enough), writing(path):
+                raise _Enough

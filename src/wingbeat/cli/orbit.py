@@ -8,7 +8,6 @@ import math
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -25,17 +24,16 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     aero_with,
+    check_outputs,
     given_beside,
     species_with,
     unpacking,
 )
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
-from wingbeat.files import writing
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
-from wingbeat.results.storage import save_dataset
 
 FIGURES = (".png", ".pdf", ".svg")
 _BESIDE_FROM = ("from_", "json", "output", "plot")
@@ -110,17 +108,14 @@ def orbit(
             bounds = {"flap_amplitude": (least, math.radians(flap_amplitude_max))}
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
         problem = OrbitProblem(animal, speed=speed, climb=climb, aero=loads, bounds=bounds)
-    # The outputs are opened first: a folder that cannot be written is told before the work, not after.
-    with ExitStack() as outputs:
-        netcdf = outputs.enter_context(writing(output)) if output else None
-        picture = outputs.enter_context(writing(plot)) if plot else None
-        found = _solve(problem, starts, seed)
-        if netcdf:
-            save_dataset(found.dataset, netcdf)
-        if picture:
-            from wingbeat.plots import save_figure, wingbeat_page
+    check_outputs(output, plot)
+    found = _solve(problem, starts, seed)
+    if output:
+        found.save(output)
+    if plot:
+        from wingbeat.plots import save_figure, wingbeat_page
 
-            save_figure(wingbeat_page(found.dataset), picture)
+        save_figure(wingbeat_page(found.dataset), plot)
     record = found.record()
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))

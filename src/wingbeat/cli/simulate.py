@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json as json_format
 import math
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -23,18 +22,17 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     aero_with,
+    check_outputs,
     given_beside,
     species_with,
     unpacking,
 )
 from wingbeat.errors import FaultList
-from wingbeat.files import writing
 from wingbeat.model import State, flight_model
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.record import beat_mean
-from wingbeat.results.storage import save_dataset
 
 _BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate", "json", "output")
 
@@ -90,11 +88,10 @@ def simulate(
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     start = start._replace(**{name: value for name, value in given.items() if value is not None})
-    with ExitStack() as outputs:
-        netcdf = outputs.enter_context(writing(output)) if output else None
-        flight = fly(model, wingbeat, start, beats, samples)
-        if netcdf:
-            save_dataset(flight.dataset, netcdf)
+    check_outputs(output)
+    flight = fly(model, wingbeat, start, beats, samples)
+    if output:
+        flight.save(output)
     rows = beat_rows(flight, samples)
     if json:
         print(json_format.dumps({"completed": flight.completed, "beats": rows}, indent=2, allow_nan=False))

@@ -15,6 +15,7 @@ from wingbeat.flights import integrate, state_rates
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
+from wingbeat.stored import stored
 
 SAMPLES = 256
 
@@ -41,7 +42,7 @@ class Certificate:
         return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
 
 
-@jax.jit
+@stored
 def _fly_with_variations(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any:
     def rates(phase: Any, state: Any, args: tuple[FlightModel, Wingbeat]) -> Any:
         flown, beat = args

@@ -6,12 +6,12 @@ its step began; last the chain of the small step maps. Place (x, z) feeds nothin
 
 from __future__ import annotations
 
-import functools
 from typing import Any, NamedTuple
 
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
 
 
@@ -46,19 +46,19 @@ class StageTables(NamedTuple):
     step: Any
 
 
-@functools.partial(jax.jit, static_argnames=("steps",))
-def tabulate(model: FlightModel, wingbeat: Wingbeat, steps: int) -> StageTables:
+@stored(static=("steps",))
+def tabulate(model: FlightModel, wingbeat: Wingbeat, *, steps: int) -> StageTables:
     """Tabulate the wing for a march of `steps` equal steps over one period."""
     motion = motion_table(model, wingbeat, jnp.linspace(0.0, 1.0, 2 * steps + 1))
     return StageTables(motion, 1.0 / (wingbeat.frequency * steps))
 
 
-@functools.partial(jax.jit, static_argnames=("free", "steps"))
+@stored(static=("free", "steps"))
 def tabulate_tangents(
-    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], values: Any, steps: int
+    model: FlightModel, wingbeat: Wingbeat, values: Any, *, free: tuple[str, ...], steps: int
 ) -> tuple[StageTables, StageTables]:
     """Tabulate the wing and its derivatives (leading axis) with respect to the free parameters."""
-    tables, along = jax.linearize(lambda v: tabulate(model, unpack(free, wingbeat, v), steps), values)
+    tables, along = jax.linearize(lambda v: tabulate(model, unpack(free, wingbeat, v), steps=steps), values)
     return tables, jax.vmap(along)(jnp.eye(len(free)))
 
 
@@ -86,7 +86,7 @@ class March(NamedTuple):
     rates: Any
 
 
-@jax.jit
+@stored
 def march(model: FlightModel, tables: StageTables, start: Any) -> March:
     """Fly one period from a pitch state at x = z = 0 with fixed steps."""
 
@@ -103,7 +103,7 @@ def march(model: FlightModel, tables: StageTables, start: Any) -> March:
 
 def fly(model: FlightModel, wingbeat: Wingbeat, start: Any, steps: int) -> Period:
     """Fly one period of a wingbeat from a pitch state at x = z = 0."""
-    return march(model, tabulate(model, wingbeat, steps), start).period
+    return march(model, tabulate(model, wingbeat, steps=steps), start).period
 
 
 def fly_with_tangents(
@@ -113,12 +113,12 @@ def fly_with_tangents(
 
     Three compiled pieces, not one: XLA fuses across them to no good (twice the compile time, thrice the run).
     """
-    tables, tangents = tabulate_tangents(model, wingbeat, free, values, steps)
+    tables, tangents = tabulate_tangents(model, wingbeat, values, free=free, steps=steps)
     flight = march(model, tables, start)
     return differentiate(model, tables, tangents, flight)
 
 
-@jax.jit
+@stored
 def differentiate(
     model: FlightModel, tables: StageTables, table_tangents: StageTables, flight: March
 ) -> PeriodTangents:

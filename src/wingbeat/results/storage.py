@@ -10,7 +10,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import FileError
-from wingbeat.files import writing
+from wingbeat.files import write_atomically
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,14 +77,14 @@ def _decode(name: str, value: Any) -> Any:
 
 
 def save_dataset(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
-    """Write a dataset as NetCDF-4, beside its place first and then renamed.
+    """Write a dataset as NetCDF-4, whole or not at all.
 
     Raises
     ------
     FileError : the file cannot be written.
     """
-    with writing(path) as beside:
-        dataset.to_netcdf(beside, engine="h5netcdf")
+    # Made in memory: on a full disk HDF5 itself fills stderr with tracebacks and may crash the process.
+    write_atomically(path, bytes(dataset.to_netcdf(engine="h5netcdf")))
 
 
 def load_dataset(path: str | PathLike[str]) -> xr.Dataset:

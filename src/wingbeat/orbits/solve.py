@@ -21,6 +21,7 @@ from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
 _AIM = 1e-7
+_PITCH_EXCESS = 1e-6
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 _SAME = 1e-3
@@ -71,18 +72,22 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> _Certified:
     """
     scaled = problem.scaled(unknowns)
     best: _Certified | None = None
-    problem.shift = np.zeros(6)
+    problem.shift, problem.pitch_shift = np.zeros(6), np.zeros(2)
     for _ in range(_CORRECTIONS):
         physical = problem.physical(scaled)
         wingbeat = problem.problem.wingbeat(physical)
         certificate = certify(problem.model, wingbeat, physical[:4])
         miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
+        margins = problem.margins(certificate.states[:, 2])
+        here = _Certified(scaled, wingbeat, certificate, miss)
+        if _size(miss) <= _AIM and margins.min() >= -_PITCH_EXCESS:
+            return here
         if best is None or _size(miss) < _size(best.miss):
-            best = _Certified(scaled, wingbeat, certificate, miss)
-        if _size(miss) <= _AIM or not np.isfinite(miss).all():
+            best = here
+        if not np.isfinite(miss).all():
             break
-        own = problem.closure(scaled) + problem.shift
-        problem.shift = own - miss / CLOSURE_SCALE
+        problem.shift = problem.closure(scaled) + problem.shift - miss / CLOSURE_SCALE
+        problem.pitch_shift = problem.pitch_margin(scaled) + problem.pitch_shift - margins
         scaled, _ = optimise(problem, scaled, iterations=20)
     assert best is not None
     return best

@@ -28,7 +28,8 @@ class Point:
 class Transcription:
     """Closure, path bound and objective of a problem as functions of scaled unknowns, each flight flown once.
 
-    `shift` is taken off the closure: the defect correction hands over what the certifier found beyond it.
+    `shift` is taken off the closure and `pitch_shift` off the margins of body pitch: the defect correction hands
+    over what the certifier found beyond them.
     """
 
     def __init__(self, problem: OrbitProblem, model: FlightModel | None = None, steps: int = STEPS) -> None:
@@ -40,6 +41,7 @@ class Transcription:
         self.upper = self.unknowns.upper / self.unknowns.scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
         self.shift = np.zeros(6)
+        self.pitch_shift = np.zeros(2)
         self.flights = 0
         self.jacobians = 0
         self._key: bytes = b""
@@ -94,8 +96,11 @@ class Transcription:
 
     def pitch_margin(self, scaled: np.ndarray) -> np.ndarray:
         """Return how far body pitch stays above its lower and below its upper bound on the path [rad]."""
-        path = self._at(scaled)[0].path
-        return np.array([path.min() - self.pitch_bounds[0], self.pitch_bounds[1] - path.max()])
+        return self.margins(self._at(scaled)[0].path) - self.pitch_shift
+
+    def margins(self, pitch: np.ndarray) -> np.ndarray:
+        """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
+        return np.array([pitch.min() - self.pitch_bounds[0], self.pitch_bounds[1] - pitch.max()])
 
     def pitch_margin_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return its derivative, shape (2, n)."""

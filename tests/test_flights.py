@@ -1,0 +1,169 @@
+"""Flights from an initial state: sampling, closing, tumbling, refusing; and flights driven by hinge torques."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.interpolate import CubicSpline
+
+import wingbeat as wb
+from wingbeat.jax64 import jnp
+
+SAMPLES = 256  # so few different lengths, two beats of it or one of twice as many, that JAX seldom compiles
+
+
+def pigeon():
+    species = wb.load_species("pigeon")
+    return wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air), species.wingbeat
+
+
+def test_a_flight_has_a_sample_for_each_phase():
+    model, beat = pigeon()
+    start = wb.State(1.0, 2.0, 0.1, 10.0, -0.5, 0.3)
+    flight = wb.simulate(model, beat, start, beats=2, samples=SAMPLES)
+    assert flight.completed
+    assert flight.states.shape == (2 * SAMPLES + 1, 6)
+    np.testing.assert_allclose(flight.phase, np.arange(2 * SAMPLES + 1) / SAMPLES, rtol=0, atol=1e-15)
+    np.testing.assert_array_equal(flight.states[0], start)
+    series = flight.dataset
+    assert series.sizes["phase"] == 2 * SAMPLES + 1
+    np.testing.assert_allclose(series["time"], flight.phase / beat.frequency, rtol=1e-15)
+    # Place is the integral of velocity: by Simpson over each beat, to the fineness of the samples.
+    u = flight.states[:, 3]
+    weights = np.r_[1, np.tile([4, 2], SAMPLES)[:-1], 1] / (3 * SAMPLES * beat.frequency)
+    assert flight.states[-1, 0] - 1.0 == pytest.approx(weights @ u, rel=1e-6)
+
+
+def test_a_flight_of_beats_is_a_chain_of_flights():
+    model, beat = pigeon()
+    whole = wb.simulate(model, beat, wb.State(u=10.0), beats=2, samples=SAMPLES)
+    first = wb.simulate(model, beat, wb.State(u=10.0), beats=1, samples=SAMPLES)
+    second = wb.simulate(model, beat, wb.State(*first.states[-1]), beats=1, samples=SAMPLES)
+    np.testing.assert_array_equal(whole.states, np.concatenate([first.states, second.states[1:]]))
+
+
+def test_an_orbit_flown_for_a_beat_returns(solved):
+    flight = wb.simulate(solved.model, solved.wingbeat, wb.State(*solved.start), beats=1, samples=SAMPLES)
+    assert np.abs(flight.states[-1] - solved.start - solved.travelled).max() <= 1e-6
+    # The certifier stood at the same places on the way.
+    np.testing.assert_allclose(flight.states, solved.certificate.states, rtol=0, atol=1e-6)
+    displaced = wb.State(*solved.start)._replace(pitch_rate=solved.start[5] + 1e-3)
+    other = wb.simulate(solved.model, solved.wingbeat, displaced, beats=1, samples=SAMPLES)
+    assert np.abs(other.states[-1] - displaced - solved.travelled).max() > 1e-6
+
+
+def test_scipy_closes_the_orbit_too(solved, reflight):
+    """A second integrator, DOP853 at rtol 1e-11, in (m, m, rad, m/s, m/s, rad/s)."""
+    assert np.abs(reflight.end - solved.start - solved.travelled).max() <= 1e-6
+    recorded = np.array(list(solved.orbit.record()["closure"].values()))
+    own = solved.certificate.end - solved.start - solved.travelled
+    np.testing.assert_allclose(own, recorded, rtol=0, atol=1e-12)
+
+
+def test_a_tumbling_flight_is_reported_not_raised(tmp_path):
+    """A beat of 100 s is a long fall: the integrator gives up before its end."""
+    model, beat = pigeon()
+    slow = dataclasses.replace(beat, frequency=0.01)
+    flight = wb.simulate(model, slow, wb.State(u=8.0, pitch_rate=20.0), beats=2, samples=SAMPLES)
+    assert flight.completed is False
+    finite = np.isfinite(flight.states).all(axis=1)
+    flown = int(finite.sum())
+    assert 1 <= flown < finite.size
+    assert finite[:flown].all()  # from where it gave up there is nothing more
+    flight.save(tmp_path / "tumbled.nc")
+    series = xr.load_dataset(tmp_path / "tumbled.nc", engine="h5netcdf")
+    assert np.isnan(series["hinge_power"].values[-1])
+    assert np.isfinite(series["hinge_power"].values[:flown]).all()
+
+
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, "fast", None, True, 1j])
+@pytest.mark.parametrize("name", ["x", "z", "body_pitch", "u", "w", "pitch_rate"])
+def test_a_state_that_is_no_number_is_refused(name, wrong):
+    model, beat = pigeon()
+    with pytest.raises(wb.InvalidInputError) as refused:
+        wb.simulate(model, beat, wb.State(**{name: wrong}))
+    assert [fault.where for fault in refused.value.faults] == [f"initial_state.{name}"]
+
+
+def test_all_faults_of_a_state_are_told_at_once():
+    model, beat = pigeon()
+    with pytest.raises(wb.InvalidInputError) as refused:
+        wb.simulate(model, beat, wb.State(x=math.nan, w="up", pitch_rate=math.inf))
+    assert len(refused.value.faults) == 3
+
+
+@pytest.mark.parametrize("count", [0, -1, 1.0, True, "3", 10**9])
+@pytest.mark.parametrize("name", ["beats", "samples"])
+def test_counts_that_are_no_whole_numbers_are_refused(name, count):
+    model, beat = pigeon()
+    with pytest.raises(wb.InvalidInputError, match=f"{name} = .*must be a whole number"):
+        wb.simulate(model, beat, wb.State(), **{name: count})
+
+
+def test_a_saved_flight_reads_back(tmp_path):
+    model, beat = pigeon()
+    flight = wb.simulate(model, beat, wb.State(u=10.0), beats=2, samples=SAMPLES)
+    flight.save(tmp_path / "flight.nc")
+    xr.testing.assert_identical(xr.load_dataset(tmp_path / "flight.nc", engine="h5netcdf"), flight.dataset)
+    with pytest.raises(wb.FileError, match="as an orbit: it is flight"):
+        wb.load_orbit(tmp_path / "flight.nc")
+
+
+def spline_torques(time, spline):
+    """Return the hinge torques at a time from the pieces of cubic splines (4, pieces, 2) over knots."""
+    knots, pieces = spline
+    i = jnp.clip(jnp.searchsorted(knots, time, side="right") - 1, 0, pieces.shape[1] - 1)
+    a, b, c, d = pieces[:, i]
+    rest = time - knots[i]
+    return ((a * rest + b) * rest + c) * rest + d
+
+
+def record_torques(solved):
+    """Fly an orbit for a beat and return times, q, q' and the hinge torques, 513 rows each."""
+    flight = wb.simulate(solved.model, solved.wingbeat, wb.State(*solved.start), samples=2 * SAMPLES)
+    series = flight.dataset
+    names = (
+        ("x", "z", "body_pitch", "flap", "wing_pitch"),
+        ("u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate"),
+        ("flap_torque", "pitch_torque"),
+    )
+    return series["time"].values, *(np.stack([series[n] for n in group], axis=-1) for group in names)
+
+
+def test_torques_drive_the_wing_along_its_prescribed_flight(solved):
+    """Half a beat comes back to 1e-6, a whole one to 1e-3: errors grow, and 513 samples are not the function."""
+    time, q, rates, torques = record_torques(solved)
+
+    def miss(scale):
+        spline = CubicSpline(time, scale * torques)
+        found, found_rates = wb.simulate_torque_driven(
+            solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::32], (spline.x, spline.c)
+        )
+        by_rates = np.abs(found_rates - rates[::32]) / np.abs(rates).max(axis=0)
+        return np.maximum(np.abs(found - q[::32]), by_rates).max(axis=1)
+
+    found = miss(1.0)
+    assert found[:9].max() <= 1e-6
+    assert found.max() <= 1e-3
+    # And the comparison would see torques that are off by a millionth.
+    assert miss(1 + 1e-6)[:9].max() > 1e-6
+
+
+@pytest.mark.parametrize(
+    ("changed", "where"),
+    [
+        ({"coordinates": np.zeros(4)}, "coordinates"),
+        ({"rates": [0, 0, 0, 0, math.nan]}, "rates"),
+        ({"times": [0.0]}, "times"),
+        ({"times": [0.0, 0.1, 0.1]}, "times"),
+        ({"times": [0.0, math.inf]}, "times"),
+    ],
+)
+def test_a_torque_driven_flight_refuses_wrong_input(changed, where):
+    model, beat = pigeon()
+    good = {"coordinates": np.zeros(5), "rates": np.zeros(5), "times": [0.0, 0.1]}
+    with pytest.raises(wb.InvalidInputError) as refused:
+        wb.simulate_torque_driven(model, beat, torques=spline_torques, **(good | changed))
+    assert [fault.where for fault in refused.value.faults] == [where]

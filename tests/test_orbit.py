@@ -1,4 +1,4 @@
-"""Orbits: the record and its definitions, what a seed fixes, the stroke-plane gauge, and searches that must fail."""
+"""Orbits: the record and its definitions, what a seed fixes, the stroke-plane gauge, searches that must fail."""
 
 import dataclasses
 import json

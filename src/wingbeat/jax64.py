@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
+import warnings
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -29,6 +30,8 @@ def _configure() -> None:
         jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
+        # A cache that cannot be read or written costs time, not the answer.
+        warnings.filterwarnings("ignore", message="Error (reading|writing) persistent compilation cache")
 
 
 _configure()

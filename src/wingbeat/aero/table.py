@@ -20,7 +20,8 @@ from wingbeat.aero.table_checks import (
     numbers,
 )
 from wingbeat.elementary import horner
-from wingbeat.errors import FaultList, FileError
+from wingbeat.errors import FaultList
+from wingbeat.files import read_text
 from wingbeat.jax64 import jax, jnp
 
 
@@ -158,15 +159,7 @@ class TableCoefficients(CoefficientModel):
 
 def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
     """Return (row number in the file, cells) of each row that is neither blank nor a # comment."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise FileError(f"{path}: there is no such file; check the path to the table") from None
-    except UnicodeDecodeError:
-        raise FileError(f"{path}: is not text in UTF-8; save the table as CSV in UTF-8") from None
-    except OSError as error:
-        raise FileError(f"{path}: cannot be read ({error.strerror}); give the path to a CSV file") from None
-    lines = enumerate(csv.reader(text.splitlines()), start=1)
+    lines = enumerate(csv.reader(read_text(path).splitlines()), start=1)
     return [(i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")]
 
 

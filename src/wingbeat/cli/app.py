@@ -37,11 +37,14 @@ COMMANDS = {
 }
 
 
-def build_app() -> App:
-    """Return the command line with every command registered and none imported."""
+def build_app(chosen: str = "") -> App:
+    """Return the command line with every command registered and none imported.
+
+    The command that was chosen is imported anyway, so its help is its own docstring, not the line of the list.
+    """
     app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
-        app.command(f"wingbeat.cli.{name}:{name}", name=name, help=text)
+        app.command(f"wingbeat.cli.{name}:{name}", name=name, **({} if name == chosen else {"help": text}))
     return app
 
 
@@ -61,7 +64,7 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):  # an ASCII terminal shows a sign it lacks as an escape
             stream.reconfigure(errors="backslashreplace")
     try:
-        code = _run(list(sys.argv[1:] if argv is None else argv), app or build_app())
+        code = _run(list(sys.argv[1:] if argv is None else argv), app)
         sys.stdout.flush()
     except BrokenPipeError:
         return _close_stdout()
@@ -77,7 +80,8 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
     return code
 
 
-def _run(argv: list[str], app: App) -> int:
+def _run(argv: list[str], app: App | None) -> int:
+    app = app or build_app(argv[0] if argv else "")
     try:
         result = app(argv, exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:

@@ -31,8 +31,10 @@ class Candidate:
     jacobians: int
 
 
-def search(problem: Transcription, start: np.ndarray) -> Candidate:
+def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -> Candidate:
     """Search from unknowns `start`: towards closure first, then SLSQP; a stalled search is restarted once.
+
+    A search whose elastic solve stays further than `give_up` from closure (in the optimiser's scale) ends there.
 
     Closure first, because from a crude start SLSQP's first steps of a full Newton correction leave the region
     where its quadratic model means anything; restarted, because a stall is mostly a spoilt BFGS matrix.
@@ -42,6 +44,8 @@ def search(problem: Transcription, start: np.ndarray) -> Candidate:
     closed = optimal = False
     for _ in range(_ROUNDS):
         scaled = approach(problem, scaled)
+        if violation(problem, scaled) > give_up:
+            break
         scaled, optimal = optimise(problem, scaled)
         closed = is_closed(problem, scaled)
         # SLSQP also stops where rounding lets it go no further; what counts is whether the conditions hold there.

@@ -13,6 +13,7 @@ import numpy as np
 
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
+from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.search import Candidate, active_bounds, optimality, optimise, search
@@ -24,6 +25,8 @@ _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
+# An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
+_HOPELESS = 1e-3
 _SAME = 1e-3
 
 
@@ -127,7 +130,8 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     transcription = Transcription(problem)
     for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
         total = max(total, stage.stop)
-        for candidate in _searches(problem, transcription.model, stage, seed):
+        give_up = _HOPELESS if stage.start else np.inf
+        for candidate in _searches(problem, transcription.model, stage, seed, give_up):
             found.append(candidate)
             if progress is not None:
                 progress(len(found), total)
@@ -157,9 +161,11 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     )
 
 
-def _searches(problem: OrbitProblem, model: object, indices: Iterable[int], seed: int) -> Iterator[Candidate]:
+def _searches(
+    problem: OrbitProblem, model: FlightModel, indices: Iterable[int], seed: int, give_up: float
+) -> Iterator[Candidate]:
     def one(index: int) -> Candidate:
-        return search(Transcription(problem, model), start_point(problem, index, seed))  # type: ignore[arg-type]
+        return search(Transcription(problem, model), start_point(problem, index, seed), give_up)
 
     # Compiled flights release the interpreter, so threads use the cores there are.
     with ThreadPoolExecutor(min(len(list(indices)) or 1, os.cpu_count() or 1)) as pool:

@@ -13,7 +13,7 @@ from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, Status, find_orbit
 from wingbeat.results.dataset import evaluate, flight_dataset
-from wingbeat.results.provenance import inputs_hash, inputs_of, problem_from
+from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import orbit_record
 from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes, save_dataset
 
@@ -114,7 +114,7 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     inputs = inputs_of(problem, starts, seed)
 
     def series() -> xr.Dataset:
-        attributes = orbit_attributes(record, inputs, inputs_hash(inputs))
+        attributes = orbit_attributes(record, inputs)
         return flight_dataset(model, solution.wingbeat, certificate.phase, certificate.states, found, attributes)
 
     return Orbit(record, inputs, series)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from typing import Any
 
@@ -47,11 +46,6 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
         "seed": seed,
     }
     return json.loads(json.dumps(inputs))
-
-
-def inputs_hash(inputs: dict[str, Any]) -> str:
-    """Return the SHA-256 of the inputs, the same for the same inputs whatever their order."""
-    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()
 
 
 def problem_from(inputs: dict[str, Any]) -> OrbitProblem:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import os
@@ -35,10 +36,15 @@ _KINDS: dict[str, tuple[type, ...]] = {
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n",)
 
 
-def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any], digest: str) -> dict[str, Any]:
+def inputs_hash(inputs: dict[str, Any]) -> str:
+    """Return the SHA-256 of the inputs, the same for the same inputs whatever their order."""
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()
+
+
+def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
     """Return a record and its inputs as attributes: numbers and texts as they are, all else as JSON."""
     attributes = {name: _encode(name, value) for name, value in record.items()}
-    return {KIND: "orbit", **attributes, "inputs": json.dumps(inputs), "inputs_hash": digest}
+    return {KIND: "orbit", **attributes, "inputs": json.dumps(inputs), "inputs_hash": inputs_hash(inputs)}
 
 
 def parse_attributes(
@@ -55,7 +61,10 @@ def parse_attributes(
         raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; give a file of `orbit -o`")
     try:
         record = {name: _decode(name, value) for name, value in attributes.items() if name in _KINDS}
-        return record, record.pop("inputs")
+        inputs = record.pop("inputs")
+        if attributes["inputs_hash"] != inputs_hash(inputs):
+            raise ValueError("the inputs are not those it was solved from")
+        return record, inputs
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         raise FileError(
             f"cannot read {os.fspath(path)!r} as an orbit: its attributes are damaged ({error}); solve it again"

@@ -43,9 +43,7 @@ def strips_of(wing, twist_ratio, count):
     """Cut a wing into equal strips: chord piecewise linear from root to tip, mass as (1 - s/L)**p."""
     fraction = (np.arange(count) + 0.5) / count
     stations = np.atleast_1d(wing.chord)
-    chord = (
-        np.interp(fraction, np.linspace(0.0, 1.0, stations.size), stations) if stations.size > 1 else stations
-    )
+    chord = np.interp(fraction, np.linspace(0.0, 1.0, stations.size), stations) if stations.size > 1 else stations
     weight = (1.0 - fraction) ** wing.mass_exponent
     columns = np.broadcast_arrays(
         wing.semi_span * fraction,

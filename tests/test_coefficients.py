@@ -295,7 +295,5 @@ def test_unknown_name_without_a_guess_lists_the_models():
 
 
 def test_formulas_do_not_import_scipy_interpolation():
-    code = (
-        "import sys, wingbeat.aero as a; a.SuFan().lift(0.1); assert 'scipy.interpolate' not in sys.modules"
-    )
+    code = "import sys, wingbeat.aero as a; a.SuFan().lift(0.1); assert 'scipy.interpolate' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -52,9 +52,7 @@ COMPILED = [jax.jit(jax.vmap(f, (None, 0))) for f in (coefficients, SLOPES, CURV
 def derivatives(model):
     """Return the coefficients, their slopes and curvatures as functions of angles (n,), each (n, 2 or 3)."""
     kernel, many = model.kernel(), 3 if model.has_centre_of_pressure else 2
-    return [
-        lambda alpha, f=f: np.array(f(kernel, np.asarray(alpha, dtype=float)))[:, :many] for f in COMPILED
-    ]
+    return [lambda alpha, f=f: np.array(f(kernel, np.asarray(alpha, dtype=float)))[:, :many] for f in COMPILED]
 
 
 @seed(0)
@@ -83,9 +81,7 @@ def test_mirrored_plate_from_behind(alpha, width, name):
     assert model.lift(alpha - math.pi) == pytest.approx(model.lift(alpha), abs=1e-12)
     assert model.drag(alpha - math.pi) == pytest.approx(model.drag(alpha), abs=1e-12)
     if model.has_centre_of_pressure:
-        assert model.centre_of_pressure(behind) == pytest.approx(
-            1 - model.centre_of_pressure(alpha), abs=1e-12
-        )
+        assert model.centre_of_pressure(behind) == pytest.approx(1 - model.centre_of_pressure(alpha), abs=1e-12)
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -302,7 +298,5 @@ def test_blends_meet_their_jets():
     np.testing.assert_allclose(jet_of(polynomial(join.even, join.odd), -width), left, rtol=1e-13)
     np.testing.assert_allclose(jet_of(polynomial(join.even, join.odd), width), right, rtol=1e-13)
     nothing = (0.0, 0.0, 0.0)
-    np.testing.assert_allclose(
-        jet_of(polynomial(even_blend(right, width), nothing), width), right, rtol=1e-13
-    )
+    np.testing.assert_allclose(jet_of(polynomial(even_blend(right, width), nothing), width), right, rtol=1e-13)
     np.testing.assert_allclose(jet_of(polynomial(nothing, odd_blend(right, width)), width), right, rtol=1e-13)

@@ -105,9 +105,7 @@ def test_every_public_name_has_a_docstring() -> None:
     assert [name for name in public if not has_own_docstring(name)] == []
 
 
-@pytest.mark.parametrize(
-    "command", ["pip install uv && uv run wingbeat orbit pigeon --speed 12", "uv run pytest"]
-)
+@pytest.mark.parametrize("command", ["pip install uv && uv run wingbeat orbit pigeon --speed 12", "uv run pytest"])
 def test_readme_gives_the_two_commands(command: str) -> None:
     assert command in (ROOT / "README.md").read_text(encoding="utf-8")
 

@@ -232,8 +232,5 @@ def test_the_message_names_the_balance_that_fails_and_by_how_much(name, balance)
     assert f"misses by 0.5 in {name}" in message
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the message gives the largest miss of any state, not that of the state it names"
-)
 def test_the_miss_in_the_message_is_that_of_the_state_it_names():
     assert "misses by 0.05 in z" in failure_message(z=-0.05, pitch_rate=0.9)

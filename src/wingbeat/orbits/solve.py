@@ -215,6 +215,6 @@ def _failure(found: list[Candidate], nearest: _Certified) -> tuple[Status, str]:
     return (
         Status.INFEASIBLE,
         f"no orbit within the bounds in {len(found)} searches; at the nearest one {balance} (it misses by "
-        f"{_size(nearest.miss):.2g} in {worst}); widen the bounds of flap amplitude, pitch or frequency, "
+        f"{abs(float(nearest.miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, pitch or frequency, "
         "change the speed, or lighten the vehicle",
     )

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jnp, register_record
+from wingbeat.jax64 import jax, jnp, register_record
 
 
 @register_record
@@ -84,3 +84,12 @@ def span_ratio(wingbeat: Wingbeat, phase: Any) -> Any:
 def fold_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the angle of the hand below the arm [rad]."""
     return wingbeat.fold_amplitude * recovery(phase)
+
+
+def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Any) -> Wingbeat:
+    """Return the wingbeat with its free parameters replaced by `values`, in the order of `free`."""
+    names = vars(wingbeat)
+    replaced = {name: values[i] for i, name in enumerate(free)}
+    return jax.tree_util.tree_unflatten(
+        jax.tree_util.tree_structure(wingbeat), [replaced.get(name, names[name]) for name in names]
+    )

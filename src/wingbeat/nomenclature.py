@@ -50,7 +50,7 @@ NOMENCLATURE: dict[str, Term] = {
     "flap_torque": Term("τ_φ", "N m", "flap torque at the hinges, both wings"),
     "pitch_torque": Term("τ_θ", "N m", "wing pitch torque at the hinges, both wings"),
     "hinge_power": Term("P", "W", "hinge power, both wings"),
-    "actuator_power": Term("P_act", "W", "actuator power, both wings: hinges, span, fold and twist"),
+    "actuator_power": Term("P_act", "W", "actuator power, both wings: hinges, span and fold"),
     "air_power": Term("P_air", "W", "power of the air loads on the vehicle"),
     "centre_of_mass_x": Term("x_G", "m", "forward position of the system's centre of mass"),
     "centre_of_mass_z": Term("z_G", "m", "height of the system's centre of mass"),

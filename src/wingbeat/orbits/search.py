@@ -99,7 +99,9 @@ def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 40) 
     return found.x
 
 
-def optimise(problem: Transcription, scaled: np.ndarray, iterations: int = 60) -> tuple[np.ndarray, bool]:
+def optimise(
+    problem: Transcription, scaled: np.ndarray, iterations: int = 60, tolerance: float = 1e-10
+) -> tuple[np.ndarray, bool]:
     """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged."""
     found = minimize(
         problem.objective,
@@ -111,7 +113,7 @@ def optimise(problem: Transcription, scaled: np.ndarray, iterations: int = 60) -
             {"type": "ineq", "fun": problem.pitch_margin, "jac": problem.pitch_margin_jacobian},
         ],
         method="SLSQP",
-        options={"maxiter": iterations, "ftol": 1e-10},
+        options={"maxiter": iterations, "ftol": tolerance},
     )
     return np.clip(found.x, problem.lower, problem.upper), bool(found.status == 0)
 

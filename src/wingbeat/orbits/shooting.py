@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from wingbeat.jax64 import jax, jnp
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
@@ -28,15 +28,6 @@ class PeriodTangents(NamedTuple):
     period: Period
     end_jacobian: Any
     path_jacobian: Any
-
-
-def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Any) -> Wingbeat:
-    """Return the wingbeat with its free parameters replaced by `values`, in the order of `free`."""
-    names = vars(wingbeat)
-    replaced = {name: values[i] for i, name in enumerate(free)}
-    return jax.tree_util.tree_unflatten(
-        jax.tree_util.tree_structure(wingbeat), [replaced.get(name, names[name]) for name in names]
-    )
 
 
 class StageTables(NamedTuple):

@@ -23,6 +23,9 @@ from wingbeat.orbits.transcription import Transcription
 CERTIFIED = 1e-6
 _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
+# A round that moves no unknown by more than this, in the optimiser's scale, has nothing left to correct.
+_SETTLED = 1e-6
+_SETTLING = 8
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 # An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
@@ -70,28 +73,29 @@ class _Certified:
 def correct(problem: Transcription, unknowns: np.ndarray) -> _Certified:
     """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
 
-    The search's few steps find the optimum of a slightly wrong flight; each round shifts its closure by what
-    the certifier found beyond it and re-solves from where it stands.
+    The search's few steps find the optimum of a slightly wrong flight. Each round gives its closure the value and
+    the derivative that the certifier finds, and re-solves from where it stands, until neither moves it any more.
     """
     scaled = problem.scaled(unknowns)
     best: _Certified | None = None
-    problem.shift, problem.pitch_shift = np.zeros(6), np.zeros(2)
-    for _ in range(_CORRECTIONS):
+    step = np.inf
+    for round_ in range(_CORRECTIONS):
         physical = problem.physical(scaled)
         wingbeat = problem.problem.wingbeat(physical)
-        certificate = certify(problem.model, wingbeat, physical[:4])
+        certificate = certify(problem.model, wingbeat, physical[:4], problem.problem.free)
         miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
         margins = problem.margins(certificate.states[:, 2])
         here = _Certified(scaled, wingbeat, certificate, miss)
-        if _size(miss) <= _AIM and margins.min() >= -_PITCH_EXCESS:
+        settled = step <= _SETTLED or round_ >= _SETTLING
+        if settled and _size(miss) <= _AIM and margins.min() >= -_PITCH_EXCESS:
             return here
         if best is None or _size(miss) < _size(best.miss):
             best = here
         if not np.isfinite(miss).all():
             break
-        problem.shift = problem.closure(scaled) + problem.shift - miss / CLOSURE_SCALE
-        problem.pitch_shift = problem.pitch_margin(scaled) + problem.pitch_shift - margins
-        scaled, _ = optimise(problem, scaled, iterations=20)
+        problem.correct_at(scaled, certificate)
+        moved, _ = optimise(problem, scaled, iterations=40, tolerance=1e-14)
+        step, scaled = float(np.abs(moved - scaled).max()), moved
     assert best is not None
     return best
 
@@ -215,6 +219,6 @@ def _failure(found: list[Candidate], nearest: _Certified) -> tuple[Status, str]:
     return (
         Status.INFEASIBLE,
         f"no orbit within the bounds in {len(found)} searches; at the nearest one {balance} (it misses by "
-        f"{abs(float(nearest.miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, pitch or frequency, "
-        "change the speed, or lighten the vehicle",
+        f"{abs(float(nearest.miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, "
+        "pitch or frequency, change the speed, or lighten the vehicle",
     )

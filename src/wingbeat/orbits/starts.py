@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from wingbeat.orbits.problem import OrbitProblem
@@ -11,7 +13,9 @@ def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
     """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
     unknowns = problem.unknowns()
     stock = vars(problem.species.wingbeat)
-    first = np.array([0.1, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free)])
+    # Turning the stroke plane turns the body the other way and leaves the wings where they were.
+    pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle - 0.5 * math.pi
+    first = np.array([pitch, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free)])
     if index == 0:
         return np.clip(first, unknowns.lower, unknowns.upper)
     random = np.random.default_rng([seed, index])

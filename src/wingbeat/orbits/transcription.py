@@ -8,6 +8,7 @@ import numpy as np
 
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
+from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.shooting import fly, fly_with_tangents
 
@@ -28,8 +29,7 @@ class Point:
 class Transcription:
     """Closure, path bound and objective of a problem as functions of scaled unknowns, each flight flown once.
 
-    `shift` is taken off the closure and `pitch_shift` off the margins of body pitch: the defect correction hands
-    over what the certifier found beyond them.
+    `correct_at` makes the closure, to first order, that of the certifier: its value and derivative at one point.
     """
 
     def __init__(self, problem: OrbitProblem, model: FlightModel | None = None, steps: int = STEPS) -> None:
@@ -40,8 +40,10 @@ class Transcription:
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
-        self.shift = np.zeros(6)
-        self.pitch_shift = np.zeros(2)
+        self._shift = np.zeros(6)
+        self._tilt = np.zeros((6, self.lower.size))
+        self._anchor = np.zeros(self.lower.size)
+        self._pitch_shift = np.zeros(2)
         self.flights = 0
         self.jacobians = 0
         self._key: bytes = b""
@@ -85,18 +87,18 @@ class Transcription:
         return point
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the shifted closure, shape (6,), scaled."""
-        return self._at(scaled)[0].closure - self.shift
+        """Return the corrected closure, shape (6,), scaled."""
+        return self._at(scaled)[0].closure - self._shift + self._tilt @ (scaled - self._anchor)
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return its derivative, shape (6, n)."""
         jacobian = self._differentiated(scaled).closure_jacobian
         assert jacobian is not None
-        return jacobian
+        return jacobian + self._tilt
 
     def pitch_margin(self, scaled: np.ndarray) -> np.ndarray:
         """Return how far body pitch stays above its lower and below its upper bound on the path [rad]."""
-        return self.margins(self._at(scaled)[0].path) - self.pitch_shift
+        return self.margins(self._at(scaled)[0].path) - self._pitch_shift
 
     def margins(self, pitch: np.ndarray) -> np.ndarray:
         """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
@@ -107,6 +109,18 @@ class Transcription:
         point = self._differentiated(scaled)
         assert point.path_jacobian is not None
         return np.stack([point.path_jacobian[point.path.argmin()], -point.path_jacobian[point.path.argmax()]])
+
+    def correct_at(self, scaled: np.ndarray, certificate: Certificate) -> None:
+        """Take the certifier's closure, its derivative and its path at this point for one's own."""
+        point, unknowns, wingbeat = self._at(scaled)
+        miss = self.problem.closure(certificate.end, unknowns, wingbeat.frequency) / CLOSURE_SCALE
+        jacobian = self.problem.closure_jacobian(certificate.jacobian, wingbeat.frequency)
+        own = self._differentiated(scaled).closure_jacobian
+        assert own is not None
+        self._shift = point.closure - miss
+        self._tilt = jacobian / CLOSURE_SCALE[:, None] * self.unknowns.scale - own
+        self._anchor = scaled.copy()
+        self._pitch_shift = self.margins(point.path) - self.margins(certificate.states[:, 2])
 
     def objective(self, scaled: np.ndarray) -> float:
         """Return the objective over its scale."""

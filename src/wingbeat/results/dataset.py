@@ -14,11 +14,19 @@ from wingbeat.nomenclature import NOMENCLATURE
 if TYPE_CHECKING:
     import xarray as xr
 
+_BLOCK = 257
+
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
-    """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
-    found = flight_loads(model, wingbeat, State(*np.asarray(states).T), np.asarray(phase))
-    return Loads(*(np.asarray(value) for value in found))
+    """Return the loads along sampled states, shape (K, 6), as NumPy arrays.
+
+    In blocks of one length, the last filled up with its end: every new length would be compiled anew.
+    """
+    blocks = []
+    for first in range(0, len(phase), _BLOCK):
+        here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
+        blocks.append(flight_loads(model, wingbeat, State(*states[here].T), phase[here]))
+    return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*blocks, strict=True)))
 
 
 def flight_dataset(

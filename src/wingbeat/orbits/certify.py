@@ -72,7 +72,7 @@ def _fly_with_variations(
         return jnp.concatenate([value, varied.ravel()])
 
     first = jnp.concatenate([start, jnp.eye(6, columns, -2).ravel()])
-    return integrate(rates, first, phases, (model, wingbeat, values))
+    return integrate(rates, first, phases, (model, wingbeat, values), controlled=6)
 
 
 def certify(

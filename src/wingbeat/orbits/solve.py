@@ -24,7 +24,7 @@ CERTIFIED = 1e-6
 _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
 # A round that moves no unknown by more than this, in the optimiser's scale, has nothing left to correct.
-_SETTLED = 1e-6
+_SETTLED = 1e-5
 _SETTLING = 8
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50

@@ -10,6 +10,7 @@ import functools
 import hashlib
 import pickle
 import platform
+import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -38,6 +39,7 @@ class StoredFunction:
         self._function = function
         self._static = static
         self._inlined = jax.jit(function, static_argnames=static)
+        self._lock = threading.Lock()
         self._ready: dict[Any, tuple[Callable[..., Any], Any]] = {}
 
     def __call__(self, *args: Any, **static: Any) -> Any:
@@ -48,7 +50,9 @@ class StoredFunction:
         leaves = [leaf if _is_float64(leaf) else np.asarray(leaf, dtype=float) for leaf in leaves]
         key = (tree, tuple(np.shape(leaf) for leaf in leaves), *static.values())
         if key not in self._ready:
-            self._ready[key] = self._load(leaves, tree, static)
+            with self._lock:  # one thread loads, the others wait for it
+                if key not in self._ready:
+                    self._ready[key] = self._load(leaves, tree, static)
         call, out_tree = self._ready[key]
         return jax.tree_util.tree_unflatten(out_tree, call(*leaves))
 
@@ -57,7 +61,9 @@ class StoredFunction:
         path = self._path(shapes, tree, static)
         try:
             program, out_tree = pickle.loads(path.read_bytes())
-            return jax.jit(jax.export.deserialize(bytearray(program)).call), out_tree
+            call = jax.jit(jax.export.deserialize(bytearray(program)).call)
+            call(*leaves)  # compiled, or read from JAX's cache, while the lock is held
+            return call, out_tree
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import os
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -26,6 +27,7 @@ _PITCH_EXCESS = 1e-6
 # A round that moves no unknown by more than this, in the optimiser's scale, has nothing left to correct.
 _SETTLED = 1e-5
 _SETTLING = 8
+_LOADED = threading.Event()
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 # An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
@@ -132,6 +134,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     total = starts
     best: _Certified | None = None
     transcription = Transcription(problem)
+    _load_programs(transcription, start_point(problem, 0, seed))
     for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
         total = max(total, stage.stop)
         give_up = _HOPELESS if stage.start else np.inf
@@ -163,6 +166,18 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
         seed,
         time.perf_counter() - begun,
     )
+
+
+def _load_programs(problem: Transcription, start: np.ndarray) -> None:
+    """Read or compile, side by side, the programs that the search and the certifier will want, once a process."""
+    if _LOADED.is_set():
+        return
+    _LOADED.set()
+    wingbeat = problem.problem.wingbeat(start)
+    with ThreadPoolExecutor(2) as pool:
+        certifying = pool.submit(certify, problem.model, wingbeat, start[:4], problem.problem.free)
+        pool.submit(problem.closure_jacobian, problem.scaled(start)).result()
+        certifying.result()
 
 
 def _searches(

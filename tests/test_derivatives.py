@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from conftest import refly_many
+from reflight import refly_many
 
 import wingbeat as wb
 from wingbeat.jax64 import jax, jnp

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from conftest import refly
+from reflight import refly
 
 import wingbeat as wb
 from wingbeat.five_coordinates import generalised_torques

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from refusals import refuse
+
+from bad_input.refusals import refuse
 
 # A command line and, for each fault, what its one line must hold: what, where, the allowed or the fix.
 NUMBERS = {

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from refusals import check, contents, refuse
 
+from bad_input.refusals import check, contents, refuse
 from wingbeat.cli import main
 
 # Bytes kept: HDF5's signature, pieces of its superblock, the superblock, some of the data.

@@ -51,7 +51,7 @@ def solve(name, **search: Any):
     orbit = wb.solve_orbit(problem, **{"starts": 2, **search})
     assert orbit.status is wb.Status.CONVERGED, orbit.message
     start = np.array(orbit.initial_state)
-    certificate = certify(problem.model, orbit.wingbeat, start[2:], problem.free)
+    certificate = certify(problem.model, orbit.wingbeat, start[2:])
     return Solved(orbit, problem, problem.model, orbit.wingbeat, start, certificate)
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat.jax64 import jax, jnp
-from wingbeat.wing_motion import WingShape, mass_points, shape_at, strips_of, wing_motion
+from wingbeat.wing_motion import WingShape, beside, mass_points, shape_at, strips_of, wing_motion
 
 STRIPS = 8
 VEHICLE = wb.Vehicle(
@@ -23,17 +23,24 @@ PHASES = np.linspace(0.0, 1.0, 17)
 ORDER_8 = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 
 
+def times_first(array):
+    return jnp.moveaxis(array, -1, 0)
+
+
 @jax.jit
 def tabulate(vehicle, wingbeat, phase):
-    return wing_motion(vehicle, wingbeat, phase, STRIPS)
+    """Return the table with phases as the first axis, then strips."""
+    return jax.tree.map(times_first, wing_motion(vehicle, wingbeat, phase, STRIPS))
 
 
 @jax.jit
 def places(vehicle, wingbeat, phase):
     """Return quarter chords, chordwise and normal vectors (P, N, 3), and the mass points (P, 2, N, 3)."""
-    strips = strips_of(vehicle.wing, STRIPS)
+    strips = beside(strips_of(vehicle.wing, STRIPS), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
-    return WingShape(*(jnp.stack(v, axis=-1) for v in shape)), jnp.stack(mass_points(shape, strips), axis=-1)
+    points = [times_first(v) for v in mass_points(shape, strips)]
+    vectors = (jnp.stack([times_first(v) for v in triple], axis=-1) for triple in shape)
+    return WingShape(*vectors), jnp.stack(points, axis=-1)
 
 
 def per_second(function, wingbeat, phase, step=0.01):

@@ -36,10 +36,8 @@ def wing_loads(
 
     The velocity that makes alpha is that of the quarter chord, wherever the force acts.
     """
-    speed = body_velocity[0][..., None], body_velocity[1][..., None]
-    rate = pitch_rate[..., None]
-    chord_speed = dot(speed, motion.chordwise) + rate * motion.lever_chord + motion.drift_chord
-    normal_speed = dot(speed, motion.normal) + rate * motion.lever_normal + motion.drift_normal
+    chord_speed = dot(body_velocity, motion.chordwise) + pitch_rate * motion.lever_chord + motion.drift_chord
+    normal_speed = dot(body_velocity, motion.normal) + pitch_rate * motion.lever_normal + motion.drift_normal
     strips = strip_forces(kernel, density, motion.area, chord_speed, normal_speed)
     along, across = strips.chordwise, strips.normal
     moment = along * motion.lever_chord + across * motion.lever_normal
@@ -47,9 +45,9 @@ def wing_loads(
         ahead = pressure_offset(kernel, strips.alpha, chord)
         moment = moment + across * ahead * dot(turned(motion.chordwise), motion.normal)
     force = tuple(
-        2.0 * jnp.sum(along * c + across * n, axis=-1) for c, n in zip(motion.chordwise, motion.normal, strict=True)
+        2.0 * jnp.sum(along * c + across * n, axis=0) for c, n in zip(motion.chordwise, motion.normal, strict=True)
     )
-    return strips, BodyLoads((force[0], force[1]), 2.0 * jnp.sum(moment, axis=-1))
+    return strips, BodyLoads((force[0], force[1]), 2.0 * jnp.sum(moment, axis=0))
 
 
 def pressure_offset(kernel: Any, alpha: Any, chord: Any) -> Any:

@@ -54,7 +54,7 @@ def sin(x: Any) -> Any:
     turns = jnp.round(x * (1 / math.pi))
     rest = (x - turns * _PI_HIGH) - turns * _PI_LOW
     sign = 1.0 - 2.0 * jnp.abs(turns - 2.0 * jnp.round(0.5 * turns))
-    return sign * rest * horner(_SIN, rest * rest)
+    return rest * horner(_SIN, rest * rest) / sign
 
 
 @sin.defjvp

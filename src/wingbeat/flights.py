@@ -24,21 +24,17 @@ def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) 
     return jnp.concatenate([state[3:5], body_rates(model, motion_table(model, wingbeat, phase), state[2:])])
 
 
-def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any, controlled: int | None = None) -> Any:
+def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any) -> Any:
     """Integrate with Dopri8 at rtol 1e-10, stepping exactly onto `times`; not-a-number where it gives up.
 
     Every step is kept and those onto `times` picked out: diffrax's own sampling at given times interpolates, and
-    checks them by a callback that keeps the compiled function out of the cache on disk. Only the first `controlled`
-    components choose the step (all, if not given): tangents carried along are then those of the flight as flown.
+    checks them by a callback that keeps the compiled function out of the cache on disk.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
-    def norm(error: Any) -> Any:
-        return jnp.sqrt(jnp.mean(jnp.square(error[:controlled])))
-
     rates = jax.jit(rates)  # traced once, however often diffrax asks for its shape
     controller = diffrax.ClipStepSizeController(
-        diffrax.PIDController(rtol=RTOL, atol=ATOL, norm=norm), step_ts=times, store_rejected_steps=None
+        diffrax.PIDController(rtol=RTOL, atol=ATOL), step_ts=times, store_rejected_steps=None
     )
     solution = diffrax.diffeqsolve(
         diffrax.ODETerm(rates),  # type: ignore[arg-type]

@@ -34,15 +34,13 @@ def span_axis(flap: Any, stroke_plane_angle: Any) -> Triple:
     return -s * cb, c, s * sb
 
 
-def wing_axes(flap: Any, pitch: Any, stroke_plane_angle: Any) -> tuple[Triple, Triple]:
-    """Return the chordwise (to the leading edge) and normal unit vectors in body axes.
+def wing_axes(spanwise: Triple, pitch: Any, stroke_plane_angle: Any) -> tuple[Triple, Triple]:
+    """Return the chordwise (to the leading edge) and normal unit vectors of a wing along `spanwise`, body axes.
 
     ``e_c = cos(theta) e_c0 + sin(theta) e_n0``, ``e_n = -sin(theta) e_c0 + cos(theta) e_n0`` with
-    ``e_c0 = (sin beta, 0, cos beta)`` and ``e_n0 = e_c0 x e_s = cos(phi) d_up - sin(phi) y``.
+    ``e_c0 = (sin beta, 0, cos beta)`` and ``e_n0 = e_c0 x e_s``.
     """
     cb, sb = cos(stroke_plane_angle), sin(stroke_plane_angle)
-    cf, sf = cos(flap), sin(flap)
-    cp, sp = cos(pitch), sin(pitch)
-    chordwise = cp * sb - sp * cf * cb, -sp * sf, cp * cb + sp * cf * sb
-    normal = -sp * sb - cp * cf * cb, -cp * sf, -sp * cb + cp * cf * sb
-    return chordwise, normal
+    x, y, z = -cb * spanwise[1], cb * spanwise[0] - sb * spanwise[2], sb * spanwise[1]
+    c, s = cos(pitch), sin(pitch)
+    return (c * sb + s * x, s * y, c * cb + s * z), (c * x - s * sb, c * y, c * z - s * cb)

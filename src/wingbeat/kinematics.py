@@ -9,8 +9,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat.elementary import cos, sin
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jax, jnp, register_record
+from wingbeat.jax64 import jax, register_record
 
 
 @register_record
@@ -63,17 +64,17 @@ class Wingbeat:
 
 def recovery(phase: Any) -> Any:
     """Return the recovery law ``(1 - sin 2 pi phase)/2``: 0 at mid-downstroke, 1 at mid-upstroke."""
-    return 0.5 * (1.0 - jnp.sin(2 * math.pi * phase))
+    return 0.5 * (1.0 - sin(2 * math.pi * phase))
 
 
 def flap_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the flap angle of the arm, up positive [rad]."""
-    return wingbeat.flap_mean + wingbeat.flap_amplitude * jnp.cos(2 * math.pi * phase)
+    return wingbeat.flap_mean + wingbeat.flap_amplitude * cos(2 * math.pi * phase)
 
 
 def pitch_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the wing pitch at the root, leading edge up positive [rad]."""
-    return wingbeat.pitch_mean - wingbeat.pitch_amplitude * jnp.sin(2 * math.pi * phase)
+    return wingbeat.pitch_mean - wingbeat.pitch_amplitude * sin(2 * math.pi * phase)
 
 
 def span_ratio(wingbeat: Wingbeat, phase: Any) -> Any:

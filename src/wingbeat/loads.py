@@ -30,6 +30,7 @@ class Loads(NamedTuple):
     strip_position: Any
     strip_velocity: Any
     strip_speed: Any
+    strip_reynolds: Any
     alpha: Any
     lift: Any
     drag: Any
@@ -88,7 +89,8 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
 
     points = point_motion(model, wingbeat, q, q_dot, time)
     air = air_forces_on(model, wingbeat, q, q_dot, time, points)
-    mass = strips_of(model.vehicle.wing, model.strips).mass
+    strips = strips_of(model.vehicle.wing, model.strips)
+    mass = strips.mass
     # What every mass point must be pushed with, gravity included: d'Alembert in place of D, C, h and g.
     partial = points.partial.mass
     needed = partial @ q_acceleration + points.bias.mass + model.air.gravity * jnp.asarray([0.0, 0.0, 1.0])
@@ -108,6 +110,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         strip_position=points.place.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
+        strip_reynolds=air.strips.speed * strips.chord / model.air.viscosity,
         alpha=air.strips.alpha,
         lift=air.strips.lift,
         drag=air.strips.drag,

@@ -12,7 +12,7 @@ from wingbeat.frames import world_to_body
 from wingbeat.jax64 import jnp, register_record
 from wingbeat.kinematics import Wingbeat
 from wingbeat.vehicle import Air, Vehicle
-from wingbeat.wing_motion import WingMotion, strips_of, wing_motion
+from wingbeat.wing_motion import WingMotion, beside, strips_of, wing_motion
 
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
@@ -64,10 +64,10 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> WingMoti
 
 
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
-    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (..., 4); place does not enter."""
-    body_pitch, u, w, pitch_rate = (pitch_state[..., i] for i in range(4))
+    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...); place does not enter."""
+    body_pitch, u, w, pitch_rate = pitch_state
     velocity = world_to_body(body_pitch, u, w)
-    chord = strips_of(model.vehicle.wing, model.strips).chord
+    chord = beside(strips_of(model.vehicle.wing, model.strips), body_pitch).chord
     _, loads = wing_loads(
         model.kernel, model.air.density, motion, velocity, pitch_rate, chord, model.at_centre_of_pressure
     )
@@ -76,4 +76,4 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
     ax, az, pitch_acceleration = accelerations(
         model.vehicle, model.air.gravity, motion, loads, body_pitch, pitch_rate
     )
-    return jnp.stack([pitch_rate, ax, az, pitch_acceleration], axis=-1)
+    return jnp.stack([pitch_rate, ax, az, pitch_acceleration])

@@ -42,6 +42,11 @@ class StoredFunction:
         self._lock = threading.Lock()
         self._ready: dict[Any, tuple[Callable[..., Any], Any]] = {}
 
+    @property
+    def loaded(self) -> bool:
+        """Whether any program of it is in memory."""
+        return bool(self._ready)
+
     def __call__(self, *args: Any, **static: Any) -> Any:
         """Evaluate the function."""
         leaves, tree = jax.tree_util.tree_flatten(args)

@@ -1,6 +1,7 @@
 """The wing's motion in body axes, which depends on time alone: strips, mass points and their rates.
 
-Everything here is for the left wing; sums over mass points count both wings.
+Everything here is for the left wing; sums over mass points count both wings. Strips are the first axis and times
+the last, because XLA on CPU works along the last axis, and strips are few.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from wingbeat.vehicle import Vehicle, Wing
 
 
 class Strips(NamedTuple):
-    """What of the strips does not change with time, shape (N,) each."""
+    """What of the strips does not change with time, shape (N,) each, or (N, 1, ..) beside as many axes of time."""
 
     span_fraction: Any
     chord: Any
@@ -23,7 +24,7 @@ class Strips(NamedTuple):
 
 
 class WingShape(NamedTuple):
-    """Where the strips are, body axes: triples (forward, left, up) of arrays of shape (..., N)."""
+    """Where the strips are, body axes: triples (forward, left, up) of arrays of shape (N, ...)."""
 
     quarter_chord: Triple
     chordwise: Triple
@@ -31,7 +32,7 @@ class WingShape(NamedTuple):
 
 
 class WingMotion(NamedTuple):
-    """What the body feels of the wing, with any leading axes of phases.
+    """What the body feels of the wing, with any trailing axes of times.
 
     In-plane vectors are pairs (forward, up). ``lever_*`` is the speed of a quarter chord per unit
     pitch rate along chord and normal, ``drift_*`` its speed from flapping alone. ``first_moment``
@@ -69,6 +70,11 @@ def strips_of(wing: Wing, count: int) -> Strips:
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
 
 
+def beside(strips: Strips, times: Any) -> Strips:
+    """Return the strips with an axis of length one for each axis of `times`."""
+    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(times)))) for a in strips))
+
+
 def twist_factors(wingbeat: Wingbeat, span_fraction: Any) -> Any:
     """Return each strip's wing pitch over that of the root, ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
@@ -89,16 +95,13 @@ def wing_shape(
     arm_axis = span_axis(flap, wing.stroke_plane_angle)
     hand_axis = span_axis(hand_flap, wing.stroke_plane_angle)
     x, y, z = (
-        place + arm * (length * a)[..., None] + hand * (length * h)[..., None]
+        place + arm * (length * a) + hand * (length * h)
         for place, a, h in zip(wing.shoulder, arm_axis, hand_axis, strict=True)
     )
-    strip_flap = jnp.where(
-        strips.span_fraction <= wingbeat.wrist,
-        jnp.asarray(flap)[..., None],
-        jnp.asarray(hand_flap)[..., None],
-    )
-    strip_pitch = jnp.asarray(pitch)[..., None] * twist_factors(wingbeat, strips.span_fraction)
-    chordwise, normal = wing_axes(strip_flap, strip_pitch, wing.stroke_plane_angle)
+    of_arm = strips.span_fraction <= wingbeat.wrist
+    x_span, y_span, z_span = (jnp.where(of_arm, a, h) for a, h in zip(arm_axis, hand_axis, strict=True))
+    strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
+    chordwise, normal = wing_axes((x_span, y_span, z_span), strip_pitch, wing.stroke_plane_angle)
     return WingShape((x, y, z), chordwise, normal)
 
 
@@ -109,15 +112,12 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -
 
 
 def mass_points(shape: WingShape, strips: Strips) -> Triple:
-    """Return the mass points, body axes, a triple of shape (..., 2, N); each carries half its strip's mass.
+    """Return the mass points, body axes, a triple of shape (2, N, ...); each carries half its strip's mass.
 
     Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     """
-    offsets = strips.chord * jnp.asarray([[-0.25 + 0.5 / math.sqrt(3)], [-0.25 - 0.5 / math.sqrt(3)]])
-    x, y, z = (
-        place[..., None, :] + offsets * fore[..., None, :]
-        for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True)
-    )
+    offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
+    x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
     return x, y, z
 
 
@@ -150,8 +150,8 @@ def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
 
 def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> WingMotion:
     """Tabulate what body and air see of the wing at the given phases, in one pass."""
-    strips = strips_of(vehicle.wing, count)
     phase = jnp.asarray(phase, dtype=float)
+    strips = beside(strips_of(vehicle.wing, count), phase)
 
     def shape_and_points(at: Any) -> tuple[WingShape, Any]:
         shape = shape_at(vehicle, wingbeat, strips, at)
@@ -163,7 +163,7 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) ->
 
     def total(values: Any) -> Any:
         # Each point carries half its strip's mass, and there are two wings.
-        return jnp.sum(strips.mass * values, axis=(-2, -1))
+        return jnp.sum(strips.mass * values, axis=(0, 1))
 
     place, speed, push = in_plane(points), in_plane(velocity), in_plane(acceleration)
     chordwise, normal = in_plane(shape.chordwise), in_plane(shape.normal)
@@ -176,7 +176,7 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) ->
         lever_normal=dot(lever, normal),
         drift_chord=dot(shape_rate.quarter_chord, shape.chordwise),
         drift_normal=dot(shape_rate.quarter_chord, shape.normal),
-        area=length[..., None] / count * strips.chord,
+        area=length / count * strips.chord,
         first_moment=(total(place[0]), total(place[1])),
         first_moment_rate=(total(speed[0]), total(speed[1])),
         first_moment_acceleration=(total(push[0]), total(push[1])),

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from wingbeat.elementary import atan2
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jnp
+from wingbeat.slopes import by_slopes
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 
@@ -71,14 +72,28 @@ def strip_forces(kernel: Any, density: Any, area: Any, chord_speed: Any, normal_
     ``alpha = atan2(-v_n, v_c)``; along the chord ``F_c = L sin(alpha) - D cos(alpha)``, normal to it
     ``F_n = L cos(alpha) + D sin(alpha)``, written with the speeds in place of the angle's sine and cosine.
     """
+    unit = _unit_forces(kernel, chord_speed, normal_speed)
+    pressure_area = 0.5 * density * area
+    return StripForces(
+        chordwise=pressure_area * unit.chordwise,
+        normal=pressure_area * unit.normal,
+        alpha=unit.alpha,
+        speed=unit.speed,
+        lift=pressure_area * unit.lift,
+        drag=pressure_area * unit.drag,
+    )
+
+
+@by_slopes
+def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any) -> StripForces:
+    """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
     moving = squared > 0.0
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
     alpha = atan2(-normal_speed, chord_speed)
     c_l, c_d = kernel.lift_drag(alpha)
-    pressure_area = 0.5 * density * area * speed
-    lift, drag = pressure_area * c_l, pressure_area * c_d
+    lift, drag = speed * c_l, speed * c_d
     return StripForces(
         chordwise=-lift * normal_speed - drag * chord_speed,
         normal=lift * chord_speed - drag * normal_speed,

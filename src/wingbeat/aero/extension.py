@@ -20,7 +20,6 @@ held as an even and an odd part in the distance, so a mirrored coefficient is ex
 
 from __future__ import annotations
 
-import functools
 import math
 from typing import Any, NamedTuple, Protocol
 
@@ -28,6 +27,7 @@ from wingbeat.aero.blends import Function, Jet, Join, even_blend, jet_of, odd_bl
 from wingbeat.elementary import horner
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jax, jnp
+from wingbeat.stored import stored
 
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
 MAX_BLEND_WIDTH_DEG = 3.0
@@ -167,8 +167,8 @@ def _patch(piece: Function, behind: Jet, width: Any, extension: str, name: str, 
     return None
 
 
-@functools.partial(jax.jit, static_argnums=(2, 3))
-def _extended(pieces: Pieces, width: Any, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+@stored(static=("extension", "signed"))
+def _extended(pieces: Pieces, width: Any, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     def ends(name: str) -> Ends:
         piece = getattr(pieces, name)
         zero, right = jet_of(piece, width), jet_of(piece, RIGHT_ANGLE - width)
@@ -199,4 +199,4 @@ def extend(pieces: Any, blend_width_deg: Any, extension: str, signed: tuple[str,
     width = jnp.asarray(blend_width_deg, jnp.float64) * (math.pi / 180)
     # Strong float64 leaves, so that one compiled function serves every model of the same form.
     leaves = jax.tree.map(lambda leaf: jnp.asarray(leaf, jnp.float64), pieces)
-    return _extended(leaves, width, extension, signed)
+    return _extended(leaves, width, extension=extension, signed=signed)

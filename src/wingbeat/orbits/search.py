@@ -75,7 +75,7 @@ def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
     return bool(miss <= CLOSED and problem.pitch_margin(scaled).min() >= -CLOSED)
 
 
-def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 40) -> np.ndarray:
+def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 10) -> np.ndarray:
     """Reduce closure and path violation in least squares within the bounds (an elastic solve)."""
     inside = 1e-6 * (problem.upper - problem.lower)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import enum
 import os
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -18,16 +17,19 @@ from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.search import Candidate, active_bounds, optimality, optimise, search
+from wingbeat.orbits.shooting import fly_with_tangents, march
+from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
 _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
-# A round that moves no unknown by more than this, in the optimiser's scale, has nothing left to correct.
-_SETTLED = 1e-5
+# Blocks of steps of the flight that gives the corrected closure its derivative, and how far from there, in the
+# optimiser's scale, that derivative will do.
+_FINE = 8
+_SETTLED = 1e-4
 _SETTLING = 8
-_LOADED = threading.Event()
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 # An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
@@ -53,6 +55,7 @@ class Solution:
     wingbeat: Wingbeat
     certificate: Certificate
     closure: dict[str, float]
+    multipliers: np.ndarray
     active_bounds: tuple[str, ...]
     optimality: float
     starts: int
@@ -65,39 +68,46 @@ Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class _Certified:
+class Corrected:
+    """A candidate brought to the certifier's closure, and what the certifier says of it."""
+
     scaled: np.ndarray
     wingbeat: Wingbeat
     certificate: Certificate
     miss: np.ndarray
 
 
-def correct(problem: Transcription, unknowns: np.ndarray) -> _Certified:
+def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
     """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
 
-    The search's few steps find the optimum of a slightly wrong flight. Each round gives its closure the value and
-    the derivative that the certifier finds, and re-solves from where it stands, until neither moves it any more.
+    The search's few steps find the optimum of a slightly wrong flight. Each round gives its closure the value that
+    the certifier finds, and the derivative of a finer flight once the point has moved, and re-solves from where it
+    stands, until nothing moves it any more.
     """
     scaled = problem.scaled(unknowns)
-    best: _Certified | None = None
-    step = np.inf
+    best: Corrected | None = None
+    tilted = np.full_like(scaled, np.inf)
     for round_ in range(_CORRECTIONS):
         physical = problem.physical(scaled)
         wingbeat = problem.problem.wingbeat(physical)
-        certificate = certify(problem.model, wingbeat, physical[:4], problem.problem.free)
+        certificate = certify(problem.model, wingbeat, physical[:4])
         miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
         margins = problem.margins(certificate.states[:, 2])
-        here = _Certified(scaled, wingbeat, certificate, miss)
-        settled = step <= _SETTLED or round_ >= _SETTLING
+        here = Corrected(scaled, wingbeat, certificate, miss)
+        settled = np.abs(scaled - tilted).max() <= _SETTLED or round_ >= _SETTLING
         if settled and _size(miss) <= _AIM and margins.min() >= -_PITCH_EXCESS:
             return here
         if best is None or _size(miss) < _size(best.miss):
             best = here
         if not np.isfinite(miss).all():
             break
-        problem.correct_at(scaled, certificate)
-        moved, _ = optimise(problem, scaled, iterations=40, tolerance=1e-14)
-        step, scaled = float(np.abs(moved - scaled).max()), moved
+        if not settled:
+            free = problem.problem.free
+            fine = fly_with_tangents(problem.model, wingbeat, free, physical[4:], physical[:4], _FINE)
+            problem.tilt_at(scaled, fine)
+            tilted = scaled
+        problem.shift_at(scaled, certificate)
+        scaled, _ = optimise(problem, scaled, iterations=40, tolerance=1e-12)
     assert best is not None
     return best
 
@@ -132,7 +142,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     begun = time.perf_counter()
     found: list[Candidate] = []
     total = starts
-    best: _Certified | None = None
+    best: Corrected | None = None
     transcription = Transcription(problem)
     _load_programs(transcription, start_point(problem, 0, seed))
     for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
@@ -159,6 +169,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
         best.wingbeat,
         best.certificate,
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
+        floquet_multipliers(problem.model, best.wingbeat, best.certificate.states[0, 2:], problem.free),
         active_bounds(transcription, best.scaled),
         optimality(transcription, best.scaled),
         len(found),
@@ -170,12 +181,11 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
 
 def _load_programs(problem: Transcription, start: np.ndarray) -> None:
     """Read or compile, side by side, the programs that the search and the certifier will want, once a process."""
-    if _LOADED.is_set():
+    if march.loaded:
         return
-    _LOADED.set()
     wingbeat = problem.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:
-        certifying = pool.submit(certify, problem.model, wingbeat, start[:4], problem.problem.free)
+        certifying = pool.submit(certify, problem.model, wingbeat, start[:4])
         pool.submit(problem.closure_jacobian, problem.scaled(start)).result()
         certifying.result()
 
@@ -194,7 +204,7 @@ def _searches(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _first_certified(problem: Transcription, found: list[Candidate]) -> _Certified | None:
+def _first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
     """Return the best candidate that the certifier closes, if any."""
     for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
         certified = correct(problem, candidate.unknowns)
@@ -214,7 +224,7 @@ def _distinct(problem: Transcription, found: list[Candidate]) -> list[np.ndarray
     return optima
 
 
-def _failure(found: list[Candidate], nearest: _Certified) -> tuple[Status, str]:
+def _failure(found: list[Candidate], nearest: Corrected) -> tuple[Status, str]:
     """Return status and advice for a search without a certified orbit."""
     worst = CLOSURE[int(np.argmax(np.abs(np.nan_to_num(nearest.miss, nan=np.inf)) / CLOSURE_SCALE))]
     if any(c.closed for c in found):

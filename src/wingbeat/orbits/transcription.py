@@ -10,9 +10,8 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
-from wingbeat.orbits.shooting import fly, fly_with_tangents
+from wingbeat.orbits.shooting import PeriodTangents, fly, fly_with_tangents
 
-STEPS = 64
 _LOST = 1e3
 
 
@@ -29,13 +28,13 @@ class Point:
 class Transcription:
     """Closure, path bound and objective of a problem as functions of scaled unknowns, each flight flown once.
 
-    `correct_at` makes the closure, to first order, that of the certifier: its value and derivative at one point.
+    `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds.
     """
 
-    def __init__(self, problem: OrbitProblem, model: FlightModel | None = None, steps: int = STEPS) -> None:
+    def __init__(self, problem: OrbitProblem, model: FlightModel | None = None, blocks: int = 1) -> None:
         self.problem = problem
         self.model = model or problem.model
-        self.steps = steps
+        self.blocks = blocks
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
@@ -62,7 +61,7 @@ class Transcription:
         wingbeat = self.problem.wingbeat(unknowns)
         key = unknowns.tobytes()
         if key != self._key or self._point is None:
-            flown = fly(self.model, wingbeat, unknowns[:4], self.steps)
+            flown = fly(self.model, wingbeat, unknowns[:4], self.blocks)
             self.flights += 1
             self._key, self._point = key, self._pack(flown.end, flown.path, unknowns, wingbeat)
         return self._point, unknowns, wingbeat
@@ -78,7 +77,7 @@ class Transcription:
         point, unknowns, wingbeat = self._at(scaled)
         if point.closure_jacobian is None:
             free = self.problem.free
-            tangents = fly_with_tangents(self.model, wingbeat, free, unknowns[4:], unknowns[:4], self.steps)
+            tangents = fly_with_tangents(self.model, wingbeat, free, unknowns[4:], unknowns[:4], self.blocks)
             self.jacobians += 1
             closure = self.problem.closure_jacobian(np.asarray(tangents.end_jacobian), wingbeat.frequency)
             scale = self.unknowns.scale
@@ -110,16 +109,22 @@ class Transcription:
         assert point.path_jacobian is not None
         return np.stack([point.path_jacobian[point.path.argmin()], -point.path_jacobian[point.path.argmax()]])
 
-    def correct_at(self, scaled: np.ndarray, certificate: Certificate) -> None:
-        """Take the certifier's closure, its derivative and its path at this point for one's own."""
-        point, unknowns, wingbeat = self._at(scaled)
-        miss = self.problem.closure(certificate.end, unknowns, wingbeat.frequency) / CLOSURE_SCALE
-        jacobian = self.problem.closure_jacobian(certificate.jacobian, wingbeat.frequency)
+    def tilt_at(self, scaled: np.ndarray, fine: PeriodTangents) -> None:
+        """Take the derivative of the closure from a finer flight at this point, leaving its value there."""
+        value = self.closure(scaled)
         own = self._differentiated(scaled).closure_jacobian
         assert own is not None
-        self._shift = point.closure - miss
+        wingbeat = self.problem.wingbeat(self.physical(scaled))
+        jacobian = self.problem.closure_jacobian(fine.end_jacobian, wingbeat.frequency)
         self._tilt = jacobian / CLOSURE_SCALE[:, None] * self.unknowns.scale - own
         self._anchor = scaled.copy()
+        self._shift = self._at(scaled)[0].closure - value
+
+    def shift_at(self, scaled: np.ndarray, certificate: Certificate) -> None:
+        """Take the values of closure and path that the certifier finds at this point."""
+        point, unknowns, wingbeat = self._at(scaled)
+        miss = self.problem.closure(certificate.end, unknowns, wingbeat.frequency) / CLOSURE_SCALE
+        self._shift = self._shift + self.closure(scaled) - miss
         self._pitch_shift = self.margins(point.path) - self.margins(certificate.states[:, 2])
 
     def objective(self, scaled: np.ndarray) -> float:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import copy
 import functools
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from wingbeat.kinematics import Wingbeat
+from wingbeat.loads import flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, Status, find_orbit
@@ -107,8 +111,12 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    solution = find_orbit(problem, starts, seed, progress)
-    certificate, model = solution.certificate, problem.model
+    model = problem.model
+    with ThreadPoolExecutor(1) as pool:
+        if not flight_loads.loaded:  # read or compiled while the search goes on
+            pool.submit(evaluate, model, problem.species.wingbeat, np.zeros(1), np.zeros((1, 6)))
+        solution = find_orbit(problem, starts, seed, progress)
+    certificate = solution.certificate
     found = evaluate(model, solution.wingbeat, certificate.phase, certificate.states)
     record = orbit_record(solution, found)
     inputs = inputs_of(problem, starts, seed)

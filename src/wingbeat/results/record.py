@@ -63,10 +63,8 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
         "alpha_quarter_span": alpha_range(found, 0.25),
         "alpha_three_quarter_span": alpha_range(found, 0.75),
-        "floquet_multipliers": [[float(m.real), float(m.imag)] for m in certificate.multipliers],
-        "stable": bool(np.abs(certificate.multipliers).max() < 1.0)
-        if solution.status is Status.CONVERGED
-        else None,
+        "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
+        "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
         "warnings": orbit_warnings(solution, found),
         "solve_seconds": solution.seconds,
         "version": __version__,

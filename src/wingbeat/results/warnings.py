@@ -9,7 +9,6 @@ import numpy as np
 from wingbeat.loads import Loads
 from wingbeat.orbits.solve import Solution
 from wingbeat.vehicle import Air, Vehicle
-from wingbeat.wing_motion import strips_of
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.
 _SLOW = 3.0
@@ -52,11 +51,9 @@ def fitted_range(solution: Solution, found: Loads) -> list[str]:
     """Warn of the share of the beat, over all strips, outside the coefficients' Reynolds and alpha range."""
     problem = solution.problem
     coefficients = problem.aero.coefficients
-    air = problem.air
     notes = []
     if coefficients.reynolds_range is not None:
-        chord = np.asarray(strips_of(problem.vehicle.wing, problem.aero.strips).chord)
-        reynolds = found.strip_speed * chord / air.viscosity
+        reynolds = found.strip_reynolds
         low, high = coefficients.reynolds_range
         share = _outside(reynolds, low, high)
         if share > _MENTION:

@@ -14,7 +14,8 @@ from wingbeat.orbits.transcription import Transcription
 CLOSED = 1e-6
 # Largest residual of the optimality conditions, in the optimiser's scale, that counts as none.
 OPTIMAL = 1e-5
-_ROUNDS = 2
+# Evaluations of the elastic solve before each round of SLSQP: mostly a few do, and a hard case needs many.
+_APPROACH = (10, 40)
 _AT_BOUND = 1e-6
 
 
@@ -34,7 +35,8 @@ class Candidate:
 def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -> Candidate:
     """Search from unknowns `start`: towards closure first, then SLSQP; a stalled search is restarted once.
 
-    A search whose elastic solve stays further than `give_up` from closure (in the optimiser's scale) ends there.
+    A search whose elastic solve stays further than `give_up` from closure (in the optimiser's scale) ends there,
+    and such a search takes its time to come near.
 
     Closure first, because from a crude start SLSQP's first steps of a full Newton correction leave the region
     where its quadratic model means anything; restarted, because a stall is mostly a spoilt BFGS matrix.
@@ -42,8 +44,8 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
     flights, jacobians = problem.flights, problem.jacobians
     scaled = problem.scaled(start)
     closed = optimal = False
-    for _ in range(_ROUNDS):
-        scaled = approach(problem, scaled)
+    for evaluations in _APPROACH if np.isinf(give_up) else _APPROACH[1:] * 2:
+        scaled = approach(problem, scaled, evaluations)
         if violation(problem, scaled) > give_up:
             break
         scaled, optimal = optimise(problem, scaled)
@@ -75,7 +77,7 @@ def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
     return bool(miss <= CLOSED and problem.pitch_margin(scaled).min() >= -CLOSED)
 
 
-def approach(problem: Transcription, scaled: np.ndarray, evaluations: int = 10) -> np.ndarray:
+def approach(problem: Transcription, scaled: np.ndarray, evaluations: int) -> np.ndarray:
     """Reduce closure and path violation in least squares within the bounds (an elastic solve)."""
     inside = 1e-6 * (problem.upper - problem.lower)
 

@@ -27,7 +27,7 @@ _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
 # Blocks of steps of the flight that gives the corrected closure its derivative, and how far from there, in the
 # optimiser's scale, that derivative will do.
-_FINE = 8
+_FINE = 16
 _SETTLED = 1e-4
 _SETTLING = 8
 _CORRECTIONS = 12
@@ -107,7 +107,7 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
             problem.tilt_at(scaled, fine)
             tilted = scaled
         problem.shift_at(scaled, certificate)
-        scaled, _ = optimise(problem, scaled, iterations=40, tolerance=1e-12)
+        scaled, _ = optimise(problem, scaled, iterations=12, tolerance=1e-14)
     assert best is not None
     return best
 

@@ -107,7 +107,7 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
             problem.tilt_at(scaled, fine)
             tilted = scaled
         problem.shift_at(scaled, certificate)
-        scaled, _ = optimise(problem, scaled, iterations=12, tolerance=1e-14)
+        scaled, _ = optimise(problem, scaled, iterations=40, tolerance=1e-14)
     assert best is not None
     return best
 

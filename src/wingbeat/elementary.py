@@ -82,7 +82,7 @@ def atan2(y: Any, x: Any) -> Any:
     quarter = half / (1.0 + jnp.sqrt(1.0 + half * half))
     acute = 4.0 * quarter * horner(_ATAN, quarter * quarter)
     angle = jnp.where(x < 0, math.pi - acute, acute)
-    return jnp.where(y < 0, -angle, angle)
+    return angle / jnp.where(y < 0, -1.0, 1.0)
 
 
 @atan2.defjvp

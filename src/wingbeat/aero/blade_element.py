@@ -85,6 +85,11 @@ def strip_forces(kernel: Any, density: Any, area: Any, chord_speed: Any, normal_
 
 
 @by_slopes
+def _coefficients(kernel: Any, alpha: Any) -> tuple[Any, Any]:
+    return kernel.lift_drag(alpha)
+
+
+@by_slopes
 def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any) -> StripForces:
     """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
@@ -92,7 +97,7 @@ def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any) -> StripForce
     moving = squared > 0.0
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
     alpha = atan2(-normal_speed, chord_speed)
-    c_l, c_d = kernel.lift_drag(alpha)
+    c_l, c_d = _coefficients(kernel, alpha)
     lift, drag = speed * c_l, speed * c_d
     return StripForces(
         chordwise=-lift * normal_speed - drag * chord_speed,

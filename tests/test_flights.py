@@ -9,7 +9,9 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
+from wingbeat.flights import fly_beats
 from wingbeat.jax64 import jnp
+from wingbeat.results.dataset import evaluate
 
 SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles once
 
@@ -120,28 +122,31 @@ def spline_torques(time, spline):
     return ((a * rest + b) * rest + c) * rest + d
 
 
-def record_torques(solved):
-    """Return times, q, q' and the hinge torques along an orbit, 257 rows each."""
-    series = solved.orbit.dataset
-    names = (
-        ("x", "z", "body_pitch", "flap", "wing_pitch"),
-        ("u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate"),
-        ("flap_torque", "pitch_torque"),
+def finely_flown(solved, samples):
+    """Return times, q, q' and the hinge torques along an orbit, `samples` + 1 rows each."""
+    phase, states = fly_beats(solved.model, solved.wingbeat, wb.State(*solved.start), 1, samples)
+    found = evaluate(solved.model, solved.wingbeat, phase, states)
+    places = np.column_stack([states[:, :3], found.flap, found.wing_pitch])
+    rates = np.column_stack([states[:, 3:], found.flap_rate, found.wing_pitch_rate])
+    return (
+        phase / solved.wingbeat.frequency,
+        places,
+        rates,
+        np.column_stack([found.flap_torque, found.pitch_torque]),
     )
-    return series["time"].values, *(np.stack([series[n] for n in group], axis=-1) for group in names)
 
 
 def test_torques_drive_the_wing_along_its_prescribed_flight(solved):
-    """Half a beat comes back to 5e-5 (m, rad; rates over their peaks): 257 samples are not the function."""
-    time, q, rates, torques = record_torques(solved)
+    """Half a beat comes back to 5e-5 (m, rad; rates over their peaks): samples are not the function."""
+    time, q, rates, torques = finely_flown(solved, 2048)
 
     def miss(scale):
         spline = CubicSpline(time, scale * torques)
         found, found_rates = wb.simulate_torque_driven(
-            solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::16], (spline.x, spline.c)
+            solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::128], (spline.x, spline.c)
         )
-        by_rates = np.abs(found_rates - rates[::16]) / np.abs(rates).max(axis=0)
-        return np.maximum(np.abs(found - q[::16]), by_rates).max(axis=1)
+        by_rates = np.abs(found_rates - rates[::128]) / np.abs(rates).max(axis=0)
+        return np.maximum(np.abs(found - q[::128]), by_rates).max(axis=1)
 
     assert miss(1.0)[:9].max() <= 5e-5
     # And the comparison would see torques that are off by a thousandth.

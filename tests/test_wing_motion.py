@@ -1,7 +1,8 @@
-"""The wing's tables in body axes: rates, rigid limits, strips and their masses."""
+"""The wing's tables in stroke axes: rates, rigid limits, strips and their masses."""
 
 import dataclasses
 import math
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -9,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
+from wingbeat.frames import stroke_pitch, to_world
 from wingbeat.jax64 import jax, jnp
-from wingbeat.wing_motion import WingShape, beside, mass_points, shape_at, strips_of, wing_motion
+from wingbeat.wing_motion import beside, mass_points, shape_at, strips_of, wing_motion
 
 STRIPS = 8
 VEHICLE = wb.Vehicle(
@@ -33,14 +35,34 @@ def tabulate(vehicle, wingbeat, phase):
     return jax.tree.map(times_first, wing_motion(vehicle, wingbeat, phase, STRIPS))
 
 
+class Places(NamedTuple):
+    """Quarter chords, chordwise and normal vectors in body axes (P, N, 3), and the mass points (P, 2, N, 3)."""
+
+    quarter_chord: Any
+    chordwise: Any
+    normal: Any
+    mass: Any
+
+
 @jax.jit
 def places(vehicle, wingbeat, phase):
-    """Return quarter chords, chordwise and normal vectors (P, N, 3), and the mass points (P, 2, N, 3)."""
+    """Place the wing in body axes."""
     strips = beside(strips_of(vehicle.wing, STRIPS), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
-    points = [times_first(v) for v in mass_points(shape, strips)]
-    vectors = (jnp.stack([times_first(v) for v in triple], axis=-1) for triple in shape)
-    return WingShape(*vectors), jnp.stack(points, axis=-1)
+
+    def in_body(triple):
+        ahead, up = to_world(stroke_pitch(vehicle.wing.stroke_plane_angle), triple[0], triple[2])
+        return jnp.stack([times_first(v) for v in (ahead, triple[1], up)], axis=-1)
+
+    corners = (shape.ahead, shape.left, shape.above)
+    return Places(*map(in_body, (corners, shape.chordwise, shape.normal, mass_points(shape, strips))))
+
+
+def in_stroke_axes(vectors, vehicle):
+    """Turn vectors with a last axis of three from body axes into stroke axes."""
+    beta = vehicle.wing.stroke_plane_angle
+    turn = [[math.sin(beta), 0.0, math.cos(beta)], [0.0, 1.0, 0.0], [-math.cos(beta), 0.0, math.sin(beta)]]
+    return np.asarray(vectors) @ np.transpose(turn)
 
 
 def per_second(function, wingbeat, phase, step=0.01):
@@ -59,8 +81,8 @@ def close(found, wanted, tolerance=1e-9):
 
 
 def points(phase):
-    """Return the mass points' places in the plane of symmetry, shape (P, 2, N, 2)."""
-    return np.asarray(places(VEHICLE, BEAT, phase)[1])[..., [0, 2]]
+    """Return the mass points' places in the plane of symmetry, stroke axes, shape (P, 2, N, 2)."""
+    return in_stroke_axes(places(VEHICLE, BEAT, phase).mass, VEHICLE)[..., [0, 2]]
 
 
 def point_masses(vehicle):
@@ -68,21 +90,28 @@ def point_masses(vehicle):
     return np.asarray(strips_of(vehicle.wing, STRIPS).mass)
 
 
-def test_drift_is_the_rate_of_the_quarter_chord():
-    table = tabulate(VEHICLE, BEAT, PHASES)
-    shape, _ = places(VEHICLE, BEAT, PHASES)
-    velocity = rate(lambda p: np.asarray(places(VEHICLE, BEAT, p)[0].quarter_chord), BEAT, PHASES)
-    close(table.drift_chord, np.sum(velocity * shape.chordwise, axis=-1))
-    close(table.drift_normal, np.sum(velocity * shape.normal, axis=-1))
+def test_strips_of_the_table_are_where_the_wing_is():
+    table, shape = tabulate(VEHICLE, BEAT, PHASES), places(VEHICLE, BEAT, PHASES)
+    quarter_chord = in_stroke_axes(shape.quarter_chord, VEHICLE)
+    close(np.broadcast_to(np.asarray(table.ahead)[:, None], quarter_chord.shape[:2]), quarter_chord[..., 0], 1e-14)
+    close(table.above, quarter_chord[..., 2], 1e-14)
+    # Unpitched, the normal is the first stroke axis times the span; the pitch turns it back to the chord.
+    chordwise, normal = (in_stroke_axes(v, VEHICLE) for v in (shape.chordwise, shape.normal))
+    cosine, sine = np.cos(table.pitch), np.sin(table.pitch)
+    close(chordwise[..., 0], cosine, 1e-14)
+    unpitched = cosine[..., None] * normal + sine[..., None] * chordwise
+    close(unpitched[..., 2], table.flap_cosine, 1e-14)
+    close(table.area, np.asarray(table.width)[:, None] * strips_of(VEHICLE.wing, STRIPS).chord, 1e-14)
 
 
-def test_levers_are_the_quarter_chord_turned_by_a_right_angle():
-    table = tabulate(VEHICLE, BEAT, PHASES)
-    shape, _ = places(VEHICLE, BEAT, PHASES)
-    # Nose-up is a turn about -y.
-    turned = np.cross([0.0, -1.0, 0.0], shape.quarter_chord)
-    close(table.lever_chord, np.sum(turned * shape.chordwise, axis=-1), 1e-14)
-    close(table.lever_normal, np.sum(turned * shape.normal, axis=-1), 1e-14)
+def test_flapping_speed_is_the_quarter_chords_along_the_normal_without_pitch():
+    table, shape = tabulate(VEHICLE, BEAT, PHASES), places(VEHICLE, BEAT, PHASES)
+    velocity = rate(lambda p: np.asarray(places(VEHICLE, BEAT, p).quarter_chord), BEAT, PHASES)
+    cosine, sine = (f(np.asarray(table.pitch))[..., None] for f in (np.cos, np.sin))
+    close(table.flapping_speed, np.sum(velocity * (cosine * shape.normal + sine * shape.chordwise), axis=-1))
+    # Nothing moves along the chord but what pitch makes of that speed.
+    along = np.sum(velocity * shape.chordwise, axis=-1)
+    close(np.asarray(table.flapping_speed) * np.sin(table.pitch), along, 1e-8)
 
 
 def test_moments_and_their_rates_are_those_of_the_mass_points():
@@ -121,7 +150,7 @@ def test_rates_of_the_table_are_the_derivatives_of_its_values():
 
 def test_a_rigid_wing_keeps_its_area_and_hangs_on_its_shoulder():
     rigid = dataclasses.replace(BEAT, span_retraction=0.0, fold_amplitude=0.0, twist_ratio=1.0)
-    shape, _ = places(VEHICLE, rigid, PHASES)
+    shape = places(VEHICLE, rigid, PHASES)
     strips = strips_of(VEHICLE.wing, STRIPS)
     reach = np.linalg.norm(np.asarray(shape.quarter_chord) - VEHICLE.wing.shoulder, axis=-1)
     close(reach, np.broadcast_to(0.30 * strips.span_fraction, reach.shape), 1e-14)
@@ -141,7 +170,7 @@ def test_the_wrist_has_no_effect_without_a_fold():
 def test_still_wings_have_no_rates():
     still = wb.Wingbeat(8.0, 0.15, 0.0, 0.20, 0.0)
     table = tabulate(VEHICLE, still, PHASES)
-    for name in ("drift_chord", "drift_normal", "first_moment_acceleration", "inertia_rate", "swirl"):
+    for name in ("flapping_speed", "first_moment_acceleration", "inertia_rate", "swirl"):
         assert np.abs(np.asarray(getattr(table, name))).max() < 1e-12
 
 
@@ -149,7 +178,7 @@ def moved_by_a_fold(wrist):
     """Return which strips stand elsewhere at mid-upstroke when the hand folds."""
     folded = dataclasses.replace(BEAT, wrist=wrist)
     straight = dataclasses.replace(folded, fold_amplitude=0.0)
-    pair = [places(VEHICLE, beat, np.array([0.75]))[0] for beat in (folded, straight)]
+    pair = [places(VEHICLE, beat, np.array([0.75])) for beat in (folded, straight)]
     by_place, by_turn = (
         np.abs(np.asarray(getattr(pair[0], name)) - np.asarray(getattr(pair[1], name)))[0].max(axis=-1) > 1e-9
         for name in ("quarter_chord", "normal")
@@ -169,7 +198,7 @@ def test_a_strip_whose_centre_is_at_or_inside_the_wrist_belongs_to_the_arm(wrist
 
 def test_the_hand_hangs_on_the_wrist():
     """At mid-upstroke the hand's strips lie on a line from the wrist, 0.4 rad below the arm."""
-    shape, _ = places(VEHICLE, dataclasses.replace(BEAT, span_retraction=0.0), np.array([0.75]))
+    shape = places(VEHICLE, dataclasses.replace(BEAT, span_retraction=0.0), np.array([0.75]))
     place = np.asarray(shape.quarter_chord)[0] - VEHICLE.wing.shoulder
     arm = place[0] / np.linalg.norm(place[0])
     wrist = 0.45 * 0.30 * arm
@@ -182,7 +211,7 @@ def test_the_hand_hangs_on_the_wrist():
 
 
 def test_span_retraction_shrinks_span_and_strips_but_not_the_chord():
-    shape, _ = places(VEHICLE, BEAT, np.array([0.25, 0.75]))
+    shape = places(VEHICLE, BEAT, np.array([0.25, 0.75]))
     reach = np.linalg.norm(np.asarray(shape.quarter_chord)[:, 0] - VEHICLE.wing.shoulder, axis=-1)
     assert reach[1] / reach[0] == pytest.approx(0.7, rel=1e-14)
     area = np.asarray(tabulate(VEHICLE, BEAT, np.array([0.25, 0.75])).area)
@@ -191,7 +220,7 @@ def test_span_retraction_shrinks_span_and_strips_but_not_the_chord():
 
 def test_twist_applies_to_the_whole_pitch_angle():
     beat = wb.Wingbeat(8.0, 0.0, 0.0, 0.2, 0.0, twist_ratio=1.6)
-    shape, _ = places(VEHICLE, beat, np.array([0.0]))
+    shape = places(VEHICLE, beat, np.array([0.0]))
     beta = VEHICLE.wing.stroke_plane_angle
     root_chord = [math.sin(beta), 0.0, math.cos(beta)]
     found = np.arccos(np.asarray(shape.chordwise)[0] @ root_chord)
@@ -225,10 +254,10 @@ def test_strip_masses_are_those_of_the_law(mass, exponent, count):
 
 def test_mass_points_have_the_moments_of_a_uniform_strip():
     """Mass at mid-chord and second moment c^2/12 about it, along the chord and nowhere else."""
-    shape, pair = places(VEHICLE, BEAT, PHASES)
+    shape = places(VEHICLE, BEAT, PHASES)
     chord = np.asarray(strips_of(VEHICLE.wing, STRIPS).chord)
     middle = np.asarray(shape.quarter_chord) - 0.25 * chord[:, None] * np.asarray(shape.chordwise)
-    pair = np.moveaxis(np.asarray(pair), -3, 0)
+    pair = np.moveaxis(np.asarray(shape.mass), -3, 0)
     close(pair.mean(axis=0), middle, 1e-14)
     away = pair - middle
     along = np.sum(away * np.asarray(shape.chordwise), axis=-1)

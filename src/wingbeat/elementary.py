@@ -63,9 +63,16 @@ def _sin_jvp(primals: Any, tangents: Any) -> Any:
     return sin(x), cos(x) * dx
 
 
+@jax.custom_jvp
 def cos(x: Any) -> Any:
     """Return the cosine of `x` [rad], any shape."""
     return sin(x + 0.5 * math.pi)
+
+
+@cos.defjvp
+def _cos_jvp(primals: Any, tangents: Any) -> Any:
+    (x,), (dx,) = primals, tangents
+    return cos(x), -sin(x) * dx
 
 
 @jax.custom_jvp

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.dynamics import body_drag, pressure_offset
-from wingbeat.frames import body_to_world, world_to_body
+from wingbeat.frames import from_world, to_world
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.model import FlightModel
@@ -81,6 +81,7 @@ def air_forces_on(
         length / model.strips * strips.chord,
         jnp.sum(velocity * points.chordwise, axis=-1),
         jnp.sum(velocity * points.normal, axis=-1),
+        jnp.zeros_like(strips.chord),
     )
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
     lever, sliding = motion.partial.quarter_chord, motion.drift.quarter_chord
@@ -89,8 +90,8 @@ def air_forces_on(
         lever = lever + ahead[..., None] * motion.partial.chordwise
         sliding = sliding + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, world_to_body(q[2], q_dot[0], q_dot[1]))
-    generalised = wings.at[:2].add(jnp.stack(body_to_world(q[2], *drag)))
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
+    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
     sliding_power = 2.0 * jnp.sum(force * sliding)
     return AirForces(
         generalised,

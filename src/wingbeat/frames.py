@@ -1,12 +1,14 @@
-"""Frames: body axes in the world, and the bases of stroke plane and wing, as tuples of components.
+"""Frames: the world, body axes and stroke axes, vectors as tuples of components.
 
-World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive).
-Only the plane of symmetry turns, so in-plane vectors are pairs (forward, up) and others triples (forward, left,
-up). Components stay apart because XLA on CPU works along the last axis, and three is a short axis.
+World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive). Stroke axes:
+body axes turned on until the third lies in the stroke plane, in which the wings flap and retract; they turn with
+the body. Only the plane of symmetry turns, so in-plane vectors are pairs (forward, up) and others triples
+(forward, left, up). Components stay apart because XLA on CPU works along the last axis, and three is a short axis.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from wingbeat.elementary import cos, sin
@@ -15,32 +17,21 @@ Pair = tuple[Any, Any]
 Triple = tuple[Any, Any, Any]
 
 
-def body_to_world(body_pitch: Any, forward: Any, up: Any) -> Pair:
-    """Turn an in-plane vector from body axes into the world (x, z)."""
-    c, s = cos(body_pitch), sin(body_pitch)
+def to_world(attitude: Any, forward: Any, up: Any) -> Pair:
+    """Turn an in-plane vector into the world (x, z) from axes pitched nose-up by `attitude`."""
+    c, s = cos(attitude), sin(attitude)
     return c * forward - s * up, s * forward + c * up
 
 
-def world_to_body(body_pitch: Any, x: Any, z: Any) -> Pair:
-    """Turn an in-plane vector from the world into body axes (forward, up)."""
-    c, s = cos(body_pitch), sin(body_pitch)
+def from_world(attitude: Any, x: Any, z: Any) -> Pair:
+    """Turn an in-plane vector from the world into axes pitched nose-up by `attitude`."""
+    c, s = cos(attitude), sin(attitude)
     return c * x + s * z, c * z - s * x
 
 
-def span_axis(flap: Any, stroke_plane_angle: Any) -> Triple:
-    """Return the spanwise unit vector ``e_s = cos(phi) y + sin(phi) d_up`` in body axes."""
-    cb, sb = cos(stroke_plane_angle), sin(stroke_plane_angle)
-    c, s = cos(flap), sin(flap)
-    return -s * cb, c, s * sb
+def stroke_pitch(stroke_plane_angle: Any) -> Any:
+    """Return how far stroke axes are pitched nose-up from body axes [rad]; none for a vertical stroke plane.
 
-
-def wing_axes(spanwise: Triple, pitch: Any, stroke_plane_angle: Any) -> tuple[Triple, Triple]:
-    """Return the chordwise (to the leading edge) and normal unit vectors of a wing along `spanwise`, body axes.
-
-    ``e_c = cos(theta) e_c0 + sin(theta) e_n0``, ``e_n = -sin(theta) e_c0 + cos(theta) e_n0`` with
-    ``e_c0 = (sin beta, 0, cos beta)`` and ``e_n0 = e_c0 x e_s``.
+    Their first axis is ``e_c0 = (sin beta, 0, cos beta)``, their third ``d_up = (-cos beta, 0, sin beta)``.
     """
-    cb, sb = cos(stroke_plane_angle), sin(stroke_plane_angle)
-    x, y, z = -cb * spanwise[1], cb * spanwise[0] - sb * spanwise[2], sb * spanwise[1]
-    c, s = cos(pitch), sin(pitch)
-    return (c * sb + s * x, s * y, c * cb + s * z), (c * x - s * sb, c * y, c * z - s * cb)
+    return 0.5 * math.pi - stroke_plane_angle

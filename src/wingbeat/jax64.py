@@ -25,6 +25,12 @@ def cache_folder() -> Path:
 
 
 def _configure() -> None:
+    # XLA on CPU then compiles a loop of small arrays into one function, in place of some 20 calls a turn: a march
+    # takes a third of the time. It is read when JAX first compiles; where that was before, marches are slower.
+    flags = os.environ.get("XLA_FLAGS", "")
+    if "xla_backend_extra_options" not in flags:
+        loops = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=100000000"
+        os.environ["XLA_FLAGS"] = f"{flags} {loops}".strip()
     jax.config.update("jax_enable_x64", True)
     if getattr(jax.config, "jax_compilation_cache_dir", None) is None:
         jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))

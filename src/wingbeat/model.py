@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from wingbeat.aero.blade_element import BladeElement
-from wingbeat.dynamics import accelerations, body_drag, wing_loads
+from wingbeat.dynamics import BodyLoads, accelerations, body_drag, wing_loads
 from wingbeat.errors import FaultList
-from wingbeat.frames import world_to_body
+from wingbeat.frames import from_world, stroke_pitch
 from wingbeat.jax64 import jnp, register_record
 from wingbeat.kinematics import Wingbeat
+from wingbeat.slopes import by_slopes
 from wingbeat.vehicle import Air, Vehicle
-from wingbeat.wing_motion import WingMotion, beside, strips_of, wing_motion
+from wingbeat.wing_motion import WingMotion, wing_motion
 
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
@@ -63,17 +64,23 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> WingMoti
     return wing_motion(model.vehicle, wingbeat, phase, model.strips)
 
 
+@by_slopes
+def _loads(model_and_motion: tuple[FlightModel, WingMotion], forward: Any, up: Any, pitch_rate: Any) -> BodyLoads:
+    model, motion = model_and_motion
+    wings = wing_loads(
+        model.kernel, model.air.density, motion, (forward, up), pitch_rate, model.at_centre_of_pressure
+    )
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, (forward, up))
+    return wings._replace(force=(wings.force[0] + drag[0], wings.force[1] + drag[1]))
+
+
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
     """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...); place does not enter."""
     body_pitch, u, w, pitch_rate = pitch_state
-    velocity = world_to_body(body_pitch, u, w)
-    chord = beside(strips_of(model.vehicle.wing, model.strips), body_pitch).chord
-    _, loads = wing_loads(
-        model.kernel, model.air.density, motion, velocity, pitch_rate, chord, model.at_centre_of_pressure
-    )
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, velocity)
-    loads = loads._replace(force=(loads.force[0] + drag[0], loads.force[1] + drag[1]))
+    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    # The air feels the pitch state in three ways only, so three derivatives of the loads serve all four.
+    loads = _loads((model, motion), *from_world(attitude, u, w), pitch_rate)
     ax, az, pitch_acceleration = accelerations(
-        model.vehicle, model.air.gravity, motion, loads, body_pitch, pitch_rate
+        model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate
     )
     return jnp.stack([pitch_rate, ax, az, pitch_acceleration])

@@ -53,13 +53,35 @@ class StoredFunction:
         if any(isinstance(leaf, Tracer) for leaf in leaves):
             return self._inlined(*args, **static)
         leaves = [leaf if _is_float64(leaf) else np.asarray(leaf, dtype=float) for leaf in leaves]
+        call, out_tree = self._program(leaves, tree, static)
+        return jax.tree_util.tree_unflatten(out_tree, call(*leaves))
+
+    def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
+        """Return the function of the arguments that follow these, which are taken apart and moved but once.
+
+        The arguments that follow must be arrays of float64, or floats, and of the same shapes in every call.
+        """
+        leaves, tree = jax.tree_util.tree_flatten(first)
+        held = jax.device_put([leaf if _is_float64(leaf) else np.asarray(leaf, dtype=float) for leaf in leaves])
+        found: list[Any] = []
+
+        def call(*rest: Any) -> Any:
+            if not found:
+                whole = jax.tree_util.tree_structure((*jax.tree_util.tree_unflatten(tree, leaves), *rest))
+                found.extend(self._program([*held, *(np.asarray(a, dtype=float) for a in rest)], whole, static))
+            program, out_tree = found
+            return jax.tree_util.tree_unflatten(out_tree, program(*held, *rest))
+
+        return call
+
+    def _program(self, leaves: list[Any], tree: Any, static: dict[str, Any]) -> tuple[Callable[..., Any], Any]:
+        """Return the compiled function of the leaves and the structure of what it returns."""
         key = (tree, tuple(np.shape(leaf) for leaf in leaves), *static.values())
         if key not in self._ready:
             with self._lock:  # one thread loads, the others wait for it
                 if key not in self._ready:
                     self._ready[key] = self._load(leaves, tree, static)
-        call, out_tree = self._ready[key]
-        return jax.tree_util.tree_unflatten(out_tree, call(*leaves))
+        return self._ready[key]
 
     def _load(self, leaves: list[Any], tree: Any, static: dict[str, Any]) -> tuple[Callable[..., Any], Any]:
         shapes = [jax.ShapeDtypeStruct(np.shape(leaf), jnp.float64) for leaf in leaves]
@@ -99,7 +121,7 @@ class StoredFunction:
 
 
 def _is_float64(leaf: Any) -> bool:
-    return isinstance(leaf, float) or getattr(leaf, "dtype", None) == np.float64
+    return type(leaf) is float or getattr(leaf, "dtype", None) == np.float64
 
 
 @functools.cache

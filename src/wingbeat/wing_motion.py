@@ -1,4 +1,4 @@
-"""The wing's motion in body axes, which depends on time alone: strips, mass points and their rates.
+"""The wing's motion in stroke axes, which depends on time alone: strips, mass points and their rates.
 
 Everything here is for the left wing; sums over mass points count both wings. Strips are the first axis and times
 the last, because XLA on CPU works along the last axis, and strips are few.
@@ -6,10 +6,13 @@ the last, because XLA on CPU works along the last axis, and strips are few.
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from typing import Any, NamedTuple
 
-from wingbeat.frames import Pair, Triple, span_axis, wing_axes
+from wingbeat.elementary import cos, sin
+from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.vehicle import Vehicle, Wing
@@ -24,32 +27,53 @@ class Strips(NamedTuple):
 
 
 class WingShape(NamedTuple):
-    """Where the strips are, body axes: triples (forward, left, up) of arrays of shape (N, ...)."""
+    """Where the strips of the left wing are, stroke axes, arrays of shape (N, ...).
 
-    quarter_chord: Triple
-    chordwise: Triple
-    normal: Triple
+    ``ahead``, ``left`` and ``above`` place the quarter chord from the body's centre of mass. Flap turns a strip
+    about the first axis and pitch then turns it about its own span, which runs along the quarter chords.
+    """
+
+    ahead: Any
+    left: Any
+    above: Any
+    flap_sine: Any
+    flap_cosine: Any
+    pitch: Any
+    pitch_sine: Any
+    pitch_cosine: Any
+
+    @property
+    def chordwise(self) -> Triple:
+        """Unit vector to the leading edge."""
+        return self.pitch_cosine, -self.pitch_sine * self.flap_sine, self.pitch_sine * self.flap_cosine
+
+    @property
+    def normal(self) -> Triple:
+        """Unit vector normal to chord and span, up at rest."""
+        return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine
 
 
 class WingMotion(NamedTuple):
-    """What the body feels of the wing, with any trailing axes of times.
+    """What body and air feel of the wing, stroke axes, with any trailing axes of times.
 
-    In-plane vectors are pairs (forward, up). ``lever_*`` is the speed of a quarter chord per unit
-    pitch rate along chord and normal, ``drift_*`` its speed from flapping alone. ``first_moment``
-    and ``inertia`` sum mass times place and mass times place squared, ``swirl`` mass times (place
-    turned by a right angle) . acceleration, over the mass points of both wings.
+    For air loads, by strip: the quarter chord's place (``ahead`` of all strips alike, ``above``), its speed
+    ``flapping_speed`` along the normal that the strip has without pitch, the cosine of the strip's flap angle,
+    its pitch and its area; ``width`` is that of all strips alike. Pitch turns a strip about its quarter chord and
+    so changes no speed.
+    For the balance, sums over the mass of both wings: ``first_moment`` and ``inertia`` of mass times place and
+    mass times place squared, ``swirl`` of mass times (place turned by a right angle) . acceleration.
     """
 
-    chordwise: Any
-    normal: Any
-    lever_chord: Any
-    lever_normal: Any
-    drift_chord: Any
-    drift_normal: Any
+    ahead: Any
+    above: Any
+    flapping_speed: Any
+    flap_cosine: Any
+    pitch: Any
     area: Any
-    first_moment: Any
-    first_moment_rate: Any
-    first_moment_acceleration: Any
+    width: Any
+    first_moment: Pair
+    first_moment_rate: Pair
+    first_moment_acceleration: Pair
     inertia: Any
     inertia_rate: Any
     swirl: Any
@@ -92,17 +116,21 @@ def wing_shape(
     hand_flap = flap - fold_angle(wingbeat, phase)
     arm = jnp.minimum(strips.span_fraction, wingbeat.wrist)
     hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)
-    arm_axis = span_axis(flap, wing.stroke_plane_angle)
-    hand_axis = span_axis(hand_flap, wing.stroke_plane_angle)
-    x, y, z = (
-        place + arm * (length * a) + hand * (length * h)
-        for place, a, h in zip(wing.shoulder, arm_axis, hand_axis, strict=True)
-    )
+    (arm_sine, arm_cosine), (hand_sine, hand_cosine) = ((sin(a), cos(a)) for a in (flap, hand_flap))
+    x, left, z = wing.shoulder
+    ahead, above = from_world(stroke_pitch(wing.stroke_plane_angle), x, z)
     of_arm = strips.span_fraction <= wingbeat.wrist
-    x_span, y_span, z_span = (jnp.where(of_arm, a, h) for a, h in zip(arm_axis, hand_axis, strict=True))
     strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
-    chordwise, normal = wing_axes((x_span, y_span, z_span), strip_pitch, wing.stroke_plane_angle)
-    return WingShape((x, y, z), chordwise, normal)
+    return WingShape(
+        jnp.full_like(strip_pitch, ahead),
+        left + arm * (length * arm_cosine) + hand * (length * hand_cosine),
+        above + arm * (length * arm_sine) + hand * (length * hand_sine),
+        jnp.where(of_arm, arm_sine, hand_sine),
+        jnp.where(of_arm, arm_cosine, hand_cosine),
+        strip_pitch,
+        sin(strip_pitch),
+        cos(strip_pitch),
+    )
 
 
 def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -> WingShape:
@@ -112,34 +140,40 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -
 
 
 def mass_points(shape: WingShape, strips: Strips) -> Triple:
-    """Return the mass points, body axes, a triple of shape (2, N, ...); each carries half its strip's mass.
+    """Return the mass points, stroke axes, a triple of shape (2, N, ...); each carries half its strip's mass.
 
     Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     """
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
-    x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
+    places = shape.ahead, shape.left, shape.above
+    x, y, z = (place + offsets * fore for place, fore in zip(places, shape.chordwise, strict=True))
     return x, y, z
 
 
 def time_rates(function: Any, phase: Any, frequency: Any) -> tuple[Any, Any, Any]:
     """Return a function of phase with its first and second time derivatives, exactly."""
-    per_second = frequency * jnp.ones_like(phase)
+    one = jnp.ones_like(phase)
 
     def rate(at: Any) -> tuple[Any, Any]:
-        return jax.jvp(function, (at,), (per_second,))
+        return jax.jvp(function, (at,), (one,))
 
-    (value, first), (_, second) = jax.jvp(rate, (phase,), (per_second,))
-    return value, first, second
+    # By phase first: how the frequency scales the rates is then known without differentiating the function.
+    (value, first), (_, second) = jax.jvp(rate, (phase,), (one,))
 
+    def scaled(tree: Any, factor: Any) -> Any:
+        return jax.tree_util.tree_map(lambda a: a * factor, tree)
 
-def in_plane(vector: Triple) -> Pair:
-    """Return the (forward, up) pair of a triple (forward, left, up)."""
-    return vector[0], vector[2]
+    return value, scaled(first, frequency), scaled(second, frequency * frequency)
 
 
 def turned(pair: Pair) -> Pair:
     """Turn an in-plane pair nose-up by a right angle."""
     return -pair[1], pair[0]
+
+
+def over_strips(a: Any) -> Any:
+    """Return the sum over the first axis, written as additions, of which XLA on CPU makes vector code."""
+    return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
 
 
 def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
@@ -149,38 +183,39 @@ def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
 
 
 def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> WingMotion:
-    """Tabulate what body and air see of the wing at the given phases, in one pass."""
+    """Tabulate what body and air feel of the wing at the given phases, in one pass."""
     phase = jnp.asarray(phase, dtype=float)
     strips = beside(strips_of(vehicle.wing, count), phase)
 
-    def shape_and_points(at: Any) -> tuple[WingShape, Any]:
+    def strip_places(at: Any) -> tuple[WingShape, Pair, Pair]:
+        """Return the shape and, in the plane of symmetry, mid-chords and vectors to the leading edge."""
         shape = shape_at(vehicle, wingbeat, strips, at)
-        return shape, mass_points(shape, strips)
+        fore = shape.chordwise[0], shape.chordwise[2]
+        quarter = 0.25 * strips.chord
+        return shape, (shape.ahead - quarter * fore[0], shape.above - quarter * fore[1]), fore
 
-    (shape, points), (shape_rate, velocity), (_, acceleration) = time_rates(
-        shape_and_points, phase, wingbeat.frequency
-    )
+    here, rates, pushes = time_rates(strip_places, phase, wingbeat.frequency)
+    (shape, place, fore), (shape_rate, speed, fore_speed), (_, push, fore_push) = here, rates, pushes
 
-    def total(values: Any) -> Any:
-        # Each point carries half its strip's mass, and there are two wings.
-        return jnp.sum(strips.mass * values, axis=(0, 1))
+    # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
+    mass, spread = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
 
-    place, speed, push = in_plane(points), in_plane(velocity), in_plane(acceleration)
-    chordwise, normal = in_plane(shape.chordwise), in_plane(shape.normal)
-    lever = turned(in_plane(shape.quarter_chord))
-    length = vehicle.wing.semi_span * span_ratio(wingbeat, phase)
+    def total(a: Any) -> Any:
+        return over_strips(mass * a)
+
+    width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     return WingMotion(
-        chordwise=chordwise,
-        normal=normal,
-        lever_chord=dot(lever, chordwise),
-        lever_normal=dot(lever, normal),
-        drift_chord=dot(shape_rate.quarter_chord, shape.chordwise),
-        drift_normal=dot(shape_rate.quarter_chord, shape.normal),
-        area=length / count * strips.chord,
+        ahead=shape.ahead[0],
+        above=shape.above,
+        flapping_speed=shape_rate.above * shape.flap_cosine - shape_rate.left * shape.flap_sine,
+        flap_cosine=shape.flap_cosine,
+        pitch=shape.pitch,
+        area=width * strips.chord,
+        width=width,
         first_moment=(total(place[0]), total(place[1])),
         first_moment_rate=(total(speed[0]), total(speed[1])),
         first_moment_acceleration=(total(push[0]), total(push[1])),
-        inertia=total(dot(place, place)),
-        inertia_rate=2.0 * total(dot(place, speed)),
-        swirl=total(dot(turned(place), push)),
+        inertia=total(dot(place, place) + spread * dot(fore, fore)),
+        inertia_rate=2.0 * total(dot(place, speed) + spread * dot(fore, fore_speed)),
+        swirl=total(dot(turned(place), push) + spread * dot(turned(fore), fore_push)),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from wingbeat.frames import Triple, body_to_world
+from wingbeat.frames import Triple, stroke_pitch, to_world
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
@@ -24,21 +24,23 @@ class WingPoints(NamedTuple):
     normal: Any
 
 
-def _to_world(body_pitch: Any, vector: Triple) -> Any:
-    x, z = body_to_world(body_pitch, vector[0], vector[2])
+def _in_world(attitude: Any, vector: Triple) -> Any:
+    x, z = to_world(attitude, vector[0], vector[2])
     return jnp.stack([x, vector[1], z], axis=-1)
 
 
 def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
     """Place the left wing in the world for coordinates q at a time [s]."""
-    strips = strips_of(model.vehicle.wing, model.strips)
+    wing = model.vehicle.wing
+    strips = strips_of(wing, model.strips)
     shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
     place = jnp.stack([q[0], jnp.zeros_like(q[0]), q[1]])
+    attitude = q[2] + stroke_pitch(wing.stroke_plane_angle)
     return WingPoints(
-        place + _to_world(q[2], mass_points(shape, strips)),
-        place + _to_world(q[2], shape.quarter_chord),
-        _to_world(q[2], shape.chordwise),
-        _to_world(q[2], shape.normal),
+        place + _in_world(attitude, mass_points(shape, strips)),
+        place + _in_world(attitude, (shape.ahead, shape.left, shape.above)),
+        _in_world(attitude, shape.chordwise),
+        _in_world(attitude, shape.normal),
     )
 
 

@@ -6,6 +6,7 @@ the strip, ``dD`` against it; the spanwise part of the velocity is dropped.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -56,7 +57,7 @@ class BladeElement:
 
 
 class StripForces(NamedTuple):
-    """Air load of each strip of one wing: along chord and normal [N], with what made it, shape (..., N)."""
+    """Air load of each strip of one wing: along the two axes it was asked in [N], with what made it."""
 
     chordwise: Any
     normal: Any
@@ -66,13 +67,16 @@ class StripForces(NamedTuple):
     drag: Any
 
 
-def strip_forces(kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any) -> StripForces:
-    """Return the air loads of strips of given areas [m2] moving at given speeds along chord and normal [m/s].
+def strip_forces(
+    kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any, pitch: Any
+) -> StripForces:
+    """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
-    ``alpha = atan2(-v_n, v_c)``; along the chord ``F_c = L sin(alpha) - D cos(alpha)``, normal to it
-    ``F_n = L cos(alpha) + D sin(alpha)``, written with the speeds in place of the angle's sine and cosine.
+    The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` with
+    ``gamma = atan2(v_n, v_c)`` the direction of the motion; the loads are ``F_c = -L sin(gamma) - D cos(gamma)``
+    and ``F_n = L cos(gamma) - D sin(gamma)``, written with the speeds in place of that angle's sine and cosine.
     """
-    unit = _unit_forces(kernel, chord_speed, normal_speed)
+    unit = _unit_forces(kernel, chord_speed, normal_speed, pitch)
     pressure_area = 0.5 * density * area
     return StripForces(
         chordwise=pressure_area * unit.chordwise,
@@ -90,13 +94,13 @@ def _coefficients(kernel: Any, alpha: Any) -> tuple[Any, Any]:
 
 
 @by_slopes
-def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any) -> StripForces:
+def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any) -> StripForces:
     """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
     moving = squared > 0.0
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
-    alpha = atan2(-normal_speed, chord_speed)
+    alpha = _wrapped(pitch - atan2(normal_speed, chord_speed))
     c_l, c_d = _coefficients(kernel, alpha)
     lift, drag = speed * c_l, speed * c_d
     return StripForces(
@@ -107,3 +111,8 @@ def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any) -> StripForce
         lift=lift * speed,
         drag=drag * speed,
     )
+
+
+def _wrapped(angle: Any) -> Any:
+    """Return an angle less whole turns, between -pi and pi."""
+    return angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))

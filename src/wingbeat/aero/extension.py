@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, Protocol
 from wingbeat.aero.blends import Function, Jet, Join, even_blend, jet_of, odd_blend
 from wingbeat.elementary import horner
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jax, jnp
+from wingbeat.jax64 import jnp
 from wingbeat.stored import stored
 
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
@@ -196,7 +196,5 @@ def extend(pieces: Any, blend_width_deg: Any, extension: str, signed: tuple[str,
     extension : one of `EXTENSIONS`.
     signed : which of "lift", "drag", "centre" are also good for -90 to 0 degrees.
     """
-    width = jnp.asarray(blend_width_deg, jnp.float64) * (math.pi / 180)
-    # Strong float64 leaves, so that one compiled function serves every model of the same form.
-    leaves = jax.tree.map(lambda leaf: jnp.asarray(leaf, jnp.float64), pieces)
-    return _extended(leaves, width, extension=extension, signed=signed)
+    width = blend_width_deg * (math.pi / 180)
+    return _extended(pieces, width, extension=extension, signed=signed)

@@ -29,6 +29,11 @@ class Certificate:
         """The state at the end of the period."""
         return self.states[-1]
 
+    @property
+    def pitch(self) -> np.ndarray:
+        """Body pitch along the path [rad]."""
+        return self.states[:, 2]
+
 
 def certify(model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray) -> Certificate:
     """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate)."""

@@ -163,6 +163,12 @@ class OrbitProblem:
         values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
         return dataclasses.replace(self.species.wingbeat, **values)
 
+    def frequency(self, unknowns: np.ndarray) -> float:
+        """Return the frequency that goes with the unknowns [Hz]."""
+        if "frequency" in self.free:
+            return float(unknowns[4 + self.free.index("frequency")])
+        return self.species.wingbeat.frequency
+
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
         """Return the miss of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
         travelled = np.array([self.speed, self.climb]) / frequency

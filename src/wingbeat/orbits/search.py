@@ -14,8 +14,8 @@ from wingbeat.orbits.transcription import Transcription
 CLOSED = 1e-6
 # Largest residual of the optimality conditions, in the optimiser's scale, that counts as none.
 OPTIMAL = 1e-5
-# Evaluations of the elastic solve before each round of SLSQP: mostly a few do, and a hard case needs many.
-_APPROACH = (10, 40)
+# Evaluations of the elastic solve that goes before a search which is expected to be hard.
+_APPROACH = 40
 _AT_BOUND = 1e-6
 
 
@@ -29,23 +29,23 @@ class Candidate:
     optimal: bool
     violation: float
     flights: int
-    jacobians: int
 
 
 def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -> Candidate:
-    """Search from unknowns `start`: towards closure first, then SLSQP; a stalled search is restarted once.
+    """Search from unknowns `start` with SLSQP; one that stalls is brought nearer to closure and tried once more.
 
-    A search whose elastic solve stays further than `give_up` from closure (in the optimiser's scale) ends there,
-    and such a search takes its time to come near.
+    With `give_up` the search is brought near closure first, and ends there if it stays further off than that (in
+    the optimiser's scale).
 
-    Closure first, because from a crude start SLSQP's first steps of a full Newton correction leave the region
-    where its quadratic model means anything; restarted, because a stall is mostly a spoilt BFGS matrix.
+    A stall is mostly a spoilt BFGS matrix, or a start from which full Newton steps leave the region where the
+    quadratic model means anything.
     """
-    flights, jacobians = problem.flights, problem.jacobians
+    flights = problem.flights
     scaled = problem.scaled(start)
     closed = optimal = False
-    for evaluations in _APPROACH if np.isinf(give_up) else _APPROACH[1:] * 2:
-        scaled = approach(problem, scaled, evaluations)
+    for near in (False, True) if np.isinf(give_up) else (True, True):
+        if near:
+            scaled = approach(problem, scaled, _APPROACH)
         if violation(problem, scaled) > give_up:
             break
         scaled, optimal = optimise(problem, scaled)
@@ -61,7 +61,6 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
         optimal,
         violation(problem, scaled),
         problem.flights - flights,
-        problem.jacobians - jacobians,
     )
 
 

@@ -6,6 +6,7 @@ its step began; last the chain of the small step maps. Place (x, z) feeds nothin
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,64 +14,55 @@ import numpy as np
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.slopes import settled
 from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
 
 # One compiled march has this many steps; finer flights chain several.
-STEPS = 64
+STEPS = 32
 
 
-class Period(NamedTuple):
-    """One period flown: where it ends from x = z = 0, and the pitch state at each step, shape (steps+1, 4)."""
+class Flown(NamedTuple):
+    """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
+
+    Where it ends, shape (6,), and body pitch after each step, from the start on; their Jacobians' columns are last.
+    """
 
     end: Any
-    path: Any
-
-
-class PeriodTangents(NamedTuple):
-    """A period and its derivatives with respect to (body_pitch, u, w, pitch_rate, free parameters)."""
-
-    period: Period
+    pitch: Any
     end_jacobian: Any
-    path_jacobian: Any
+    pitch_jacobian: Any
 
 
-class StageTables(NamedTuple):
-    """The wing at the ends and middles of all steps, last axis 2 steps + 1, and the length of a step [s]."""
+class Stages(NamedTuple):
+    """The wing at the beginning, middle and end of all steps, steps last, and the length of a step [s]."""
 
-    motion: WingMotion
+    begin: WingMotion
+    middle: WingMotion
+    end: WingMotion
     step: Any
 
 
-@stored
-def tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> StageTables:
-    """Tabulate the wing for a march of `STEPS` equal steps from one phase to another."""
-    phase = first + (last - first) * jnp.linspace(0.0, 1.0, 2 * STEPS + 1)
-    return StageTables(motion_table(model, wingbeat, phase), (last - first) / (wingbeat.frequency * STEPS))
+def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[WingMotion, Any]:
+    """Tabulate the wing at the ends of the steps, then at their middles; return that and the length of a step."""
+    whole = jnp.arange(STEPS + 1) / STEPS
+    phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
+    return motion_table(model, wingbeat, phase), (last - first) / (wingbeat.frequency * STEPS)
 
 
-@stored(static=("free",))
-def tabulate_tangents(
-    model: FlightModel, wingbeat: Wingbeat, values: Any, first: Any, last: Any, *, free: tuple[str, ...]
-) -> tuple[StageTables, StageTables]:
-    """Tabulate the wing and its derivatives (leading axis) with respect to the free parameters."""
+def _stages(table: WingMotion, step: Any) -> Stages:
+    def part(where: slice) -> WingMotion:
+        return jax.tree_util.tree_map(lambda a: a[..., where], table)
 
-    def by_values(at: Any) -> StageTables:
-        return tabulate(model, unpack(free, wingbeat, at), first, last)
-
-    tables, along = jax.linearize(by_values, values)
-    return tables, jax.vmap(along)(jnp.eye(len(free)))
+    return Stages(part(slice(STEPS)), part(slice(STEPS + 1, None)), part(slice(1, STEPS + 1)), step)
 
 
-def _rk4(model: FlightModel, motion: WingMotion, step: Any, state: Any) -> tuple[Any, Any]:
-    """Return the states and rates of the four stages of a classical Runge-Kutta step, shape (4, 4) each."""
-    states, rates = [state], []
-    for stage, advance in zip((0, 1, 1, 2), (0.5, 0.5, 1.0, None), strict=True):
-        here = jax.tree_util.tree_map(lambda a, i=stage: a[i], motion)
-        rates.append(body_rates(model, here, states[-1]))
-        if advance is not None:
-            states.append(state + advance * step * rates[-1])
-    return jnp.stack(states), jnp.stack(rates)
+class March(NamedTuple):
+    """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
+
+    states: Any
+    rates: Any
+    last: Any
 
 
 def _combine(stages: Any) -> Any:
@@ -78,63 +70,52 @@ def _combine(stages: Any) -> Any:
     return (stages[0] + 2.0 * (stages[1] + stages[2]) + stages[3]) / 6.0
 
 
-class March(NamedTuple):
-    """A period with the states and rates of all Runge-Kutta stages, shape (steps, 4, 4)."""
+def _march(model: FlightModel, stages: Stages, start: Any) -> March:
+    """Fly the steps in sequence by the classical Runge-Kutta method."""
 
-    period: Period
-    states: Any
-    rates: Any
+    def advance(state: Any, motion: Any) -> tuple[Any, tuple[Any, Any]]:
+        begin, middle, end = motion
+        states, rates = [state], []
+        for here, ahead in ((begin, 0.5), (middle, 0.5), (middle, 1.0), (end, None)):
+            rates.append(body_rates(model, here, states[-1]))
+            if ahead is not None:
+                states.append(state + ahead * stages.step * rates[-1])
+        return state + stages.step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
 
-
-@stored
-def march(model: FlightModel, tables: StageTables, start: Any) -> March:
-    """Fly one period from a pitch state at x = z = 0 with fixed steps."""
-
-    def advance(state: Any, motion: WingMotion) -> tuple[Any, tuple[Any, Any]]:
-        states, rates = _rk4(model, motion, tables.step, state)
-        return state + tables.step * _combine(rates), (states, rates)
-
-    def by_step(table: Any) -> Any:
-        times = jnp.moveaxis(table, -1, 0)
-        return jnp.stack([times[:-1:2], times[1::2], times[2::2]], axis=1)
-
-    stages = jax.tree_util.tree_map(by_step, tables.motion)
-    last, (states, rates) = jax.lax.scan(advance, start, stages)
-    place = tables.step * jnp.sum(_combine(jnp.moveaxis(states, 1, 0))[:, 1:3], axis=0)
-    path = jnp.concatenate([states[:, 0], last[None]])
-    return March(Period(jnp.concatenate([place, last]), path), states, rates)
+    by_step = jax.tree_util.tree_map(lambda a: jnp.moveaxis(a, -1, 0), tuple(stages[:3]))
+    last, (states, rates) = jax.lax.scan(advance, start, by_step)
+    return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
-@stored
-def differentiate(
-    model: FlightModel, tables: StageTables, table_tangents: StageTables, flight: March
-) -> PeriodTangents:
-    """Differentiate a flown period: every stage of every step is a lane of one right-hand side."""
-    stage = (jnp.asarray([0, 1, 1, 2])[:, None] + 2 * jnp.arange(STEPS)).ravel()
-    lanes, lane_tangents = (
-        jax.tree_util.tree_map(lambda a: a[..., stage], tables.motion) for tables in (tables, table_tangents)
-    )
-    states = flight.states.transpose(2, 1, 0).reshape(4, -1)
+def _stage_tangents(model: FlightModel, stages: Stages, tangents: Stages, states: Any) -> tuple[Any, Any]:
+    """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
+
+    Returns the derivatives by state and by free parameter, shapes (stages, steps, 4 rates, 4) and (.., free).
+    """
+
+    def in_lanes(parts: Stages) -> WingMotion:
+        four = parts.begin, parts.middle, parts.middle, parts.end
+        return jax.tree_util.tree_map(lambda *a: jnp.concatenate(a, axis=-1), *four)
+
+    lanes, lane_tangents = in_lanes(stages), in_lanes(tangents)
+    state = states.reshape(4, -1)
 
     def by_state(seed: Any) -> Any:
-        tangent = jnp.broadcast_to(seed[:, None], states.shape)
-        return jax.jvp(lambda s: body_rates(model, lanes, s), (states,), (tangent,))[1]
+        tangent = jnp.broadcast_to(seed[:, None], state.shape)
+        return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
 
     def by_free(tangent: WingMotion) -> Any:
-        return jax.jvp(lambda motion: body_rates(model, motion, states), (lanes,), (tangent,))[1]
+        return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
 
     def to_stages(rows: Any) -> Any:
-        return rows.reshape(rows.shape[0], 4, 4, STEPS).transpose(2, 3, 1, 0)  # stages, steps, rates, seeds
+        return rows.reshape(rows.shape[0], 4, 4, STEPS).transpose(2, 3, 1, 0)
 
-    by_states = to_stages(jax.vmap(by_state)(jnp.eye(4)))
-    by_frees = to_stages(jax.vmap(by_free)(lane_tangents))
-    return _chain(flight, (by_states, by_frees), tables.step, table_tangents.step)
+    return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(lane_tangents))
 
 
-def _chain(flight: March, tangents: tuple[Any, Any], step: Any, step_tangent: Any) -> PeriodTangents:
+def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any) -> Flown:
     """Compose the tangents of all stages into those of the steps, and these into those of the period."""
-    states, rates = (jnp.moveaxis(a, 1, 0) for a in (flight.states, flight.rates))
-    by_state, by_free = tangents
+    states, rates = (a.transpose(1, 2, 0) for a in (flight.states, flight.rates))
     by_free = jnp.pad(by_free, ((0, 0), (0, 0), (0, 0), (4, 0)))
     lengthen = jnp.pad(step_tangent, (4, 0))
     first = jnp.broadcast_to(jnp.eye(4, lengthen.size), by_free.shape[1:])
@@ -153,48 +134,63 @@ def _chain(flight: March, tangents: tuple[Any, Any], step: Any, step_tangent: An
     last, path = jax.lax.scan(follow, jnp.eye(4, lengthen.size), step_map)
     place = jnp.einsum("kij,kjl->il", place_map[:, 1:3, :4], path)
     place = place.at[:, 4:].add(jnp.sum(place_map[:, 1:3, 4:], axis=0))
-    return PeriodTangents(flight.period, jnp.concatenate([place, last]), jnp.concatenate([path, last[None]]))
+    travelled = step * jnp.sum(_combine(states)[:, 1:3], axis=0)
+    return Flown(
+        jnp.concatenate([travelled, flight.last]),
+        jnp.append(states[0, :, 0], flight.last[0]),
+        jnp.concatenate([place, last]),
+        jnp.concatenate([path[:, 0], last[None, 0]]),
+    )
 
 
-def fly(model: FlightModel, wingbeat: Wingbeat, start: Any, blocks: int = 1) -> Period:
-    """Fly one period of a wingbeat from a pitch state at x = z = 0, in `blocks` times `STEPS` steps."""
-    place, state, paths = np.zeros(2), start, [np.asarray(start)[None]]
-    for first, last in _parts(blocks):
-        part = march(model, tabulate(model, wingbeat, first, last), state).period
-        end = np.asarray(part.end)
-        place, state = place + end[:2], end[2:]
-        paths.append(np.asarray(part.path)[1:])
-    return Period(np.concatenate([place, state]), np.concatenate(paths))
+@stored(static=("free",))
+def fly_part(
+    model: FlightModel, wingbeat: Wingbeat, values: Any, start: Any, first: Any, last: Any, *, free: tuple[str, ...]
+) -> Flown:
+    """Fly `STEPS` steps from one phase to another, free parameters now at `values`, and differentiate."""
+
+    def by_values(at: Any) -> Any:
+        return _tabulate(model, unpack(free, wingbeat, at), first, last)
+
+    (table, step), along = jax.linearize(by_values, values)
+    tangents, step_tangent = settled(jax.vmap(along)(jnp.eye(len(free))))
+    stages, stage_tangents = _stages(settled(table), step), _stages(tangents, step_tangent)
+    flight = _march(model, stages, start)
+    by_state, by_free = _stage_tangents(model, stages, stage_tangents, flight.states)
+    return _chain(flight, by_state, by_free, step, step_tangent)
 
 
-def fly_with_tangents(
-    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], values: Any, start: Any, blocks: int = 1
-) -> PeriodTangents:
-    """Fly one period and differentiate its end and path by start and free parameters, now at `values`.
+def flier(model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...]) -> Callable[..., Flown]:
+    """Return the flight of one period as a function of free parameters, pitch state at x = z = 0, and blocks.
 
-    Three compiled pieces, not one: XLA fuses across them to no good (twice the compile time, thrice the run).
+    It flies `blocks` times `STEPS` steps and differentiates them.
     """
-    chained, place = np.eye(4, 4 + len(free)), np.zeros((2, 4 + len(free)))
-    state, ends, paths, path_jacobians = start, np.zeros(2), [np.asarray(start)[None]], [chained[None]]
-    for first, last in _parts(blocks):
-        tables, tangents = tabulate_tangents(model, wingbeat, values, first, last, free=free)
-        part = differentiate(model, tables, tangents, march(model, tables, state))
-        end, jacobian = np.asarray(part.period.end), _after(chained, part.end_jacobian)
-        paths.append(np.asarray(part.period.path)[1:])
-        path_jacobians.append(_after(chained, part.path_jacobian)[1:])
-        chained, place = jacobian[2:], place + jacobian[:2]
-        state, ends = end[2:], ends + end[:2]
-    period = Period(np.concatenate([ends, state]), np.concatenate(paths))
-    return PeriodTangents(period, np.concatenate([place, chained]), np.concatenate(path_jacobians))
+    part = fly_part.bind(model, wingbeat, free=free)
+
+    def fly(values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Flown:
+        flown = Flown(*(np.asarray(a) for a in part(values, start, 0.0, 1.0 / blocks)))
+        for i in range(1, blocks):
+            flown = _then(flown, part(values, flown.end[2:], i / blocks, (i + 1) / blocks))
+        return flown
+
+    return fly
 
 
-def _after(before: np.ndarray, part: Any) -> np.ndarray:
-    """Return a part's derivative with respect to what the period starts from, `before` being that of its start."""
-    here = np.asarray(part)
-    whole = here[..., :4] @ before
-    whole[..., 4:] += here[..., 4:]
-    return whole
+def _then(before: Flown, part: Flown) -> Flown:
+    """Return two parts flown one after the other."""
+    chained = before.end_jacobian[2:]
 
+    def from_start(jacobian: Any) -> np.ndarray:
+        whole = np.asarray(jacobian)[:, :4] @ chained
+        whole[:, 4:] += np.asarray(jacobian)[:, 4:]
+        return whole
 
-def _parts(blocks: int) -> list[tuple[float, float]]:
-    return [(i / blocks, (i + 1) / blocks) for i in range(blocks)]
+    end, end_jacobian = np.array(part.end), from_start(part.end_jacobian)
+    end[:2] += before.end[:2]
+    end_jacobian[:2] += before.end_jacobian[:2]
+    return Flown(
+        end,
+        np.concatenate([before.pitch, np.asarray(part.pitch)[1:]]),
+        end_jacobian,
+        np.concatenate([before.pitch_jacobian, from_start(part.pitch_jacobian)[1:]]),
+    )

@@ -15,9 +15,10 @@ from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.search import Candidate, active_bounds, optimality, optimise, search
-from wingbeat.orbits.shooting import fly_with_tangents, march
+from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
@@ -27,8 +28,8 @@ _AIM = 1e-7
 _PITCH_EXCESS = 1e-6
 # Blocks of steps of the flight that gives the corrected closure its derivative, and how far from there, in the
 # optimiser's scale, that derivative will do.
-_FINE = 16
-_SETTLED = 1e-4
+_FINE = 8
+_SETTLED = 2e-2
 _SETTLING = 8
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
@@ -80,36 +81,42 @@ class Corrected:
 def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
     """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
 
-    The search's few steps find the optimum of a slightly wrong flight. Each round gives its closure the value that
-    the certifier finds, and the derivative of a finer flight once the point has moved, and re-solves from where it
-    stands, until nothing moves it any more.
+    The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
+    value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
     """
     scaled = problem.scaled(unknowns)
+    polish = Polish(problem, scaled)
     best: Corrected | None = None
     tilted = np.full_like(scaled, np.inf)
     for round_ in range(_CORRECTIONS):
-        physical = problem.physical(scaled)
-        wingbeat = problem.problem.wingbeat(physical)
-        certificate = certify(problem.model, wingbeat, physical[:4])
-        miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
-        margins = problem.margins(certificate.states[:, 2])
-        here = Corrected(scaled, wingbeat, certificate, miss)
-        settled = np.abs(scaled - tilted).max() <= _SETTLED or round_ >= _SETTLING
-        if settled and _size(miss) <= _AIM and margins.min() >= -_PITCH_EXCESS:
-            return here
-        if best is None or _size(miss) < _size(best.miss):
-            best = here
-        if not np.isfinite(miss).all():
-            break
-        if not settled:
-            free = problem.problem.free
-            fine = fly_with_tangents(problem.model, wingbeat, free, physical[4:], physical[:4], _FINE)
-            problem.tilt_at(scaled, fine)
+        if np.abs(scaled - tilted).max() > _SETTLED and round_ < _SETTLING:
+            problem.tilt_at(scaled, _FINE)
             tilted = scaled
-        problem.shift_at(scaled, certificate)
-        scaled, _ = optimise(problem, scaled, iterations=40, tolerance=1e-14)
+            scaled = _settle(polish, scaled)
+        here = _certified(problem, scaled)
+        if _size(here.miss) <= _AIM and problem.margins(here.certificate.pitch).min() >= -_PITCH_EXCESS:
+            return here
+        if best is None or _size(here.miss) < _size(best.miss):
+            best = here
+        if not np.isfinite(here.miss).all():
+            break
+        problem.shift_at(scaled, here.certificate)
+        scaled = _settle(polish, scaled)
     assert best is not None
     return best
+
+
+def _settle(polish: Polish, scaled: np.ndarray) -> np.ndarray:
+    polished = polish.follow(scaled)
+    return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
+
+
+def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
+    physical = problem.physical(scaled)
+    wingbeat = problem.problem.wingbeat(physical)
+    certificate = certify(problem.model, wingbeat, physical[:4])
+    miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
+    return Corrected(scaled, wingbeat, certificate, miss)
 
 
 def _size(miss: np.ndarray) -> float:
@@ -181,7 +188,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
 
 def _load_programs(problem: Transcription, start: np.ndarray) -> None:
     """Read or compile, side by side, the programs that the search and the certifier will want, once a process."""
-    if march.loaded:
+    if fly_part.loaded:
         return
     wingbeat = problem.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:

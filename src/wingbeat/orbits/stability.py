@@ -6,10 +6,10 @@ import numpy as np
 
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
-from wingbeat.orbits.shooting import fly_with_tangents
+from wingbeat.orbits.shooting import flier
 
 # Blocks of steps that bring the multipliers of unstable bats within 1e-5 of those of an adaptive flight.
-_BLOCKS = 32
+_BLOCKS = 64
 
 
 def floquet_multipliers(
@@ -21,8 +21,7 @@ def floquet_multipliers(
     respect to that before. Not-a-number where the flight tumbles off.
     """
     values = np.array([getattr(wingbeat, name) for name in free], dtype=float)
-    tangents = fly_with_tangents(model, wingbeat, free, values, pitch_state, _BLOCKS)
-    monodromy = tangents.end_jacobian[2:, :4]
+    monodromy = flier(model, wingbeat, free)(values, pitch_state, _BLOCKS).end_jacobian[2:, :4]
     if not np.isfinite(monodromy).all():
         return np.full(4, np.nan + 0j)
     found = np.linalg.eigvals(monodromy)

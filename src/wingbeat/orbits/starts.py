@@ -1,4 +1,9 @@
-"""Where searches start: the species' stock wingbeat first, then seeded random ones within the bounds."""
+"""Where searches start: the species' stock wingbeat first, then seeded random ones within the bounds.
+
+All start from brisk wingbeats. A vehicle that beats fast moves little within a beat, so closure is nearly linear
+there and its searches do not stray; one that beats too slowly to stay up has no orbit near. From a closed orbit of
+high frequency the way to least frequency is downhill.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +13,15 @@ import numpy as np
 
 from wingbeat.orbits.problem import OrbitProblem
 
+# Times the stock frequency. From 2 to 4 every pigeon and nearly every bat of +-30 % was found in one search; at 1 a
+# third of the bats strayed, and took three times the flights.
+_BRISK = 2.5
+
 
 def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
     """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
     unknowns = problem.unknowns()
-    stock = vars(problem.species.wingbeat)
+    stock = vars(problem.species.wingbeat) | {"frequency": _BRISK * problem.species.wingbeat.frequency}
     # Turning the stroke plane turns the body the other way and leaves the wings where they were.
     pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle - 0.5 * math.pi
     first = np.array([pitch, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free)])
@@ -23,9 +32,9 @@ def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
         unknowns.lower + 0.1 * (unknowns.upper - unknowns.lower),
         unknowns.upper - 0.1 * (unknowns.upper - unknowns.lower),
     )
-    # Near the mean velocity and a moderate attitude; frequencies spread in octaves about the stock one.
+    # Near the mean velocity and a moderate attitude; frequencies spread over two octaves.
     point[:4] = first[:4] + random.uniform([-0.2, -0.5, -1.0, -2.0], [0.3, 0.5, 1.0, 2.0])
     if "frequency" in unknowns.names:
         column = unknowns.names.index("frequency")
-        point[column] = first[column] * 2.0 ** random.uniform(-1.0, 1.2)
+        point[column] = first[column] * 2.0 ** random.uniform(-1.2, 0.8)
     return np.clip(point, unknowns.lower, unknowns.upper)

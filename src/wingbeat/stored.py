@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import math
 import pickle
 import platform
 import threading
@@ -49,12 +50,9 @@ class StoredFunction:
 
     def __call__(self, *args: Any, **static: Any) -> Any:
         """Evaluate the function."""
-        leaves, tree = jax.tree_util.tree_flatten(args)
-        if any(isinstance(leaf, Tracer) for leaf in leaves):
+        if any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args)):
             return self._inlined(*args, **static)
-        leaves = [leaf if _is_float64(leaf) else np.asarray(leaf, dtype=float) for leaf in leaves]
-        call, out_tree = self._program(leaves, tree, static)
-        return jax.tree_util.tree_unflatten(out_tree, call(*leaves))
+        return self.bind(*args, **static)()
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function of the arguments that follow these, which are taken apart and moved but once.
@@ -62,57 +60,55 @@ class StoredFunction:
         The arguments that follow must be arrays of float64, or floats, and of the same shapes in every call.
         """
         leaves, tree = jax.tree_util.tree_flatten(first)
-        held = jax.device_put([leaf if _is_float64(leaf) else np.asarray(leaf, dtype=float) for leaf in leaves])
-        found: list[Any] = []
+        arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
+        shapes = tuple(array.shape for array in arrays)
+        # One array for all: dozens of numbers cost more to hand over one by one than the flight they describe.
+        held = jax.device_put(_packed(arrays))
 
         def call(*rest: Any) -> Any:
-            if not found:
-                whole = jax.tree_util.tree_structure((*jax.tree_util.tree_unflatten(tree, leaves), *rest))
-                found.extend(self._program([*held, *(np.asarray(a, dtype=float) for a in rest)], whole, static))
-            program, out_tree = found
-            return jax.tree_util.tree_unflatten(out_tree, program(*held, *rest))
+            key = (tree, shapes, tuple(np.shape(a) for a in rest), *static.values())
+            if key not in self._ready:
+                with self._lock:  # one thread loads, the others wait for it
+                    if key not in self._ready:
+                        self._ready[key] = self._load(tree, shapes, key[2], static)
+            program, out_tree = self._ready[key]
+            return jax.tree_util.tree_unflatten(out_tree, program(held, *rest))
 
         return call
 
-    def _program(self, leaves: list[Any], tree: Any, static: dict[str, Any]) -> tuple[Callable[..., Any], Any]:
-        """Return the compiled function of the leaves and the structure of what it returns."""
-        key = (tree, tuple(np.shape(leaf) for leaf in leaves), *static.values())
-        if key not in self._ready:
-            with self._lock:  # one thread loads, the others wait for it
-                if key not in self._ready:
-                    self._ready[key] = self._load(leaves, tree, static)
-        return self._ready[key]
-
-    def _load(self, leaves: list[Any], tree: Any, static: dict[str, Any]) -> tuple[Callable[..., Any], Any]:
-        shapes = [jax.ShapeDtypeStruct(np.shape(leaf), jnp.float64) for leaf in leaves]
-        path = self._path(shapes, tree, static)
+    def _load(
+        self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]
+    ) -> tuple[Callable[..., Any], Any]:
+        size = sum(math.prod(shape) for shape in shapes)
+        arguments = [jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((size,), *rest)]
+        path = self._path(tree, (shapes, rest), static)
         try:
             program, out_tree = pickle.loads(path.read_bytes())
             call = jax.jit(jax.export.deserialize(bytearray(program)).call)
-            call(*leaves)  # compiled, or read from JAX's cache, while the lock is held
+            call(*(np.zeros(a.shape) for a in arguments))  # compiled, or read from JAX's cache, while locked
             return call, out_tree
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []
 
-        def flat(*values: Any) -> list[Any]:
-            result = self._function(*jax.tree_util.tree_unflatten(tree, values), **static)
-            flat_result, out_tree = jax.tree_util.tree_flatten(result)
+        def flat(held: Any, *values: Any) -> list[Any]:
+            first = jax.tree_util.tree_unflatten(tree, _unpacked(held, shapes))
+            flat_result, out_tree = jax.tree_util.tree_flatten(self._function(*first, *values, **static))
             outcome.append(out_tree)
             return flat_result
 
-        exported = jax.export.export(jax.jit(flat))(*shapes)
+        exported = jax.export.export(jax.jit(flat))(*arguments)
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), outcome[0])))
         return jax.jit(exported.call), outcome[0]
 
-    def _path(self, shapes: list[Any], tree: Any, static: dict[str, Any]) -> Path:
+    def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""
         what = (
             f"{self._function.__module__}.{self._function.__qualname__}",
             str(tree),
-            [shape.shape for shape in shapes],
+            shapes,
             sorted(static.items()),
             (__version__, _source_digest(), jax.__version__, platform.python_version()),
             jax.default_backend(),
@@ -120,8 +116,13 @@ class StoredFunction:
         return cache_folder() / "traced" / hashlib.sha256(repr(what).encode()).hexdigest()
 
 
-def _is_float64(leaf: Any) -> bool:
-    return type(leaf) is float or getattr(leaf, "dtype", None) == np.float64
+def _packed(arrays: list[np.ndarray]) -> np.ndarray:
+    return np.concatenate([array.ravel() for array in arrays]) if arrays else np.zeros(0)
+
+
+def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
+    ends = np.cumsum([0, *(math.prod(shape) for shape in shapes)])
+    return [held[a:b].reshape(shape) for a, b, shape in zip(ends[:-1], ends[1:], shapes, strict=True)]
 
 
 @functools.cache

@@ -14,7 +14,7 @@ _AT_BOUND = 1e-6
 # Step of the difference quotient of the curvature, and the Newton step whose successor counts as none, in the
 # optimiser's scale.
 _STEP = 1e-4
-_STILL = 1e-5
+_STILL = 1e-4
 _ITERATIONS = 6
 # Newton's method that leaves this far from closure has lost its way.
 _LOST = 1.0

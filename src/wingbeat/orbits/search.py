@@ -101,7 +101,7 @@ def approach(problem: Transcription, scaled: np.ndarray, evaluations: int) -> np
 
 
 def optimise(
-    problem: Transcription, scaled: np.ndarray, iterations: int = 60, tolerance: float = 1e-10
+    problem: Transcription, scaled: np.ndarray, iterations: int = 60, tolerance: float = 1e-8
 ) -> tuple[np.ndarray, bool]:
     """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged."""
     found = minimize(

@@ -34,27 +34,34 @@ class Flown(NamedTuple):
     pitch_jacobian: Any
 
 
-class Stages(NamedTuple):
-    """The wing at the beginning, middle and end of all steps, steps last, and the length of a step [s]."""
-
-    begin: WingMotion
-    middle: WingMotion
-    end: WingMotion
-    step: Any
-
-
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[WingMotion, Any]:
-    """Tabulate the wing at the ends of the steps, then at their middles; return that and the length of a step."""
+def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[Any, Any]:
+    """Tabulate the wing at the ends of the steps, then at their middles, in rows; and the length of a step [s]."""
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
-    return motion_table(model, wingbeat, phase), (last - first) / (wingbeat.frequency * STEPS)
+    table = motion_table(model, wingbeat, phase)
+    return _in_rows(table), (last - first) / (wingbeat.frequency * STEPS)
 
 
-def _stages(table: WingMotion, step: Any) -> Stages:
-    def part(where: slice) -> WingMotion:
-        return jax.tree_util.tree_map(lambda a: a[..., where], table)
+def _in_rows(table: WingMotion) -> Any:
+    """Return one array of all quantities of a table, (rows, times): one array is cut up at less cost than many."""
+    return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
 
-    return Stages(part(slice(STEPS)), part(slice(STEPS + 1, None)), part(slice(1, STEPS + 1)), step)
+
+def _from_rows(rows: Any, like: Any) -> WingMotion:
+    """Return the table whose rows these are; `like` has its shapes with one more axis, of times."""
+    leaves, tree = jax.tree_util.tree_flatten(like)
+    sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
+    parts = jnp.split(rows, sizes[:-1])
+    shaped = [part.reshape(*leaf.shape[:-1], *rows.shape[1:]) for part, leaf in zip(parts, leaves, strict=True)]
+    return jax.tree_util.tree_unflatten(tree, shaped)
+
+
+class Stages(NamedTuple):
+    """Begin, middle and end of all steps in a table of `_tabulate`, along its last axis."""
+
+    begin: slice = slice(STEPS)
+    middle: slice = slice(STEPS + 1, None)
+    end: slice = slice(1, STEPS + 1)
 
 
 class March(NamedTuple):
@@ -70,47 +77,47 @@ def _combine(stages: Any) -> Any:
     return (stages[0] + 2.0 * (stages[1] + stages[2]) + stages[3]) / 6.0
 
 
-def _march(model: FlightModel, stages: Stages, start: Any) -> March:
+def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
 
-    def advance(state: Any, motion: Any) -> tuple[Any, tuple[Any, Any]]:
-        begin, middle, end = motion
+    def advance(state: Any, rows: Any) -> tuple[Any, tuple[Any, Any]]:
+        begin, middle, end = (_from_rows(a, like) for a in rows)
         states, rates = [state], []
         for here, ahead in ((begin, 0.5), (middle, 0.5), (middle, 1.0), (end, None)):
             rates.append(body_rates(model, here, states[-1]))
             if ahead is not None:
-                states.append(state + ahead * stages.step * rates[-1])
-        return state + stages.step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
+                states.append(state + ahead * step * rates[-1])
+        return state + step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
 
-    by_step = jax.tree_util.tree_map(lambda a: jnp.moveaxis(a, -1, 0), tuple(stages[:3]))
-    last, (states, rates) = jax.lax.scan(advance, start, by_step)
+    last, (states, rates) = jax.lax.scan(advance, start, tuple(table.T[part] for part in Stages()))
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
-def _stage_tangents(model: FlightModel, stages: Stages, tangents: Stages, states: Any) -> tuple[Any, Any]:
+def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, states: Any) -> tuple[Any, Any]:
     """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
 
     Returns the derivatives by state and by free parameter, shapes (stages, steps, 4 rates, 4) and (.., free).
     """
+    parts = Stages()
 
-    def in_lanes(parts: Stages) -> WingMotion:
-        four = parts.begin, parts.middle, parts.middle, parts.end
-        return jax.tree_util.tree_map(lambda *a: jnp.concatenate(a, axis=-1), *four)
+    def in_lanes(rows: Any) -> Any:
+        four = (parts.begin, parts.middle, parts.middle, parts.end)
+        return jnp.concatenate([rows[..., part] for part in four], axis=-1)
 
-    lanes, lane_tangents = in_lanes(stages), in_lanes(tangents)
-    state = states.reshape(4, -1)
+    lanes, state = _from_rows(in_lanes(table), like), states.reshape(4, -1)
 
     def by_state(seed: Any) -> Any:
         tangent = jnp.broadcast_to(seed[:, None], state.shape)
         return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
 
-    def by_free(tangent: WingMotion) -> Any:
+    def by_free(rows: Any) -> Any:
+        tangent = _from_rows(rows, like)
         return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
 
     def to_stages(rows: Any) -> Any:
         return rows.reshape(rows.shape[0], 4, 4, STEPS).transpose(2, 3, 1, 0)
 
-    return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(lane_tangents))
+    return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(in_lanes(tangents)))
 
 
 def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any) -> Flown:
@@ -153,10 +160,11 @@ def fly_part(
         return _tabulate(model, unpack(free, wingbeat, at), first, last)
 
     (table, step), along = jax.linearize(by_values, values)
-    tangents, step_tangent = settled(jax.vmap(along)(jnp.eye(len(free))))
-    stages, stage_tangents = _stages(settled(table), step), _stages(tangents, step_tangent)
-    flight = _march(model, stages, start)
-    by_state, by_free = _stage_tangents(model, stages, stage_tangents, flight.states)
+    tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
+    like = jax.eval_shape(lambda: motion_table(model, wingbeat, jnp.zeros(1)))
+    table, tangents = settled((table, tangents))
+    flight = _march(model, table, like, step, start)
+    by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
     return _chain(flight, by_state, by_free, step, step_tangent)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,8 +14,7 @@ from wingbeat.orbits.shooting import Flown, flier
 _LOST = 1e3
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(NamedTuple):
     """Values and derivatives at one place of the search, in the optimiser's scale."""
 
     closure: np.ndarray
@@ -56,10 +55,10 @@ class Transcription:
         return np.clip(unknowns / self.unknowns.scale, self.lower, self.upper)
 
     def _at(self, scaled: np.ndarray) -> Point:
-        unknowns = self.physical(scaled)
-        key = unknowns.tobytes()
+        key = scaled.tobytes()
         if key != self._key or self._point is None:
             self.flights += 1
+            unknowns = self.physical(scaled)
             flown = self.fly(unknowns[4:], unknowns[:4], self.blocks)
             self._key, self._point = key, self._scaled(flown, unknowns)
         return self._point
@@ -69,9 +68,10 @@ class Transcription:
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE
         jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) / CLOSURE_SCALE[:, None] * scale
+        point = Point(closure, jacobian, flown.pitch, flown.pitch_jacobian * scale)
         # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-        closure, pitch = (np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in (closure, flown.pitch))
-        return Point(closure, np.nan_to_num(jacobian), pitch, np.nan_to_num(flown.pitch_jacobian * scale))
+        tumbled = not all(np.isfinite(a).all() for a in point)
+        return Point(*(np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in point)) if tumbled else point
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""

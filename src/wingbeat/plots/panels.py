@@ -55,6 +55,8 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     lines += power.plot(phase, dataset["actuator_power"].values, label="actuator", **_SECOND)
     mean = mean_power(dataset)
     _legend(power, lines + ([] if mean is None else [power.axhline(mean, label="mean", **_MEAN)]))
+    for axes in panels:
+        _clear_corner(axes)
 
 
 def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
@@ -122,6 +124,15 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
             line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
             axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
         _legend(axes, axes.get_lines()[-2:])
+        _clear_corner(axes)
+
+
+def _clear_corner(axes: Axes) -> None:
+    """Leave room below the lowest tick, or its label meets that of the first phase."""
+    low, high = axes.get_ylim()
+    room = 0.06 * (high - low)
+    lowest = min((tick for tick in axes.get_yticks() if low <= tick <= high), default=high)
+    axes.set_ylim(min(low, lowest - room), high)
 
 
 def _length(values: np.ndarray) -> tuple[np.ndarray, str]:

@@ -29,7 +29,9 @@ from wingbeat.jax64 import cache_folder, jnp
 
 
 class StoredFunction:
-    """A function jitted for arrays of float64, traced at most once on this machine for given shapes.
+    """A function of float64 arrays, in pytrees, traced at most once on this machine for given shapes.
+
+    Its results come from the compiled program as one array, for each array handed over costs some microseconds.
 
     Called with tracers, inside another JAX transformation, it is the plain function. Arguments named in `static`
     must be given by keyword and have a telling `repr`.
@@ -41,7 +43,7 @@ class StoredFunction:
         self._static = static
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()
-        self._ready: dict[Any, tuple[Callable[..., Any], Any]] = {}
+        self._ready: dict[Any, tuple[Callable[..., Any], Any, tuple[Any, ...]]] = {}
 
     @property
     def loaded(self) -> bool:
@@ -52,18 +54,20 @@ class StoredFunction:
         """Evaluate the function."""
         if any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args)):
             return self._inlined(*args, **static)
-        return self.bind(*args, **static)()
+        return self._of(args, static, lambda arrays: arrays)()
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function of the arguments that follow these, which are taken apart and moved but once.
 
         The arguments that follow must be arrays of float64, or floats, and of the same shapes in every call.
         """
+        return self._of(first, static, jax.device_put)
+
+    def _of(self, first: tuple[Any, ...], static: dict[str, Any], hold: Callable[[Any], Any]) -> Callable[..., Any]:
         leaves, tree = jax.tree_util.tree_flatten(first)
         arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
         shapes = tuple(array.shape for array in arrays)
-        # One array for all: dozens of numbers cost more to hand over one by one than the flight they describe.
-        held = jax.device_put(_packed(arrays))
+        held = hold(arrays)
 
         def call(*rest: Any) -> Any:
             key = (tree, shapes, tuple(np.shape(a) for a in rest), *static.values())
@@ -71,37 +75,42 @@ class StoredFunction:
                 with self._lock:  # one thread loads, the others wait for it
                     if key not in self._ready:
                         self._ready[key] = self._load(tree, shapes, key[2], static)
-            program, out_tree = self._ready[key]
-            return jax.tree_util.tree_unflatten(out_tree, program(held, *rest))
+            program, out_tree, out_shapes = self._ready[key]
+            found = np.asarray(program(*held, _packed([np.asarray(a, dtype=float) for a in rest])))
+            return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
         return call
 
     def _load(
         self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]
-    ) -> tuple[Callable[..., Any], Any]:
-        size = sum(math.prod(shape) for shape in shapes)
-        arguments = [jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((size,), *rest)]
+    ) -> tuple[Callable[..., Any], Any, tuple[Any, ...]]:
+        """Return the compiled function of two arrays, and the structure and shapes of what its array holds."""
+        all_shapes = (*shapes, (sum(math.prod(shape) for shape in rest),))
+        arguments = [jax.ShapeDtypeStruct(shape, jnp.float64) for shape in all_shapes]
         path = self._path(tree, (shapes, rest), static)
         try:
-            program, out_tree = pickle.loads(path.read_bytes())
+            program, out_tree, out_shapes = pickle.loads(path.read_bytes())
             call = jax.jit(jax.export.deserialize(bytearray(program)).call)
-            call(*(np.zeros(a.shape) for a in arguments))  # compiled, or read from JAX's cache, while locked
-            return call, out_tree
+            call(*(np.zeros(shape) for shape in all_shapes))  # compiled, or read from JAX's cache, while locked
+            return call, out_tree, out_shapes
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []
 
-        def flat(held: Any, *values: Any) -> list[Any]:
-            first = jax.tree_util.tree_unflatten(tree, _unpacked(held, shapes))
-            flat_result, out_tree = jax.tree_util.tree_flatten(self._function(*first, *values, **static))
-            outcome.append(out_tree)
-            return flat_result
+        def flat(*values: Any) -> Any:
+            *held, packed = values
+            first = jax.tree_util.tree_unflatten(tree, held)
+            leaves, out_tree = jax.tree_util.tree_flatten(
+                self._function(*first, *_unpacked(packed, rest), **static)
+            )
+            outcome.append((out_tree, tuple(leaf.shape for leaf in leaves)))
+            return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
         exported = jax.export.export(jax.jit(flat))(*arguments)
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_atomically(path, pickle.dumps((bytes(exported.serialize()), outcome[0])))
-        return jax.jit(exported.call), outcome[0]
+            write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
+        return jax.jit(exported.call), *outcome[0]
 
     def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""
@@ -121,8 +130,11 @@ def _packed(arrays: list[np.ndarray]) -> np.ndarray:
 
 
 def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
-    ends = np.cumsum([0, *(math.prod(shape) for shape in shapes)])
-    return [held[a:b].reshape(shape) for a, b, shape in zip(ends[:-1], ends[1:], shapes, strict=True)]
+    found, end = [], 0
+    for shape in shapes:
+        begin, end = end, end + math.prod(shape)
+        found.append(held[begin:end].reshape(shape))
+    return found
 
 
 @functools.cache

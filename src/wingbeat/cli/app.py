@@ -35,6 +35,7 @@ COMMANDS = {
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
+    "bench": "Measure how fast this machine solves.",
 }
 
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import json as json_format
 import math
 import os
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -29,10 +26,10 @@ from wingbeat.cli.options import (
     species_with,
     unpacking,
 )
+from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
 
 FIGURES = (".png", ".pdf", ".svg")
@@ -125,24 +122,5 @@ def orbit(
 
 
 def _solve(problem: OrbitProblem, starts: int, seed: int) -> Orbit:
-    with _progress(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
+    with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
         return solve_orbit(problem, starts, seed, progress)
-
-
-@contextlib.contextmanager
-def _progress(what: str) -> Iterator[Progress | None]:
-    """Show searches done and time left on stderr, if that is a terminal."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(what, total=None)
-
-        def update(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
-
-        yield update

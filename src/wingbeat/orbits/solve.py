@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import functools
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -30,7 +31,7 @@ _PITCH_EXCESS = 1e-6
 # optimiser's scale, that derivative will do.
 _FINE = 8
 _SETTLED = 2e-2
-_SETTLING = 8
+_SETTLING = 4
 _CORRECTIONS = 12
 _ELASTIC_STARTS = 50
 # An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
@@ -56,13 +57,19 @@ class Solution:
     wingbeat: Wingbeat
     certificate: Certificate
     closure: dict[str, float]
-    multipliers: np.ndarray
     active_bounds: tuple[str, ...]
     optimality: float
     starts: int
     distinct_optima: int
     seed: int
     seconds: float
+    certify_seconds: float
+
+    @functools.cached_property
+    def multipliers(self) -> np.ndarray:
+        """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
+        problem = self.problem
+        return floquet_multipliers(problem.model, self.wingbeat, self.certificate.states[0, 2:], problem.free)
 
 
 Progress = Callable[[int, int], None]
@@ -86,13 +93,13 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
     """
     scaled = problem.scaled(unknowns)
     polish = Polish(problem, scaled)
+    for _ in range(_SETTLING):
+        problem.tilt_at(scaled, _FINE)
+        tilted, scaled = scaled, _settle(polish, scaled)
+        if np.abs(scaled - tilted).max() <= _SETTLED:
+            break
     best: Corrected | None = None
-    tilted = np.full_like(scaled, np.inf)
-    for round_ in range(_CORRECTIONS):
-        if np.abs(scaled - tilted).max() > _SETTLED and round_ < _SETTLING:
-            problem.tilt_at(scaled, _FINE)
-            tilted = scaled
-            scaled = _settle(polish, scaled)
+    for _ in range(_CORRECTIONS):
         here = _certified(problem, scaled)
         if _size(here.miss) <= _AIM and problem.margins(here.certificate.pitch).min() >= -_PITCH_EXCESS:
             return here
@@ -114,7 +121,9 @@ def _settle(polish: Polish, scaled: np.ndarray) -> np.ndarray:
 def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
     physical = problem.physical(scaled)
     wingbeat = problem.problem.wingbeat(physical)
+    begun = time.perf_counter()
     certificate = certify(problem.model, wingbeat, physical[:4])
+    problem.certify_seconds += time.perf_counter() - begun
     miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
     return Corrected(scaled, wingbeat, certificate, miss)
 
@@ -123,7 +132,22 @@ def _size(miss: np.ndarray) -> float:
     return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
 
 
-def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None) -> Solution:
+def check_search(starts: int, seed: int) -> None:
+    """Raise `InvalidInputError` unless both are whole numbers in range."""
+    faults = FaultList()
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= 100_000:
+            faults.add(name, value, f"must be a whole number from {least} to 100000")
+    faults.raise_if_any()
+
+
+def find_orbit(
+    problem: OrbitProblem,
+    starts: int = 6,
+    seed: int = 0,
+    progress: Progress | None = None,
+    threads: int | None = None,
+) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
     Parameters
@@ -132,6 +156,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     starts : number of searches; if none of them can be certified, up to 50 more are made before giving up.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
+    threads : searches at a time, as many as there are cores if not given.
 
     Returns
     -------
@@ -141,11 +166,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     ------
     InvalidInputError : starts or seed not whole numbers in range.
     """
-    faults = FaultList()
-    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
-        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= 100_000:
-            faults.add(name, value, f"must be a whole number from {least} to 100000")
-    faults.raise_if_any()
+    check_search(starts, seed)
     begun = time.perf_counter()
     found: list[Candidate] = []
     total = starts
@@ -155,7 +176,7 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
     for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
         total = max(total, stage.stop)
         give_up = _HOPELESS if stage.start else np.inf
-        for candidate in _searches(problem, transcription.model, stage, seed, give_up):
+        for candidate in _searches(problem, transcription.model, stage, seed, give_up, threads):
             found.append(candidate)
             if progress is not None:
                 progress(len(found), total)
@@ -176,13 +197,13 @@ def find_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: 
         best.wingbeat,
         best.certificate,
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
-        floquet_multipliers(problem.model, best.wingbeat, best.certificate.states[0, 2:], problem.free),
         active_bounds(transcription, best.scaled),
         optimality(transcription, best.scaled),
         len(found),
         len(_distinct(transcription, found)),
         seed,
         time.perf_counter() - begun,
+        transcription.certify_seconds,
     )
 
 
@@ -198,13 +219,18 @@ def _load_programs(problem: Transcription, start: np.ndarray) -> None:
 
 
 def _searches(
-    problem: OrbitProblem, model: FlightModel, indices: Iterable[int], seed: int, give_up: float
+    problem: OrbitProblem,
+    model: FlightModel,
+    indices: Iterable[int],
+    seed: int,
+    give_up: float,
+    threads: int | None,
 ) -> Iterator[Candidate]:
     def one(index: int) -> Candidate:
         return search(Transcription(problem, model), start_point(problem, index, seed), give_up)
 
     # Compiled flights release the interpreter, so threads use the cores there are.
-    with ThreadPoolExecutor(min(len(list(indices)) or 1, os.cpu_count() or 1)) as pool:
+    with ThreadPoolExecutor(min(len(list(indices)) or 1, threads or os.cpu_count() or 1)) as pool:
         try:
             yield from pool.map(one, indices)
         finally:

@@ -43,6 +43,7 @@ class Transcription:
         self._anchor = np.zeros(self.lower.size)
         self._pitch_shift = np.zeros(2)
         self.flights = 0
+        self.certify_seconds = 0.0
         self._key: bytes = b""
         self._point: Point | None = None
 
@@ -70,8 +71,9 @@ class Transcription:
         jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) / CLOSURE_SCALE[:, None] * scale
         point = Point(closure, jacobian, flown.pitch, flown.pitch_jacobian * scale)
         # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-        tumbled = not all(np.isfinite(a).all() for a in point)
-        return Point(*(np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in point)) if tumbled else point
+        if all(np.isfinite(a).all() for a in point):
+            return point
+        return Point(*(np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in point))
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""

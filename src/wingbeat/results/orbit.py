@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.loads import flight_loads
+from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
+from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress, Status, find_orbit
+from wingbeat.orbits.solve import Progress, Solution, Status, find_orbit
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import orbit_record
@@ -26,12 +27,18 @@ if TYPE_CHECKING:
 
 
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit` or `load_orbit`."""
+    """One periodic orbit and everything about it; made by `solve_orbit`, `solve_orbits` or `load_orbit`."""
 
-    def __init__(self, record: dict[str, Any], inputs: dict[str, Any], series: Callable[[], xr.Dataset]) -> None:
-        self._record = record
+    def __init__(
+        self, record: Callable[[], dict[str, Any]], inputs: dict[str, Any], series: Callable[[], xr.Dataset]
+    ) -> None:
+        self._make_record = record
         self._inputs = inputs
         self._series = series
+
+    @functools.cached_property
+    def _record(self) -> dict[str, Any]:
+        return self._make_record()
 
     def __repr__(self) -> str:
         r = self._record
@@ -111,19 +118,64 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    model = problem.model
     with ThreadPoolExecutor(1) as pool:
         if not flight_loads.loaded:  # read or compiled while the search goes on
+            model = problem.model
             pool.submit(evaluate, model, problem.species.wingbeat, np.zeros(1), np.zeros((1, 6)))
         solution = find_orbit(problem, starts, seed, progress)
-    certificate = solution.certificate
-    found = evaluate(model, solution.wingbeat, certificate.phase, certificate.states)
-    record = orbit_record(solution, found)
+    return _orbit(solution, starts, seed)
+
+
+def solve_orbits(
+    problems: Sequence[OrbitProblem],
+    starts: int = 6,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
+) -> list[Orbit]:
+    """Find and certify an orbit for each problem: the answers of `solve_orbit`, in the order of the problems.
+
+    Records and time series are made when asked for, so that thousands of orbits can be held and few looked at.
+
+    Parameters
+    ----------
+    problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
+    starts, seed : as in `solve_orbit`, for each problem.
+    processes : how many Python processes share the work. With more than one, a script must keep its calls under
+        ``if __name__ == "__main__":``, as always with Python's processes.
+    progress : called with (problems done, problems in all).
+
+    Raises
+    ------
+    InvalidInputError : a problem that is none, starts, seed or processes out of range.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> orbits = wb.solve_orbits([wb.OrbitProblem(pigeon, speed=u) for u in (9.0, 10.0, 11.0)], starts=1)
+    >>> [orbit.status.value for orbit in orbits]
+    ['converged', 'converged', 'converged']
+    """
+    found = find_orbits(problems, starts, seed, processes, progress)
+    return [_orbit(solution, starts, seed) for solution in found]
+
+
+def _orbit(solution: Solution, starts: int, seed: int) -> Orbit:
+    problem, certificate = solution.problem, solution.certificate
     inputs = inputs_of(problem, starts, seed)
 
+    @functools.cache
+    def loads() -> Loads:
+        return evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
+
+    @functools.cache
+    def record() -> dict[str, Any]:
+        return orbit_record(solution, loads())
+
     def series() -> xr.Dataset:
-        attributes = orbit_attributes(record, inputs)
-        return flight_dataset(model, solution.wingbeat, certificate.phase, certificate.states, found, attributes)
+        attributes = orbit_attributes(record(), inputs)
+        return flight_dataset(
+            problem.model, solution.wingbeat, certificate.phase, certificate.states, loads(), attributes
+        )
 
     return Orbit(record, inputs, series)
 
@@ -137,4 +189,4 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     """
     dataset = load_dataset(path)
     record, inputs = parse_attributes(dataset.attrs, path)
-    return Orbit(record, inputs, lambda: dataset)
+    return Orbit(lambda: record, inputs, lambda: dataset)

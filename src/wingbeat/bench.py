@@ -1,0 +1,140 @@
+"""How fast this machine solves: the measurements behind ``wingbeat bench``."""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.aero import Dickinson, SuFan
+from wingbeat.jax64 import jax, jnp
+from wingbeat.model import body_rates, motion_table
+from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.shooting import flier
+from wingbeat.orbits.solve import Solution, find_orbit
+from wingbeat.orbits.starts import start_point
+from wingbeat.species import load_species
+
+ANIMALS = ("pigeon", "bat")
+LANES = 1024
+_REPEATS = 30
+_SPEEDS = np.linspace(8.0, 14.0, 20)
+
+
+def _median_seconds(run: Callable[[], Any], repeats: int = _REPEATS) -> float:
+    run()
+    times = []
+    for _ in range(repeats):
+        begun = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - begun)
+    return statistics.median(times)
+
+
+def right_hand_side() -> float:
+    """Return the time of one right-hand side among `LANES` evaluated together [s]."""
+    problem = OrbitProblem(load_species("pigeon"), speed=10.0)
+    random = np.random.default_rng(0)
+    motion = motion_table(problem.model, problem.species.wingbeat, random.uniform(0.0, 1.0, LANES))
+    states = jnp.asarray(random.uniform([-0.5, 8.0, -1.0, -5.0], [0.5, 12.0, 1.0, 5.0], (LANES, 4)).T)
+    rates = jax.jit(body_rates)
+    return _median_seconds(lambda: rates(problem.model, motion, states).block_until_ready()) / LANES
+
+
+def jacobian() -> float:
+    """Return the time of one flight of the search with its derivatives [s]."""
+    problem = OrbitProblem(load_species("pigeon"), speed=10.0)
+    point = start_point(problem, 0, 0)
+    fly = flier(problem.model, problem.species.wingbeat, problem.free)
+    return _median_seconds(lambda: fly(point[4:], point[:4]))
+
+
+def orbits(animal: str) -> list[Solution]:
+    """Return the orbits of an animal at 20 shuffled speeds, one start each, after one that is not counted."""
+    species = load_species(animal)
+    speeds = np.random.default_rng(0).permutation(_SPEEDS)
+    problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
+    return [find_orbit(problem, starts=1, threads=1) for problem in problems][1:]
+
+
+def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
+    """Yield problems of both animals and coefficient models at any speed, masses and lengths within 10 percent."""
+    random = np.random.default_rng(seed)
+    species = {name: load_species(name) for name in ANIMALS}
+    for i in range(count):
+        animal = species[ANIMALS[i % 2]]
+        body, wing = animal.vehicle.body, animal.vehicle.wing
+        factor = random.uniform(0.9, 1.1, 3)
+        changed = {
+            "body.mass": body.mass * factor[0],
+            "wing.mass": wing.mass * factor[1],
+            "wing.semi_span": wing.semi_span * factor[2],
+        }
+        aero = SuFan() if random.uniform() < 0.5 else Dickinson()
+        yield OrbitProblem(animal.with_values(changed), speed=float(random.uniform(4.0, 16.0)), aero=aero)
+
+
+def machine() -> dict[str, Any]:
+    """Return what ran: versions and device."""
+    device = jax.devices()[0]
+    return {
+        "versions": {
+            "wingbeat": __version__,
+            "python": platform.python_version(),
+            "jax": jax.__version__,
+            "numpy": np.__version__,
+        },
+        "device": f"{device.platform}: {platform.processor() or platform.machine()}, {os.cpu_count()} cores",
+    }
+
+
+def measure(batch: int = 1024, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
+    """Measure this machine, all on one core.
+
+    Parameters
+    ----------
+    batch : number of mixed problems in the batch.
+    progress : called with (parts done, parts in all).
+
+    Returns
+    -------
+    ``rhs_ns`` of a right-hand side among many, ``jacobian_ms`` of a flight with derivatives, ``pigeon_ms`` and
+    ``bat_ms`` of a warm orbit (medians over 20 speeds; certificate included), what of these goes into search and
+    correction (``solve_ms``) and into the certificate (``certify_ms``), ``batch_ms`` of an orbit in a batch and
+    ``batch_certified`` of its orbits, versions and device.
+    """
+    parts = 4 + batch
+    done = 0
+
+    def told(count: int = 1) -> None:
+        nonlocal done
+        done += count
+        if progress is not None:
+            progress(done, parts)
+
+    result: dict[str, Any] = {"rhs_ns": 1e9 * right_hand_side()}
+    told()
+    result["jacobian_ms"] = 1e3 * jacobian()
+    told()
+    solve, certify = {}, {}
+    for animal in ANIMALS:
+        found = orbits(animal)
+        result[f"{animal}_ms"] = 1e3 * statistics.median(s.seconds for s in found)
+        solve[animal] = 1e3 * statistics.median(s.seconds - s.certify_seconds for s in found)
+        certify[animal] = 1e3 * statistics.median(s.certify_seconds for s in found)
+        told()
+    result |= {"solve_ms": solve, "certify_ms": certify}
+    problems = list(mixed_problems(batch))
+    begun, certified = time.perf_counter(), 0
+    for solution in find_orbits(problems, starts=1):
+        certified += solution.status.value == "converged"
+        told()
+    result["batch_ms"] = 1e3 * (time.perf_counter() - begun) / batch
+    return result | {"batch": batch, "batch_certified": certified} | machine()

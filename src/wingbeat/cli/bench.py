@@ -1,0 +1,60 @@
+"""``wingbeat bench``: how fast this machine solves."""
+
+from __future__ import annotations
+
+import json as json_format
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.progress import progress_bar
+
+
+def bench(
+    *,
+    batch: Annotated[int, Parameter(help="Mixed problems in the batch.")] = 1024,
+    json: Annotated[bool, Parameter(negative="", help="Print JSON alone.")] = False,
+) -> None:
+    """Measure how fast this machine solves orbits, on one core, in about a minute.
+
+    Nothing is kept from one orbit to the next, and every orbit is certified.
+    """
+    from wingbeat.bench import measure
+    from wingbeat.errors import FaultList
+
+    faults = FaultList()
+    if not 1 <= batch <= 100_000:
+        faults.add("--batch", batch, "must be a whole number from 1 to 100000")
+    faults.raise_if_any()
+    with progress_bar("measuring") as progress:
+        found = measure(batch, progress)
+    if json:
+        print(json_format.dumps(found, indent=2))
+    else:
+        _print(found)
+
+
+def _print(found: dict[str, Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, show_header=False, padding=(0, 2))
+    rows = [
+        ("right-hand side, 1024 together", f"{found['rhs_ns']:.0f} ns"),
+        ("flight with derivatives", f"{found['jacobian_ms']:.2f} ms"),
+    ]
+    for animal in found["solve_ms"]:
+        rows += [
+            (f"one orbit, {animal}", f"{found[f'{animal}_ms']:.1f} ms"),
+            ("  search and correction", f"{found['solve_ms'][animal]:.1f} ms"),
+            ("  certificate", f"{found['certify_ms'][animal]:.1f} ms"),
+        ]
+    rows += [
+        (f"one of {found['batch']} mixed orbits", f"{found['batch_ms']:.1f} ms"),
+        ("certified of them", str(found["batch_certified"])),
+        *((name, version) for name, version in found["versions"].items()),
+        ("device", found["device"]),
+    ]
+    for row in rows:
+        table.add_row(*row)
+    Console(markup=False, highlight=False).print(table)

@@ -1,0 +1,71 @@
+"""Many orbit problems, spread over processes: the same searches and answers as one by one."""
+
+from __future__ import annotations
+
+import functools
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+
+from wingbeat.errors import FaultList
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Solution, check_search, find_orbit
+
+# Problems handed to a process at a time: enough to hide the handing over, few enough to share out evenly.
+_CHUNK = 8
+_MOST_PROCESSES = 1024
+
+
+def find_orbits(
+    problems: Sequence[OrbitProblem],
+    starts: int = 6,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[Solution]:
+    """Yield the solution of each problem, in their order, as they come; a failed search is data as in `find_orbit`.
+
+    Parameters
+    ----------
+    problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
+    starts, seed : as in `find_orbit`, for each problem.
+    processes : how many Python processes share the work; with 1 it is done in this one.
+    progress : called with (problems done, problems in all).
+
+    Raises
+    ------
+    InvalidInputError : a problem that is none, starts, seed or processes out of range.
+    """
+    faults = FaultList()
+    for i, problem in enumerate(problems):
+        if not isinstance(problem, OrbitProblem):
+            faults.add(f"problems[{i}]", problem, "is not an OrbitProblem")
+    if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
+        faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
+    faults.raise_if_any()
+    check_search(starts, seed)
+    return _each(problems, functools.partial(find_orbit, starts=starts, seed=seed, threads=1), processes, progress)
+
+
+def _each(
+    problems: Sequence[OrbitProblem],
+    find: Callable[[OrbitProblem], Solution],
+    processes: int,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[Solution]:
+    def told(solutions: Iterator[Solution]) -> Iterator[Solution]:
+        for done, solution in enumerate(solutions, start=1):
+            if progress is not None:
+                progress(done, len(problems))
+            yield solution
+
+    if processes == 1:
+        yield from told(map(find, problems))
+        return
+    # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(min(processes, max(len(problems), 1)), context) as pool:
+        try:
+            yield from told(pool.map(find, problems, chunksize=_CHUNK))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)

@@ -76,7 +76,8 @@ class StoredFunction:
                     if key not in self._ready:
                         self._ready[key] = self._load(tree, shapes, key[2], static)
             program, out_tree, out_shapes = self._ready[key]
-            found = np.asarray(program(*held, _packed([np.asarray(a, dtype=float) for a in rest])))
+            with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
+                found = np.asarray(program(*held, _packed([np.asarray(a, dtype=float) for a in rest])))
             return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
         return call

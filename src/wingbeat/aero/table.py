@@ -34,8 +34,9 @@ class TablePieces(NamedTuple):
     centre_spline: Any
 
     def _value(self, spline: Any, alpha: Any) -> Any:
-        segment = jnp.searchsorted(self.knots[1:-1], alpha, side="right", method="scan_unrolled")
-        return horner(tuple(spline[:, segment]), alpha - self.knots[segment])
+        knots, spline = jnp.asarray(self.knots), jnp.asarray(spline)
+        segment = jnp.searchsorted(knots[1:-1], alpha, side="right", method="scan_unrolled")
+        return horner(tuple(spline[:, segment]), alpha - knots[segment])
 
     def lift(self, alpha: Any) -> Any:
         """Return C_L at `alpha` [rad]."""

@@ -1,0 +1,116 @@
+"""Cost against strips, steps, lanes and free parameters, measured on one core, drawn with its exponents.
+
+Run from the root of a clone; it rewrites docs/scaling.png and docs/scaling.csv::
+
+    taskset -c 0 uv run python benchmarks/scaling.py
+"""
+
+from __future__ import annotations
+
+import csv
+import statistics
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import wingbeat as wb
+from wingbeat.jax64 import jax, jnp
+from wingbeat.model import body_rates, motion_table
+from wingbeat.orbits.shooting import STEPS, flier
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+REPEATS = 60
+FREE = ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "span_retraction", "twist_ratio")
+START = np.array([0.2, 10.0, 0.0, 0.0])
+
+
+def seconds(run: Callable[[], Any], repeats: int = REPEATS) -> float:
+    run()
+    times = []
+    for _ in range(repeats):
+        begun = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - begun)
+    return statistics.median(times)
+
+
+def flight(strips: int = 10, free: int = 5, blocks: int = 1) -> float:
+    """Return the time of a flight with its derivatives [s]."""
+    species = wb.load_species("bat")
+    model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips), species.air)
+    names = FREE[:free]
+    values = np.array([getattr(species.wingbeat, name) for name in names])
+    fly = flier(model, species.wingbeat, names)
+    return seconds(lambda: fly(values, START, blocks), max(REPEATS // blocks, 10))
+
+
+def lanes(count: int) -> float:
+    """Return the time of 64 right-hand sides one after the other, each for `count` lanes [s]."""
+    species = wb.load_species("bat")
+    model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air)
+    motion = jax.jit(motion_table)(model, species.wingbeat, jnp.linspace(0.0, 1.0, count))
+    state = jnp.broadcast_to(jnp.asarray(START)[:, None], (4, count))
+
+    def march(model: Any, motion: Any, state: Any) -> Any:
+        return jax.lax.fori_loop(0, 64, lambda _, now: now + 1e-6 * body_rates(model, motion, now), state)
+
+    compiled = jax.jit(march).lower(model, motion, state).compile()
+    return seconds(lambda: compiled(model, motion, state).block_until_ready(), 20)
+
+
+SWEEPS = {
+    "strips of a wing": ((5, 10, 20, 40, 80), lambda n: flight(strips=n), f"flight of {STEPS} steps [ms]"),
+    "steps of a flight": (
+        tuple(STEPS * 2**k for k in range(7)),
+        lambda n: flight(blocks=n // STEPS),
+        "flight with derivatives [ms]",
+    ),
+    "free parameters": ((1, 2, 3, 4, 5, 6, 7), lambda n: flight(free=n), f"flight of {STEPS} steps [ms]"),
+    "lanes": ((64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384), lanes, "64 right-hand sides in turn [ms]"),
+}
+
+
+def exponent(sizes: Any, times: Any) -> float:
+    """Return the slope of the logarithms over the upper half of the sizes, where a constant share has faded."""
+    upper = len(sizes) // 2
+    return float(np.polyfit(np.log(sizes[upper:]), np.log(times[upper:]), 1)[0])
+
+
+def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
+    import matplotlib
+
+    matplotlib.use("agg")
+    import matplotlib.pyplot as plt
+
+    figure, panels = plt.subplots(2, 2, figsize=(7.2, 5.4), layout="constrained")
+    for axes, (name, (sizes, times, label)) in zip(panels.flat, results.items(), strict=True):
+        ms = 1e3 * np.array(times)
+        power = exponent(sizes, times)
+        axes.loglog(sizes, ms, "o-", color="#0072B2", markersize=4, label="measured")
+        reference = ms[-1] * np.array(sizes) / sizes[-1]
+        axes.loglog(sizes, reference, "--", color="#D55E00", linewidth=1, label="proportional")
+        axes.set(xlabel=f"{name} [-]", ylabel=label)
+        axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=9)
+        axes.legend(frameon=False, fontsize=8)
+        axes.grid(True, which="major", color="0.9", linewidth=0.6)
+    figure.savefig(DOCS / "scaling.png", dpi=150)
+
+
+def main() -> None:
+    results = {}
+    with (DOCS / "scaling.csv").open("w", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(["varied", "value", "seconds"])
+        for name, (sizes, cost, label) in SWEEPS.items():
+            times = [cost(size) for size in sizes]
+            results[name] = sizes, times, label
+            rows.writerows([name, size, f"{t:.4g}"] for size, t in zip(sizes, times, strict=True))
+            print(name, f"exponent {exponent(sizes, times):.2f}", [f"{1e3 * t:.3g} ms" for t in times], flush=True)
+    draw(results)
+
+
+if __name__ == "__main__":
+    main()

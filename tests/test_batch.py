@@ -1,0 +1,96 @@
+"""Many problems at once: the answers of one by one, whoever computes them."""
+
+import math
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from wingbeat.orbits import solve as solving
+from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.search import optimise, search
+from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.transcription import Transcription
+
+
+def problems():
+    """Return a mixture of animals, models and speeds, the third of which has no orbit."""
+    pigeon, bat = (wb.load_species(name) for name in ("pigeon", "bat"))
+    hardly = {"flap_amplitude": (math.radians(5), math.radians(6))}
+    return [
+        wb.OrbitProblem(pigeon, speed=9.0),
+        wb.OrbitProblem(bat, speed=6.0, aero=wb.aero.Dickinson()),
+        wb.OrbitProblem(bat, speed=8.0, aero=wb.aero.Dickinson(), bounds=hardly),
+        wb.OrbitProblem(pigeon, speed=14.0, aero=wb.aero.Dickinson()),
+    ]
+
+
+def same(one, other):
+    assert one.status is other.status
+    assert one.wingbeat == other.wingbeat
+    assert one.initial_state == other.initial_state
+    assert one.record()["closure"] == other.record()["closure"]
+
+
+def test_a_batch_gives_the_answers_of_single_orbits_in_their_order(monkeypatch):
+    monkeypatch.setattr(solving, "_ELASTIC_STARTS", 2)  # of 50: each takes seconds
+    told = []
+    found = wb.solve_orbits(problems(), starts=1, progress=lambda *done: told.append(done))
+    assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    assert [orbit.status.value for orbit in found] == ["converged", "converged", "infeasible", "converged"]
+    for orbit, problem in zip(found, problems(), strict=True):
+        same(orbit, wb.solve_orbit(problem, starts=1))
+
+
+def test_processes_give_the_same_bits():
+    chosen = [problem for i, problem in enumerate(problems()) if i != 2]
+    alone, shared = (wb.solve_orbits(chosen, starts=1, processes=n) for n in (1, 2))
+    for one, other in zip(alone, shared, strict=True):
+        same(one, other)
+        np.testing.assert_array_equal(one.dataset["u"], other.dataset["u"])
+
+
+@pytest.mark.parametrize(
+    ("changed", "where"),
+    [
+        ({"problems": ["pigeon"]}, r"problems\[0\]"),
+        ({"processes": 0}, "processes"),
+        ({"processes": True}, "processes"),
+        ({"starts": 0}, "starts"),
+        ({"seed": -1}, "seed"),
+    ],
+)
+def test_a_batch_is_refused_before_it_begins(changed, where):
+    with pytest.raises(wb.InvalidInputError, match=where):
+        wb.solve_orbits(**({"problems": problems()} | changed))
+    with pytest.raises(wb.InvalidInputError, match=where):
+        find_orbits(**({"problems": problems()} | changed))
+
+
+def test_no_problems_are_no_orbits():
+    assert wb.solve_orbits([]) == []
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_polish_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
+    programme = Transcription(problems()[index])
+    found = search(programme, start_point(programme.problem, 0, 0))
+    assert found.closed
+    assert found.optimal
+    scaled = programme.scaled(found.unknowns)
+    polish = Polish(programme, scaled)
+    programme._shift = np.full(6, 1e-3)
+    polished = polish.follow(polish.follow(scaled))
+    assert np.abs(programme.closure(polished)).max() <= 1e-8
+    again, _ = optimise(programme, scaled, tolerance=1e-14)
+    assert programme.objective(polished) == pytest.approx(programme.objective(again), rel=1e-7)
+    np.testing.assert_allclose(polished, again, rtol=0, atol=2e-3)
+
+
+def test_polish_gives_up_where_it_is_led_out_of_the_bounds_or_nowhere():
+    programme = Transcription(problems()[0])
+    scaled = programme.scaled(search(programme, start_point(programme.problem, 0, 0)).unknowns)
+    polish = Polish(programme, scaled)
+    programme._shift = np.full(6, 30.0)
+    assert polish.follow(scaled) is None

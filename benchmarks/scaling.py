@@ -23,7 +23,15 @@ from wingbeat.orbits.shooting import STEPS, flier
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 REPEATS = 60
-FREE = ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "span_retraction", "twist_ratio")
+FREE = (
+    "frequency",
+    "flap_mean",
+    "flap_amplitude",
+    "pitch_mean",
+    "pitch_amplitude",
+    "span_retraction",
+    "twist_ratio",
+)
 START = np.array([0.2, 10.0, 0.0, 0.0])
 
 

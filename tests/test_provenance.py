@@ -10,9 +10,8 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat.jax64 import jax
 from wingbeat.nomenclature import NOMENCLATURE
-from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of, problem_from
-from wingbeat.results.storage import inputs_hash, orbit_attributes
+from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset
 
 
 def but_for_the_time_it_took(record):
@@ -133,7 +132,7 @@ def test_a_table_of_coefficients_travels_with_the_orbit(bat_orbit, tmp_path):
     # The record is another orbit's: to solve this one would only prove JAX's patience.
     record, inputs = bat_orbit.orbit.record(), inputs_of(problem, 2, 0)
     series = bat_orbit.orbit.dataset.assign_attrs(orbit_attributes(record, inputs))
-    Orbit(record, inputs, lambda: series).save(tmp_path / "orbit.nc")
+    save_dataset(series, tmp_path / "orbit.nc")
     table.unlink()
     again = wb.load_orbit(tmp_path / "orbit.nc").problem
     assert again.aero == aero

@@ -7,7 +7,7 @@ import functools
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -26,14 +26,28 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+class Summary(NamedTuple):
+    """What is known of an orbit without evaluating its loads."""
+
+    status: Status
+    message: str
+    wingbeat: Wingbeat
+    initial_state: State
+
+
 class Orbit:
     """One periodic orbit and everything about it; made by `solve_orbit`, `solve_orbits` or `load_orbit`."""
 
     def __init__(
-        self, record: Callable[[], dict[str, Any]], inputs: dict[str, Any], series: Callable[[], xr.Dataset]
+        self,
+        summary: Summary,
+        inputs: dict[str, Any],
+        record: Callable[[], dict[str, Any]],
+        series: Callable[[], xr.Dataset],
     ) -> None:
-        self._make_record = record
+        self._summary = summary
         self._inputs = inputs
+        self._make_record = record
         self._series = series
 
     @functools.cached_property
@@ -41,29 +55,28 @@ class Orbit:
         return self._make_record()
 
     def __repr__(self) -> str:
-        r = self._record
-        beat = f"{r['wingbeat']['frequency']:.3f} Hz"
-        return f"<Orbit {r['species']} at {r['speed']:g} m/s: {r['status']}, {beat}>"
+        what, beat = self._inputs, f"{self.wingbeat.frequency:.3f} Hz"
+        return f"<Orbit {what['species']['name']} at {what['speed']:g} m/s: {self.status.value}, {beat}>"
 
     @property
     def status(self) -> Status:
         """How the search ended."""
-        return Status(self._record["status"])
+        return self._summary.status
 
     @property
     def message(self) -> str:
         """What that means, in flight terms."""
-        return self._record["message"]
+        return self._summary.message
 
     @property
     def wingbeat(self) -> Wingbeat:
         """The wingbeat found."""
-        return Wingbeat(**self._record["wingbeat"])
+        return self._summary.wingbeat
 
     @property
     def initial_state(self) -> State:
         """The state at phase 0."""
-        return State(**self._record["initial_state"])
+        return self._summary.initial_state
 
     @property
     def problem(self) -> OrbitProblem:
@@ -177,7 +190,9 @@ def _orbit(solution: Solution, starts: int, seed: int) -> Orbit:
             problem.model, solution.wingbeat, certificate.phase, certificate.states, loads(), attributes
         )
 
-    return Orbit(record, inputs, series)
+    start = State(*certificate.states[0].tolist())
+    summary = Summary(solution.status, solution.message, solution.wingbeat, start)
+    return Orbit(summary, inputs, record, series)
 
 
 def load_orbit(path: str | PathLike[str]) -> Orbit:
@@ -189,4 +204,10 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     """
     dataset = load_dataset(path)
     record, inputs = parse_attributes(dataset.attrs, path)
-    return Orbit(lambda: record, inputs, lambda: dataset)
+    summary = Summary(
+        Status(record["status"]),
+        record["message"],
+        Wingbeat(**record["wingbeat"]),
+        State(**record["initial_state"]),
+    )
+    return Orbit(summary, inputs, lambda: record, lambda: dataset)

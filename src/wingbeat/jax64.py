@@ -32,6 +32,7 @@ def _configure() -> None:
         loops = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=100000000"
         os.environ["XLA_FLAGS"] = f"{flags} {loops}".strip()
     jax.config.update("jax_enable_x64", True)
+    # Computed where it is called: searches in threads would else wait for one another's results.
     jax.config.update("jax_cpu_enable_async_dispatch", False)
     if getattr(jax.config, "jax_compilation_cache_dir", None) is None:
         jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))

@@ -40,7 +40,7 @@ def _print(found: dict[str, Any]) -> None:
 
     table = Table(box=None, show_header=False, padding=(0, 2))
     rows = [
-        ("right-hand side, 1024 together", f"{found['rhs_ns']:.0f} ns"),
+        ("right-hand side, 1024 flights at once", f"{found['rhs_ns']:.0f} ns"),
         ("flight with derivatives", f"{found['jacobian_ms']:.2f} ms"),
     ]
     for animal in found["solve_ms"]:

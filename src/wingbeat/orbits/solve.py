@@ -14,7 +14,6 @@ import numpy as np
 
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
@@ -176,7 +175,7 @@ def find_orbit(
     for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
         total = max(total, stage.stop)
         give_up = _HOPELESS if stage.start else np.inf
-        for candidate in _searches(problem, transcription.model, stage, seed, give_up, threads):
+        for candidate in _searches(transcription, stage, seed, give_up, threads or os.cpu_count() or 1):
             found.append(candidate)
             if progress is not None:
                 progress(len(found), total)
@@ -219,18 +218,13 @@ def _load_programs(problem: Transcription, start: np.ndarray) -> None:
 
 
 def _searches(
-    problem: OrbitProblem,
-    model: FlightModel,
-    indices: Iterable[int],
-    seed: int,
-    give_up: float,
-    threads: int | None,
+    problem: Transcription, indices: Iterable[int], seed: int, give_up: float, threads: int
 ) -> Iterator[Candidate]:
     def one(index: int) -> Candidate:
-        return search(Transcription(problem, model), start_point(problem, index, seed), give_up)
+        return search(problem.anew(), start_point(problem.problem, index, seed), give_up)
 
     # Compiled flights release the interpreter, so threads use the cores there are.
-    with ThreadPoolExecutor(min(len(list(indices)) or 1, threads or os.cpu_count() or 1)) as pool:
+    with ThreadPoolExecutor(threads) as pool:
         try:
             yield from pool.map(one, indices)
         finally:

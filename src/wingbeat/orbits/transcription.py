@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.model import FlightModel
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.shooting import Flown, flier
@@ -29,15 +29,18 @@ class Transcription:
     `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds.
     """
 
-    def __init__(self, problem: OrbitProblem, model: FlightModel | None = None, blocks: int = 1) -> None:
+    def __init__(self, problem: OrbitProblem, blocks: int = 1) -> None:
         self.problem = problem
-        self.model = model or problem.model
+        self.model = problem.model
         self.blocks = blocks
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
         self.fly = flier(self.model, problem.species.wingbeat, problem.free)
+        self._forget()
+
+    def _forget(self) -> None:
         self._shift = np.zeros(6)
         self._tilt = np.zeros((6, self.lower.size))
         self._anchor = np.zeros(self.lower.size)
@@ -46,6 +49,12 @@ class Transcription:
         self.certify_seconds = 0.0
         self._key: bytes = b""
         self._point: Point | None = None
+
+    def anew(self) -> Transcription:
+        """Return the same problem with nothing flown yet, for another search at the same time."""
+        other = copy.copy(self)
+        other._forget()
+        return other
 
     def physical(self, scaled: np.ndarray) -> np.ndarray:
         """Return the unknowns in SI, within their bounds."""

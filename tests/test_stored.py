@@ -1,0 +1,94 @@
+"""Stored programs: the plain function's answers, whether bound, traced around, or read back from a spoilt file."""
+
+import os
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import wingbeat.stored as storing
+from wingbeat.jax64 import cache_folder, jax, jnp
+from wingbeat.stored import stored
+
+
+@stored(static=("power",))
+def weighted(numbers, weight, *, power):
+    """Return a sum of powers, and the numbers themselves, weighted."""
+    return {"total": weight * jnp.sum(numbers["a"] ** power + numbers["b"]), "rows": weight * numbers["a"]}
+
+
+NUMBERS = {"a": np.arange(6.0).reshape(2, 3), "b": 2.0}
+
+
+def expected(weight, power):
+    return weight * np.sum(NUMBERS["a"] ** power + 2.0), weight * NUMBERS["a"]
+
+
+def agrees(found, weight, power):
+    total, rows = expected(weight, power)
+    np.testing.assert_allclose(found["total"], total, rtol=1e-15)
+    np.testing.assert_allclose(found["rows"], rows, rtol=1e-15)
+    assert np.shape(found["rows"]) == (2, 3)
+
+
+def test_called_and_bound_it_is_the_function():
+    agrees(weighted(NUMBERS, 3.0, power=2), 3.0, 2)
+    agrees(weighted(NUMBERS, 3.0, power=3), 3.0, 3)
+    bound = weighted.bind(NUMBERS, power=2)
+    for weight in (3.0, np.float64(0.5), np.array(-1.0), 2):
+        agrees(bound(weight), weight, 2)
+
+
+def test_results_are_numbers_even_where_someone_traces_around_them():
+    @jax.jit
+    def around(x):
+        held = weighted(NUMBERS, 2.0, power=2)
+        assert isinstance(held["rows"], np.ndarray)
+        return x * held["total"]
+
+    assert float(around(1.0)) == pytest.approx(expected(2.0, 2)[0])
+
+
+def test_traced_arguments_are_traced_through():
+    slope = jax.grad(lambda w: weighted(NUMBERS, w, power=2)["total"])(1.5)
+    assert float(slope) == pytest.approx(expected(1.0, 2)[0])
+
+
+def test_a_spoilt_file_is_traced_anew(monkeypatch, tmp_path):
+    monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
+    assert cache_folder() == tmp_path
+
+    def twice(x):
+        return 2.0 * x
+
+    assert float(stored(twice)(4.0)) == 8.0
+    (file,) = (tmp_path / "traced").iterdir()
+    whole = file.read_bytes()
+    for spoilt in (b"", whole[: len(whole) // 2], b"nonsense"):
+        file.write_bytes(spoilt)
+        assert float(stored(twice)(4.0)) == 8.0
+        assert len(pickle.loads(file.read_bytes())) == 3
+    read = []
+    monkeypatch.setattr(storing.jax.export, "export", lambda *_: read.append("traced"))
+    assert float(stored(twice)(4.0)) == 8.0
+    assert read == []
+
+
+@pytest.mark.parametrize(
+    ("mine", "kept"),
+    [
+        ("", "small_while_loop"),
+        ("--xla_cpu_enable_fast_math=false", "--xla_cpu_enable_fast_math=false"),
+        ("--xla_backend_extra_options=xla_cpu_x", "--xla_backend_extra_options=xla_cpu_x"),
+    ],
+)
+def test_flags_of_the_users_own_are_kept(mine, kept):
+    code = "import wingbeat.jax64, os; print(os.environ['XLA_FLAGS'])"
+    environment = os.environ | {"XLA_FLAGS": mine}
+    found = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    assert kept in found.stdout
+    assert found.stdout.count("xla_backend_extra_options") == 1

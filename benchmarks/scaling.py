@@ -92,6 +92,7 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
 
     matplotlib.use("agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter, ScalarFormatter
 
     figure, panels = plt.subplots(2, 2, figsize=(7.2, 5.4), layout="constrained")
     for axes, (name, (sizes, times, label)) in zip(panels.flat, results.items(), strict=True):
@@ -101,6 +102,16 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
         reference = ms[-1] * np.array(sizes) / sizes[-1]
         axes.loglog(sizes, reference, "--", color="#D55E00", linewidth=1, label="proportional")
         axes.set(xlabel=f"{name} [-]", ylabel=label)
+        axes.set_xticks(sizes if len(sizes) < 8 else sizes[::2], minor=False)
+        axes.xaxis.set_major_formatter(ScalarFormatter())
+        decades = 10.0 ** np.arange(-1, 4)
+        few = max(ms) < 30 * min(ms)
+        axes.set_yticks(np.outer(decades, [1, 2, 5]).ravel() if few else decades, minor=False)
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.set_ylim(0.6 * min(ms), 2 * max(ms))
+        axes.tick_params(labelsize=8)
         axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=9)
         axes.legend(frameon=False, fontsize=8)
         axes.grid(True, which="major", color="0.9", linewidth=0.6)

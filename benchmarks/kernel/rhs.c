@@ -12,7 +12,9 @@
 
 #define WIDTH 8
 #define STRIPS 10
-#define ROWS (9 * STRIPS + 9)
+/* First rows of the leaves of WingMotion: those by strip have STRIPS rows. */
+enum { AHEAD = 0, ABOVE = 1, FLAPPING = 1 + STRIPS, COSINE = 1 + 2 * STRIPS, PITCH = 1 + 3 * STRIPS };
+enum { AREA = 1 + 4 * STRIPS, WHOLE_ROWS = 2 + 5 * STRIPS, ROWS = WHOLE_ROWS + 9 };
 #define PI 3.141592653589793
 #define PI_LOW 1.2246467991473532e-16
 #define ROUNDER 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to the nearest whole number */
@@ -23,7 +25,7 @@ typedef double loose __attribute__((vector_size(8 * WIDTH), aligned(8), may_alia
 typedef int64_t bits __attribute__((vector_size(8 * WIDTH)));
 
 typedef struct {
-    double mass, pitch_inertia, density, gravity, drag_area, width;
+    double mass, pitch_inertia, density, gravity, drag_area, stroke_pitch, width;
     double lift_constant, lift_amplitude, lift_rate, lift_phase, decay_amplitude, decay_rate;
     double drag_constant, drag_amplitude, drag_rate, drag_phase;
     double lift_at_zero[3], lift_at_right[3], drag_at_zero[3], drag_at_right[3];
@@ -96,25 +98,30 @@ INLINE void lift_drag(const Model *m, vec alpha, vec *lift, vec *drag) {
 INLINE vec row(const double *table, long stride, int i) {
     return stride ? (vec) * (const loose *)(table + i * stride) : all(table[i]);
 }
-#define STRIP(leaf) row(table, stride, (leaf) * STRIPS + k)
-#define WHOLE(leaf) row(table, stride, 9 * STRIPS + (leaf))
+#define STRIP(leaf) row(table, stride, (leaf) + k)
+#define WHOLE(leaf) row(table, stride, WHOLE_ROWS + (leaf))
 
 INLINE void rates_of(const Model *m, const double *table, long stride, const vec *state, vec *rates) {
-    vec s = sine(state[0]), c = cosine(state[0]), u = state[1], w = state[2], q = state[3];
+    vec attitude = state[0] + m->stroke_pitch;
+    vec s = sine(attitude), c = cosine(attitude), u = state[1], w = state[2], q = state[3];
+    vec ahead = row(table, stride, AHEAD);
     vec forward = c * u + s * w, up = c * w - s * u;
     vec force_forward = all(0), force_up = all(0), moment = all(0);
 #pragma GCC unroll 1
     for (int k = 0; k < STRIPS; k++) {
-        vec cx = STRIP(0), cz = STRIP(1), nx = STRIP(2), nz = STRIP(3), lever_c = STRIP(4), lever_n = STRIP(5);
-        vec vc = forward * cx + up * cz + q * lever_c + STRIP(6);
-        vec vn = forward * nx + up * nz + q * lever_n + STRIP(7);
+        vec above = STRIP(ABOVE), cosine_of_flap = STRIP(COSINE);
+        vec vc = forward - q * above;
+        vec vn = (up + q * ahead) * cosine_of_flap + STRIP(FLAPPING);
         vec speed = root(vc * vc + vn * vn), lift, drag;
-        lift_drag(m, angle(-vn, vc, speed), &lift, &drag);
-        vec pressure = (0.5 * m->density) * STRIP(8) * speed;
-        vec along = pressure * (-lift * vn - drag * vc), across = pressure * (lift * vc - drag * vn);
-        force_forward += along * cx + across * nx;
-        force_up += along * cz + across * nz;
-        moment += along * lever_c + across * lever_n;
+        vec alpha = STRIP(PITCH) - angle(vn, vc, speed);
+        alpha -= 2 * PI * ((alpha * (0.5 / PI) + ROUNDER) - ROUNDER);
+        lift_drag(m, alpha, &lift, &drag);
+        vec pressure = (0.5 * m->density) * STRIP(AREA) * speed;
+        vec along = pressure * (-lift * vn - drag * vc);
+        vec across = pressure * (lift * vc - drag * vn) * cosine_of_flap;
+        force_forward += along;
+        force_up += across;
+        moment += ahead * across - above * along;
     }
     vec body = (-0.5 * m->density * m->drag_area) * root(forward * forward + up * up);
     force_forward = 2.0 * force_forward + body * forward;

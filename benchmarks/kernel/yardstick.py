@@ -28,6 +28,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import wingbeat as wb
+from wingbeat.frames import stroke_pitch
 from wingbeat.model import FlightModel, body_rates, motion_table
 
 LANES = (64, 256, 1024, 4096)
@@ -64,7 +65,8 @@ def numbers(model: FlightModel) -> np.ndarray:
     assert kernel.lift.patch is None
     assert kernel.drag.patch is None
     ends = (*kernel.lift.at_zero, *kernel.lift.at_right, *kernel.drag.at_zero, *kernel.drag.at_right)
-    whole = (model.vehicle.mass, body.pitch_inertia, model.air.density, model.air.gravity, body.drag_area)
+    pitch = stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    whole = (model.vehicle.mass, body.pitch_inertia, model.air.density, model.air.gravity, body.drag_area, pitch)
     return np.array([*whole, kernel.width, *lift, *drag[:4], *ends], dtype=float)
 
 

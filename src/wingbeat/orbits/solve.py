@@ -223,6 +223,9 @@ def _searches(
     def one(index: int) -> Candidate:
         return search(problem.anew(), start_point(problem.problem, index, seed), give_up)
 
+    if threads == 1:
+        yield from map(one, indices)
+        return
     # Compiled flights release the interpreter, so threads use the cores there are.
     with ThreadPoolExecutor(threads) as pool:
         try:

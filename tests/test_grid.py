@@ -50,5 +50,6 @@ def test_climb_descent_and_hover_are_certified(speed: float, climb: float) -> No
 
 def test_a_second_opinion_can_disagree() -> None:
     orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
-    orbit._record["initial_state"]["u"] += 1e-4
+    start = orbit.initial_state
+    orbit._summary = orbit._summary._replace(initial_state=start._replace(u=start.u + 1e-4))
     assert certify_grid.second_opinion(orbit) > CLOSED

@@ -83,8 +83,8 @@ def main() -> None:
     parts = [
         "# Convergence\n",
         "Written by `uv run python benchmarks/convergence.py`; default wings and bounds, mirrored extension,\n"
-        "Su-Fan coefficients, minimum frequency, where nothing else is said. One start from the stock wingbeat\n"
-        "each, so that a column follows one family of orbits; others of lower frequency may exist.\n",
+        "Su-Fan coefficients, minimum frequency, where nothing else is said. One start each, the first,\n"
+        "so that a column follows one family of orbits; others of lower frequency may exist.\n",
     ]
     for title, make in (
         ("Fixed steps against the certifier", steps),

@@ -1,4 +1,4 @@
-"""How much arithmetic the three programs of a search are, counted in their traced form, where time cannot blur it.
+"""How much arithmetic the programs of a search are, counted in their traced form, where time cannot blur it.
 
 Run from the root of a clone; with --write it makes the present counts the baseline that a test holds us to::
 
@@ -69,7 +69,7 @@ def traced(function: Any, *args: Any) -> dict[str, int]:
 
 
 def measure() -> dict[str, dict[str, int]]:
-    """Return the counts of a right-hand side of 10 strips, the wing's table at a phase, and a flight."""
+    """Return the counts of a right-hand side of 10 strips, the wing's table at a phase, and flights."""
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=10.0)
     model, beat, point = problem.model, problem.species.wingbeat, start_point(problem, 0, 0)
     table = motion_table(model, beat, jnp.asarray(0.3))

@@ -64,6 +64,9 @@ def test_processes_give_the_same_bits():
 def test_a_batch_is_refused_before_it_begins(changed, where):
     with pytest.raises(wb.InvalidInputError, match=where):
         wb.solve_orbits(**({"problems": problems()} | changed))
+    if where in ("starts", "seed"):
+        with pytest.raises(wb.InvalidInputError, match=where):
+            wb.solve_orbit(problems()[0], **changed)
     with pytest.raises(wb.InvalidInputError, match=where):
         find_orbits(**({"problems": problems()} | changed))
 
@@ -88,9 +91,46 @@ def test_polish_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
     np.testing.assert_allclose(polished, again, rtol=0, atol=2e-3)
 
 
-def test_polish_gives_up_where_it_is_led_out_of_the_bounds_or_nowhere():
-    programme = Transcription(problems()[0])
-    scaled = programme.scaled(search(programme, start_point(programme.problem, 0, 0)).unknowns)
+def optimum(index):
+    programme = Transcription(problems()[index])
+    return programme, programme.scaled(search(programme, start_point(programme.problem, 0, 0)).unknowns)
+
+
+def test_polish_gives_up_far_from_closure():
+    programme, scaled = optimum(0)
     polish = Polish(programme, scaled)
     programme._shift = np.full(6, 30.0)
     assert polish.follow(scaled) is None
+
+
+def test_polish_gives_up_where_it_leaves_the_bounds():
+    programme, scaled = optimum(0)
+    polish = Polish(programme, scaled)
+    programme._shift = np.full(6, 1e-2)
+    assert polish.follow(scaled) is not None
+    programme.lower, programme.upper = scaled - 1e-7, scaled + 1e-7
+    assert polish.follow(scaled) is None
+
+
+def test_polish_gives_up_where_the_path_breaks_a_bound_that_was_not_met():
+    programme, scaled = optimum(0)
+    polish = Polish(programme, scaled)
+    programme._shift = np.full(6, 1e-3)
+    programme._pitch_shift = np.full(2, 10.0)
+    assert not polish.on_path.any()
+    assert polish.follow(scaled) is None
+
+
+def test_polish_has_nothing_to_do_with_too_few_unknowns():
+    programme, scaled = optimum(0)
+    programme.lower = scaled.copy()
+    assert not Polish(programme, scaled).fits
+    assert Polish(programme, scaled).follow(scaled) is None
+
+
+def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
+    programme, scaled = optimum(0)
+    found = solving.correct(programme, programme.physical(scaled))
+    assert found.is_orbit
+    found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
+    assert not found.is_orbit

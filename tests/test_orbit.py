@@ -212,7 +212,7 @@ def test_an_orbit_that_cannot_be_is_infeasible_and_says_what_fails(monkeypatch):
 
 def failure_message(**misses):
     miss = np.array([misses.get(name, 0.0) for name in CLOSURE])
-    return solving._failure([], solving.Corrected(None, None, None, miss))[1]
+    return solving._failure([], solving.Corrected(None, None, None, miss, None))[1]
 
 
 @pytest.mark.parametrize(

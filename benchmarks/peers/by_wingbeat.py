@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from cases import Answer, Solve, stock_guess
+from cases import Answer, Solve, first_start
 
 import wingbeat as wb
 
@@ -19,7 +19,7 @@ def build(problem: wb.OrbitProblem) -> Solve:
     """Return what solves any problem."""
 
     def solve(problem: wb.OrbitProblem, guess: np.ndarray) -> Answer:
-        assert np.array_equal(guess, stock_guess(problem))  # where its own first search starts
+        assert np.array_equal(guess, first_start(problem))  # where its own first search starts
         return best(problem, starts=1)
 
     return solve

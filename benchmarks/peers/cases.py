@@ -51,6 +51,6 @@ def all_cases(speeds: tuple[float, ...] = SPEEDS) -> list[Case]:
     return [Case(*parts) for parts in itertools.product(ANIMALS, MODELS, speeds)]
 
 
-def stock_guess(problem: wb.OrbitProblem) -> np.ndarray:
+def first_start(problem: wb.OrbitProblem) -> np.ndarray:
     """Return the nine unknowns that everybody starts from."""
     return start_point(problem, 0, 0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
-from cases import Case, stock_guess
+from cases import Case, first_start
 from physics import NUMPY, Flier, accelerations
 from scipy.integrate import solve_ivp
 
@@ -49,7 +49,7 @@ def model_gap(case: Case, points: int = 50) -> float:
     worst = 0.0
     for _ in range(points):
         values = random.uniform(unknowns.lower, unknowns.upper)
-        values[4] = stock_guess(problem)[4]
+        values[4] = first_start(problem)[4]
         phase, (psi, u, w, q) = random.uniform(), values[:4]
         beat = problem.wingbeat(values)
         ours = np.asarray(_rates(problem.model, beat, phase, np.array([0.0, 0.0, psi, u, w, q])))[3:]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import platform
 import statistics
@@ -104,7 +105,7 @@ def machine() -> dict[str, Any]:
 
 
 def measure(batch: int = 1024, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
-    """Measure this machine, all on one core.
+    """Measure this machine, one search at a time and, where the system allows it, on one core.
 
     Parameters
     ----------
@@ -118,6 +119,25 @@ def measure(batch: int = 1024, progress: Callable[[int, int], None] | None = Non
     into search and correction (``solve_ms``) and into the certificate (``certify_ms``), ``batch_ms`` of an orbit in
     a batch and ``batch_certified`` of its orbits, versions and device.
     """
+    with _one_core():
+        return _measure(batch, progress)
+
+
+@contextlib.contextmanager
+def _one_core() -> Iterator[None]:
+    """Keep this process to one core: JAX then uses one thread, unless it has computed before."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(cores)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, cores)
+
+
+def _measure(batch: int, progress: Callable[[int, int], None] | None) -> dict[str, Any]:
     parts = 4 + batch
     done = 0
 

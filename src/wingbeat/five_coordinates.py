@@ -26,8 +26,6 @@ from wingbeat.wing_points import (
     point_motion,
 )
 
-COORDINATES = ("x", "z", "body_pitch", "flap", "pitch")
-
 
 class EquationsOfMotion(NamedTuple):
     """The terms of the equations of motion; C in Christoffel form: ``D' - 2 C`` is skew for rigid wings."""

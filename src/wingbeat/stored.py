@@ -70,7 +70,7 @@ class StoredFunction:
         held = hold(arrays)
 
         def call(*rest: Any) -> Any:
-            key = (tree, shapes, tuple(np.shape(a) for a in rest), *static.values())
+            key = (tree, shapes, tuple(np.shape(a) for a in rest), *sorted(static.items()))
             if key not in self._ready:
                 with self._lock:  # one thread loads, the others wait for it
                     if key not in self._ready:
@@ -111,7 +111,9 @@ class StoredFunction:
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        return jax.jit(exported.call), *outcome[0]
+        call = jax.jit(exported.call)
+        call(*(np.zeros(shape) for shape in all_shapes))
+        return call, *outcome[0]
 
     def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""

@@ -17,6 +17,8 @@ from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.vehicle import Vehicle, Wing
 
+_FEW = 32
+
 
 class Strips(NamedTuple):
     """What of the strips does not change with time, shape (N,) each, or (N, 1, ..) beside as many axes of time."""
@@ -172,7 +174,9 @@ def turned(pair: Pair) -> Pair:
 
 
 def over_strips(a: Any) -> Any:
-    """Return the sum over the first axis, written as additions, of which XLA on CPU makes vector code."""
+    """Return the sum over the first axis, of few strips as additions, of which XLA on CPU makes vector code."""
+    if a.shape[0] > _FEW:
+        return jnp.sum(a, axis=0)
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
 
 

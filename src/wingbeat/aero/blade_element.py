@@ -57,7 +57,11 @@ class BladeElement:
 
 
 class StripForces(NamedTuple):
-    """Air load of each strip of one wing: along the two axes it was asked in [N], with what made it."""
+    """Air load of each strip of one wing, arrays of the strips' shape: forces [N] and what made them.
+
+    `chordwise` and `normal` are the two axes in which the speeds were given: those of the chord, or those that the
+    strip has without pitch.
+    """
 
     chordwise: Any
     normal: Any

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.transcription import AT_BOUND, Transcription
 
-_AT_BOUND = 1e-6
 # Step of the difference quotient of the curvature, and the Newton step whose successor counts as none, in the
 # optimiser's scale.
 _STEP = 1e-4
-_STILL = 1e-4
+_STILL = 1e-5
 _ITERATIONS = 6
 # Newton's method that leaves this far from closure has lost its way.
 _LOST = 1.0
@@ -25,11 +24,11 @@ class Polish:
 
     def __init__(self, problem: Transcription, scaled: np.ndarray) -> None:
         self.problem = problem
-        reach = _AT_BOUND * (problem.upper - problem.lower)
+        reach = AT_BOUND * (problem.upper - problem.lower)
         self.free = (scaled - problem.lower > reach) & (problem.upper - scaled > reach)
-        self.on_path = problem.pitch_margin(scaled) <= _AT_BOUND
+        self.on_path = problem.pitch_margin(scaled) <= AT_BOUND
         _, jacobian = self._rows(scaled)
-        # As many unknowns as conditions or fewer: nothing to optimise, and perhaps nothing that closes.
+        # Fewer unknowns than conditions cannot meet them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1]
         if self.fits:
             self.along = _null_space(jacobian)
@@ -73,7 +72,8 @@ class Polish:
             if (scaled < problem.lower).any() or (scaled > problem.upper).any():
                 return None
             if np.abs(step).max() <= _STILL:
-                return scaled
+                # A bound on the path that was not met before may be broken now, which these conditions do not see.
+                return scaled if problem.pitch_margin(scaled).min() >= -AT_BOUND else None
         return None
 
 

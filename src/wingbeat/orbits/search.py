@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import least_squares, lsq_linear, minimize
 
 from wingbeat.orbits.problem import CLOSURE_SCALE
-from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.transcription import AT_BOUND, Transcription
 
 # A closure of 1e-4 in the user's units, by its own few steps, is what a search must reach: the last digits come
 # when it is corrected.
@@ -17,7 +17,6 @@ CLOSED = 1e-4
 OPTIMAL = 1e-5
 # Evaluations of the elastic solve that goes before a search which is expected to be hard.
 _APPROACH = 40
-_AT_BOUND = 1e-6
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,6 @@ class Candidate:
     closed: bool
     optimal: bool
     violation: float
-    flights: int
 
 
 def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -> Candidate:
@@ -41,7 +39,6 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
     A stall is mostly a spoilt BFGS matrix, or a start from which full Newton steps leave the region where the
     quadratic model means anything.
     """
-    flights = problem.flights
     scaled = problem.scaled(start)
     closed = optimal = False
     for near in (False, True) if np.isinf(give_up) else (True, True):
@@ -61,7 +58,6 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
         closed,
         optimal,
         violation(problem, scaled),
-        problem.flights - flights,
     )
 
 
@@ -125,9 +121,9 @@ def active_bounds(problem: Transcription, scaled: np.ndarray) -> tuple[str, ...]
     names = [
         name
         for name, x, lower, upper in zip(problem.unknowns.names, scaled, problem.lower, problem.upper, strict=True)
-        if name != "body_pitch" and min(x - lower, upper - x) <= _AT_BOUND * (upper - lower)
+        if name != "body_pitch" and min(x - lower, upper - x) <= AT_BOUND * (upper - lower)
     ]
-    if problem.pitch_margin(scaled).min() <= _AT_BOUND:
+    if problem.pitch_margin(scaled).min() <= AT_BOUND:
         names.append("body_pitch")
     return tuple(names)
 
@@ -139,7 +135,7 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
     """
     columns = [row for row in problem.closure_jacobian(scaled)]
     signs = [(-np.inf, np.inf)] * len(columns)
-    reach = _AT_BOUND * (problem.upper - problem.lower)
+    reach = AT_BOUND * (problem.upper - problem.lower)
     for i, x in enumerate(scaled):
         unit = np.eye(scaled.size)[i]
         for away, direction in ((x - problem.lower[i], unit), (problem.upper[i] - x, -unit)):
@@ -148,7 +144,7 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
                 signs.append((0.0, np.inf))
     rows = problem.pitch_margin_jacobian(scaled)
     for margin, row in zip(problem.pitch_margin(scaled), rows, strict=True):
-        if margin <= _AT_BOUND:
+        if margin <= AT_BOUND:
             columns.append(row)
             signs.append((0.0, np.inf))
     lower, upper = np.array(signs).T

@@ -17,7 +17,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
-from wingbeat.orbits.search import Candidate, active_bounds, optimality, optimise, search
+from wingbeat.orbits.search import OPTIMAL, Candidate, active_bounds, optimality, optimise, search
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_point
@@ -82,6 +82,16 @@ class Corrected:
     wingbeat: Wingbeat
     certificate: Certificate
     miss: np.ndarray
+    programme: Transcription
+
+    @property
+    def is_orbit(self) -> bool:
+        """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
+        return (
+            _size(self.miss) <= CERTIFIED
+            and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
+            and optimality(self.programme, self.scaled) <= OPTIMAL
+        )
 
 
 def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
@@ -90,6 +100,7 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
     The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
     value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
     """
+    problem = problem.anew()
     scaled = problem.scaled(unknowns)
     polish = Polish(problem, scaled)
     for _ in range(_SETTLING):
@@ -124,7 +135,7 @@ def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
     certificate = certify(problem.model, wingbeat, physical[:4])
     problem.certify_seconds += time.perf_counter() - begun
     miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
-    return Corrected(scaled, wingbeat, certificate, miss)
+    return Corrected(scaled, wingbeat, certificate, miss, problem)
 
 
 def _size(miss: np.ndarray) -> float:
@@ -152,7 +163,7 @@ def find_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; if none of them can be certified, up to 50 more are made before giving up.
+    starts : number of searches; if none of them can be certified, more are made, up to 50, before giving up.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
     threads : searches at a time, as many as there are cores if not given.
@@ -196,8 +207,8 @@ def find_orbit(
         best.wingbeat,
         best.certificate,
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
-        active_bounds(transcription, best.scaled),
-        optimality(transcription, best.scaled),
+        active_bounds(best.programme, best.scaled),
+        optimality(best.programme, best.scaled),
         len(found),
         len(_distinct(transcription, found)),
         seed,
@@ -238,7 +249,8 @@ def _first_certified(problem: Transcription, found: list[Candidate]) -> Correcte
     """Return the best candidate that the certifier closes, if any."""
     for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
         certified = correct(problem, candidate.unknowns)
-        if _size(certified.miss) <= CERTIFIED:
+        problem.certify_seconds += certified.programme.certify_seconds
+        if certified.is_orbit:
             return certified
     return None
 

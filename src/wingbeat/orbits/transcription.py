@@ -12,6 +12,8 @@ from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.shooting import Flown, flier
 
 _LOST = 1e3
+# An unknown this near to a bound, as a share of its range, is at the bound; body pitch likewise, in rad.
+AT_BOUND = 1e-6
 
 
 class Point(NamedTuple):
@@ -29,10 +31,10 @@ class Transcription:
     `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds.
     """
 
-    def __init__(self, problem: OrbitProblem, blocks: int = 1) -> None:
+    def __init__(self, problem: OrbitProblem) -> None:
         self.problem = problem
         self.model = problem.model
-        self.blocks = blocks
+        self.blocks = 1  # of steps in a flight
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
@@ -45,7 +47,6 @@ class Transcription:
         self._tilt = np.zeros((6, self.lower.size))
         self._anchor = np.zeros(self.lower.size)
         self._pitch_shift = np.zeros(2)
-        self.flights = 0
         self.certify_seconds = 0.0
         self._key: bytes = b""
         self._point: Point | None = None
@@ -67,7 +68,6 @@ class Transcription:
     def _at(self, scaled: np.ndarray) -> Point:
         key = scaled.tobytes()
         if key != self._key or self._point is None:
-            self.flights += 1
             unknowns = self.physical(scaled)
             flown = self.fly(unknowns[4:], unknowns[:4], self.blocks)
             self._key, self._point = key, self._scaled(flown, unknowns)

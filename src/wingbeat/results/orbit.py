@@ -16,7 +16,7 @@ from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress, Solution, Status, find_orbit
+from wingbeat.orbits.solve import Progress, Solution, Status, check_search, find_orbit
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import orbit_record
@@ -131,6 +131,7 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
+    check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flight_loads.loaded:  # read or compiled while the search goes on
             model = problem.model

@@ -84,13 +84,18 @@ class Corrected:
     miss: np.ndarray
     programme: Transcription
 
+    @functools.cached_property
+    def optimality(self) -> float:
+        """Largest residual of the optimality conditions."""
+        return optimality(self.programme, self.scaled)
+
     @property
     def is_orbit(self) -> bool:
         """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
         return (
             _size(self.miss) <= CERTIFIED
             and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
-            and optimality(self.programme, self.scaled) <= OPTIMAL
+            and self.optimality <= OPTIMAL
         )
 
 
@@ -208,7 +213,7 @@ def find_orbit(
         best.certificate,
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
         active_bounds(best.programme, best.scaled),
-        optimality(best.programme, best.scaled),
+        best.optimality,
         len(found),
         len(_distinct(transcription, found)),
         seed,

@@ -131,6 +131,6 @@ def test_polish_has_nothing_to_do_with_too_few_unknowns():
 def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
     programme, scaled = optimum(0)
     found = solving.correct(programme, programme.physical(scaled))
-    assert found.is_orbit
+    assert found.is_orbit()
     found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
-    assert not found.is_orbit
+    assert not found.is_orbit()

@@ -89,11 +89,10 @@ class Corrected:
         """Largest residual of the optimality conditions."""
         return optimality(self.programme, self.scaled)
 
-    @property
-    def is_orbit(self) -> bool:
+    def is_orbit(self, closed: float = CERTIFIED) -> bool:
         """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
-        return (
-            _size(self.miss) <= CERTIFIED
+        return bool(
+            _size(self.miss) <= closed
             and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
             and self.optimality <= OPTIMAL
         )
@@ -116,7 +115,7 @@ def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
     best: Corrected | None = None
     for _ in range(_CORRECTIONS):
         here = _certified(problem, scaled)
-        if _size(here.miss) <= _AIM and problem.margins(here.certificate.pitch).min() >= -_PITCH_EXCESS:
+        if here.is_orbit(_AIM):
             return here
         if best is None or _size(here.miss) < _size(best.miss):
             best = here
@@ -255,7 +254,7 @@ def _first_certified(problem: Transcription, found: list[Candidate]) -> Correcte
     for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
         certified = correct(problem, candidate.unknowns)
         problem.certify_seconds += certified.programme.certify_seconds
-        if certified.is_orbit:
+        if certified.is_orbit():
             return certified
     return None
 

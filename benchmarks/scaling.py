@@ -8,17 +8,13 @@ Run from the root of a clone; it rewrites docs/scaling.png and docs/scaling.csv:
 from __future__ import annotations
 
 import csv
-import statistics
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.jax64 import jax, jnp
-from wingbeat.model import body_rates, motion_table
+from wingbeat.bench import median_seconds, right_hand_side
 from wingbeat.orbits.shooting import STEPS, flier
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -35,16 +31,6 @@ FREE = (
 START = np.array([0.2, 10.0, 0.0, 0.0])
 
 
-def seconds(run: Callable[[], Any], repeats: int = REPEATS) -> float:
-    run()
-    times = []
-    for _ in range(repeats):
-        begun = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - begun)
-    return statistics.median(times)
-
-
 def flight(strips: int = 10, free: int = 5, blocks: int = 1) -> float:
     """Return the time of a flight with its derivatives [s]."""
     species = wb.load_species("bat")
@@ -52,21 +38,7 @@ def flight(strips: int = 10, free: int = 5, blocks: int = 1) -> float:
     names = FREE[:free]
     values = np.array([getattr(species.wingbeat, name) for name in names])
     fly = flier(model, species.wingbeat, names)
-    return seconds(lambda: fly(values, START, blocks), max(REPEATS // blocks, 10))
-
-
-def lanes(count: int) -> float:
-    """Return the time of 64 right-hand sides one after the other, each for `count` lanes [s]."""
-    species = wb.load_species("bat")
-    model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air)
-    motion = jax.jit(motion_table)(model, species.wingbeat, jnp.linspace(0.0, 1.0, count))
-    state = jnp.broadcast_to(jnp.asarray(START)[:, None], (4, count))
-
-    def march(model: Any, motion: Any, state: Any) -> Any:
-        return jax.lax.fori_loop(0, 64, lambda _, now: now + 1e-6 * body_rates(model, motion, now), state)
-
-    compiled = jax.jit(march).lower(model, motion, state).compile()
-    return seconds(lambda: compiled(model, motion, state).block_until_ready(), 20)
+    return median_seconds(lambda: fly(values, START, blocks), max(REPEATS // blocks, 10))
 
 
 SWEEPS = {
@@ -77,7 +49,11 @@ SWEEPS = {
         "flight with derivatives [ms]",
     ),
     "free parameters": ((1, 2, 3, 4, 5, 6, 7), lambda n: flight(free=n), f"flight of {STEPS} steps [ms]"),
-    "lanes": ((64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384), lanes, "64 right-hand sides in turn [ms]"),
+    "lanes": (
+        (64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384),
+        lambda n: n * right_hand_side(n),
+        "right-hand sides of all [ms]",
+    ),
 }
 
 

@@ -207,7 +207,8 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     These less exactly: the frequency hardly tells how the wing should be pitched.
     """
     programme = Transcription(solved.problem)
-    programme.blocks = 4
+    fly = programme.fly
+    programme.fly = lambda values, start, blocks=1: fly(values, start, 4 * blocks)
     scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)))
     found = correct(programme, programme.physical(scaled))
     assert np.abs(found.miss).max() <= 1e-6

@@ -10,10 +10,8 @@ from __future__ import annotations
 
 import ctypes
 import os
-import statistics
 import subprocess
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -28,6 +26,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import wingbeat as wb
+from wingbeat.bench import median_seconds
 from wingbeat.frames import stroke_pitch
 from wingbeat.model import FlightModel, body_rates, motion_table
 
@@ -87,13 +86,7 @@ def random_states(rng: np.random.Generator, lanes: int) -> np.ndarray:
 
 def median_ns(run: Callable[[], Any], count: int) -> float:
     """Return the median time of a call [ns], over `count` right-hand sides in it."""
-    run()
-    times = []
-    for _ in range(REPEATS):
-        begin = time.perf_counter_ns()
-        run()
-        times.append(time.perf_counter_ns() - begin)
-    return statistics.median(times) / count
+    return 1e9 * median_seconds(run, REPEATS) / count
 
 
 class Case:

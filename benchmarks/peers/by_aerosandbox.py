@@ -67,7 +67,7 @@ def build(problem: wb.OrbitProblem, nodes: int, method: str) -> Solve:
             found, success = opti.debug, False
         first = [float(found.value(state)[0]) for state in states]
         answer = np.array(first + [float(found.value(each)) for each in free])
-        return Answer(answer, success, int(opti.stats()["iter_count"]))
+        return Answer(answer, success)
 
     return solve
 

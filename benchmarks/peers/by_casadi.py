@@ -72,7 +72,7 @@ def build(problem: wb.OrbitProblem, intervals: int, degree: int = 3, **options) 
         )
         x = np.array(found["x"]).ravel()
         answer = np.concatenate([x[:4] * STATE_SCALE, x[-len(problem.free) :] * unknowns.scale[4:]])
-        return Answer(answer, solver.stats()["success"], solver.stats()["iter_count"])
+        return Answer(answer, solver.stats()["success"])
 
     return solve
 

@@ -60,7 +60,7 @@ def build(problem: wb.OrbitProblem, intervals: int, degree: int = 3) -> Solve:
             except RuntimeError:  # rockit raises where IPOPT gives up
                 found, success = ocp.non_converged_solution, False
         answer = [found.sample(each, grid="control")[1][0] for each in state] + [found.value(each) for each in free]
-        return Answer(np.array(answer, dtype=float), success, found.stats["iter_count"])
+        return Answer(np.array(answer, dtype=float), success)
 
     return solve
 

@@ -34,7 +34,6 @@ class Shooting:
         unknowns = problem.unknowns()
         self.scale, self.lower, self.upper = unknowns.scale, unknowns.lower, unknowns.upper
         self.known: tuple[bytes, np.ndarray, np.ndarray] | None = None
-        self.flights = 0
 
     def fly(self, lanes: np.ndarray) -> np.ndarray:
         """Fly one period from each row of unknowns; return states (6, lanes, samples)."""
@@ -56,7 +55,6 @@ class Shooting:
         """Return closure then path margins, and their Jacobian; the last ones asked for are kept."""
         key = scaled.tobytes()
         if self.known is None or self.known[0] != key:
-            self.flights += 1
             lanes = np.vstack([scaled, scaled + STEP * np.eye(scaled.size)]) * self.scale
             states = self.fly(lanes)
             low, high = self.problem.bounds["body_pitch"]
@@ -118,7 +116,7 @@ def build(problem: wb.OrbitProblem, rtol: float, ftol: float) -> Solve:
             scaled, success = shooting.optimise(shooting.approach(scaled), ftol)
             if success:
                 break
-        return Answer(scaled * shooting.scale, success, shooting.flights)
+        return Answer(scaled * shooting.scale, success)
 
     return solve
 

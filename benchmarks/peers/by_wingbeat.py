@@ -12,7 +12,7 @@ def best(problem: wb.OrbitProblem, starts: int) -> Answer:
     """Return the best orbit from the first `starts` starts."""
     orbit = wb.solve_orbit(problem, starts=starts)
     free = [getattr(orbit.wingbeat, name) for name in problem.free]
-    return Answer(np.array([*orbit.initial_state[2:], *free]), orbit.status is wb.Status.CONVERGED, starts)
+    return Answer(np.array([*orbit.initial_state[2:], *free]), orbit.status is wb.Status.CONVERGED)
 
 
 def build(problem: wb.OrbitProblem) -> Solve:

@@ -39,7 +39,6 @@ class Answer:
 
     unknowns: np.ndarray
     success: bool
-    iterations: int
 
 
 # A contestant builds what it can use again for every speed, and returns what solves from a start.

@@ -19,7 +19,7 @@ from wingbeat.model import body_rates, motion_table
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.shooting import flier
-from wingbeat.orbits.solve import Solution, find_orbit
+from wingbeat.orbits.solve import Progress, Solution, find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.species import load_species
 
@@ -30,7 +30,8 @@ _REPEATS = 30
 _SPEEDS = np.linspace(8.0, 14.0, 20)
 
 
-def _median_seconds(run: Callable[[], Any], repeats: int = _REPEATS) -> float:
+def median_seconds(run: Callable[[], Any], repeats: int) -> float:
+    """Return the median time of a call [s], after one that is not counted."""
     run()
     times = []
     for _ in range(repeats):
@@ -40,12 +41,12 @@ def _median_seconds(run: Callable[[], Any], repeats: int = _REPEATS) -> float:
     return statistics.median(times)
 
 
-def right_hand_side() -> float:
-    """Return the time of one right-hand side in a march of `LANES` flights together [s]."""
+def right_hand_side(lanes: int = LANES) -> float:
+    """Return the time of one right-hand side in a march of many flights together [s]."""
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     random = np.random.default_rng(0)
-    motion = motion_table(problem.model, problem.species.wingbeat, random.uniform(0.0, 1.0, LANES))
-    states = jnp.asarray(random.uniform([-0.5, 8.0, -1.0, -5.0], [0.5, 12.0, 1.0, 5.0], (LANES, 4)).T)
+    motion = motion_table(problem.model, problem.species.wingbeat, random.uniform(0.0, 1.0, lanes))
+    states = jnp.asarray(random.uniform([-0.5, 8.0, -1.0, -5.0], [0.5, 12.0, 1.0, 5.0], (lanes, 4)).T)
 
     @jax.jit
     def march(motion: Any, state: Any) -> Any:
@@ -54,7 +55,7 @@ def right_hand_side() -> float:
 
         return jax.lax.fori_loop(0, _TURNS, step, state)
 
-    return _median_seconds(lambda: march(motion, states).block_until_ready()) / (LANES * _TURNS)
+    return median_seconds(lambda: march(motion, states).block_until_ready(), _REPEATS) / (lanes * _TURNS)
 
 
 def jacobian() -> float:
@@ -62,7 +63,7 @@ def jacobian() -> float:
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     point = start_point(problem, 0, 0)
     fly = flier(problem.model, problem.species.wingbeat, problem.free)
-    return _median_seconds(lambda: fly(point[4:], point[:4]))
+    return median_seconds(lambda: fly(point[4:], point[:4]), _REPEATS)
 
 
 def orbits(animal: str) -> list[Solution]:
@@ -104,7 +105,7 @@ def machine() -> dict[str, Any]:
     }
 
 
-def measure(batch: int = 1024, progress: Callable[[int, int], None] | None = None) -> dict[str, Any]:
+def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, Any]:
     """Measure this machine, one search at a time and, where the system allows it, on one core.
 
     Parameters
@@ -137,7 +138,7 @@ def _one_core() -> Iterator[None]:
         os.sched_setaffinity(0, cores)
 
 
-def _measure(batch: int, progress: Callable[[int, int], None] | None) -> dict[str, Any]:
+def _measure(batch: int, progress: Progress | None) -> dict[str, Any]:
     parts = 4 + batch
     done = 0
 

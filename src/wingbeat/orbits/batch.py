@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Solution, check_search, find_orbit
+from wingbeat.orbits.solve import Progress, Solution, check_search, find_orbit
 
 # Problems handed to a process at a time: enough to hide the handing over, few enough to share out evenly.
 _CHUNK = 8
@@ -21,7 +21,7 @@ def find_orbits(
     starts: int = 6,
     seed: int = 0,
     processes: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in their order, as they come; a failed search is data as in `find_orbit`.
 
@@ -51,7 +51,7 @@ def _each(
     problems: Sequence[OrbitProblem],
     find: Callable[[OrbitProblem], Solution],
     processes: int,
-    progress: Callable[[int, int], None] | None,
+    progress: Progress | None,
 ) -> Iterator[Solution]:
     def told(solutions: Iterator[Solution]) -> Iterator[Solution]:
         for done, solution in enumerate(solutions, start=1):

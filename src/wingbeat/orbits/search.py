@@ -43,7 +43,7 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
     closed = optimal = False
     for near in (False, True) if np.isinf(give_up) else (True, True):
         if near:
-            scaled = approach(problem, scaled, _APPROACH)
+            scaled = approach(problem, scaled)
         if violation(problem, scaled) > give_up:
             break
         scaled, optimal = optimise(problem, scaled)
@@ -73,7 +73,7 @@ def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
     return bool(miss <= CLOSED and problem.pitch_margin(scaled).min() >= -CLOSED)
 
 
-def approach(problem: Transcription, scaled: np.ndarray, evaluations: int) -> np.ndarray:
+def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
     """Reduce closure and path violation in least squares within the bounds (an elastic solve)."""
     inside = 1e-6 * (problem.upper - problem.lower)
 
@@ -89,7 +89,7 @@ def approach(problem: Transcription, scaled: np.ndarray, evaluations: int) -> np
         np.clip(scaled, problem.lower + inside, problem.upper - inside),
         jac=jacobian,  # type: ignore[arg-type]
         bounds=(problem.lower, problem.upper),
-        max_nfev=evaluations,
+        max_nfev=_APPROACH,
         xtol=1e-9,
         ftol=1e-9,
         gtol=1e-9,

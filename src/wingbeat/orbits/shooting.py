@@ -56,12 +56,8 @@ def _from_rows(rows: Any, like: Any) -> WingMotion:
     return jax.tree_util.tree_unflatten(tree, shaped)
 
 
-class Stages(NamedTuple):
-    """Begin, middle and end of all steps in a table of `_tabulate`, along its last axis."""
-
-    begin: slice = slice(STEPS)
-    middle: slice = slice(STEPS + 1, None)
-    end: slice = slice(1, STEPS + 1)
+# Where the beginnings, middles and ends of all steps are along the last axis of a table of `_tabulate`.
+_BEGIN, _MIDDLE, _END = slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1)
 
 
 class March(NamedTuple):
@@ -89,7 +85,7 @@ def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> 
                 states.append(state + ahead * step * rates[-1])
         return state + step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
 
-    last, (states, rates) = jax.lax.scan(advance, start, tuple(table.T[part] for part in Stages()))
+    last, (states, rates) = jax.lax.scan(advance, start, tuple(table.T[part] for part in (_BEGIN, _MIDDLE, _END)))
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
@@ -98,11 +94,9 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
 
     Returns the derivatives by state and by free parameter, shapes (stages, steps, 4 rates, 4) and (.., free).
     """
-    parts = Stages()
 
     def in_lanes(rows: Any) -> Any:
-        four = (parts.begin, parts.middle, parts.middle, parts.end)
-        return jnp.concatenate([rows[..., part] for part in four], axis=-1)
+        return jnp.concatenate([rows[..., part] for part in (_BEGIN, _MIDDLE, _MIDDLE, _END)], axis=-1)
 
     lanes, state = _from_rows(in_lanes(table), like), states.reshape(4, -1)
 

@@ -34,7 +34,6 @@ class Transcription:
     def __init__(self, problem: OrbitProblem) -> None:
         self.problem = problem
         self.model = problem.model
-        self.blocks = 1  # of steps in a flight
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
@@ -69,7 +68,7 @@ class Transcription:
         key = scaled.tobytes()
         if key != self._key or self._point is None:
             unknowns = self.physical(scaled)
-            flown = self.fly(unknowns[4:], unknowns[:4], self.blocks)
+            flown = self.fly(unknowns[4:], unknowns[:4])
             self._key, self._point = key, self._scaled(flown, unknowns)
         return self._point
 

@@ -81,7 +81,7 @@ def test_polish_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
     found = search(programme, start_point(programme.problem, 0, 0))
     assert found.closed
     assert found.optimal
-    scaled = programme.scaled(found.unknowns)
+    scaled = found.scaled
     polish = Polish(programme, scaled)
     programme._shift = np.full(6, 1e-3)
     polished = polish.follow(polish.follow(scaled))
@@ -93,7 +93,7 @@ def test_polish_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
 
 def optimum(index):
     programme = Transcription(problems()[index])
-    return programme, programme.scaled(search(programme, start_point(programme.problem, 0, 0)).unknowns)
+    return programme, search(programme, start_point(programme.problem, 0, 0)).scaled
 
 
 def test_polish_gives_up_far_from_closure():
@@ -130,7 +130,7 @@ def test_polish_has_nothing_to_do_with_too_few_unknowns():
 
 def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
     programme, scaled = optimum(0)
-    found = solving.correct(programme, programme.physical(scaled))
+    found = solving.correct(programme, scaled)
     assert found.is_orbit()
     found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
     assert not found.is_orbit()

@@ -210,7 +210,7 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     fly = programme.fly
     programme.fly = lambda values, start, blocks=1: fly(values, start, 4 * blocks)
     scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)))
-    found = correct(programme, programme.physical(scaled))
+    found = correct(programme, scaled)
     assert np.abs(found.miss).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-7)
     start, free = found.certificate.states[0, 2:], solved.problem.free

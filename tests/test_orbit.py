@@ -176,7 +176,7 @@ def test_a_tilted_stroke_plane_has_the_same_orbit(solved):
     unknowns = np.array([*solved.start[2:], *(getattr(solved.wingbeat, name) for name in problem.free)])
     unknowns[0] += delta
     scaled, _ = optimise(programme, programme.scaled(unknowns))
-    found = correct(programme, programme.physical(scaled))
+    found = correct(programme, scaled)
     assert np.abs(found.miss).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-8)
     assert found.certificate.states[0, 2] == pytest.approx(solved.start[2] + delta, abs=1e-4)

@@ -15,7 +15,7 @@ from wingbeat.elementary import cos, sin
 from wingbeat.frames import Pair, from_world, to_world
 from wingbeat.jax64 import jnp
 from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import WingMotion, dot, turned
+from wingbeat.wing_motion import WingMotion, dot, over_strips, turned
 
 
 class BodyLoads(NamedTuple):
@@ -48,7 +48,7 @@ def wing_loads(
         moment = (
             moment + pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across * motion.flap_cosine
         )
-    forward, up, moment = (2.0 * jnp.sum(a, axis=0) for a in (forward, up, moment))
+    forward, up, moment = (2.0 * over_strips(a) for a in (forward, up, moment))
     return BodyLoads((forward, up), moment)
 
 

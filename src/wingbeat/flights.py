@@ -66,18 +66,23 @@ def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any) -> Any
     return integrate(rates, start, phases, (model, wingbeat))
 
 
+def fly_through(model: FlightModel, wingbeat: Wingbeat, state: State, phases: np.ndarray) -> np.ndarray:
+    """Fly an initial state with prescribed wings; return the states at phases from 0 on, which may repeat.
+
+    States are (x, z, body_pitch, u, w, pitch_rate), shape (K, 6); not-a-number from where the integrator gave up.
+    """
+    return np.asarray(_fly(model, wingbeat, np.array(state, dtype=float), phases))
+
+
 def fly_beats(
     model: FlightModel, wingbeat: Wingbeat, state: State, beats: int, samples: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Fly an initial state with prescribed wings; return ``beats * samples + 1`` phases and the states there.
-
-    States are (x, z, body_pitch, u, w, pitch_rate); not-a-number from where the integrator gave up.
-    """
+    """Fly several beats; return ``beats * samples + 1`` phases and the states there, as `fly_through` does."""
     one_beat = np.linspace(0.0, 1.0, samples + 1)
-    current, pieces = np.array(state, dtype=float), [np.array([state], dtype=float)]
+    current, pieces = state, [np.array([state], dtype=float)]
     for _ in range(beats):
-        flown = np.asarray(_fly(model, wingbeat, current, one_beat))
-        current = flown[-1]
+        flown = fly_through(model, wingbeat, current, one_beat)
+        current = State(*flown[-1])
         pieces.append(flown[1:])
     return np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
 

@@ -46,7 +46,7 @@ def by_slopes(function: Callable[..., T]) -> Callable[..., T]:
                 change = jax.tree_util.tree_map(lambda c, s, t=tangent: c + s * t, change, slope)
         if not _all_zero(tangents[0]):
             along = _filled(tangents[0])
-            more = jax.jvp(lambda p: function(p, *arrays), (parameters,), (along,))[1]
+            more = settled(jax.jvp(lambda p: function(p, *arrays), (parameters,), (along,))[1])
             change = jax.tree_util.tree_map(jnp.add, change, more)
         return value, change
 

@@ -22,6 +22,8 @@ PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
 # A miss that matters, in the units of CLOSURE: makes the optimiser see numbers near one.
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
+# The derivative of the pitch state at the start by itself.
+_START = np.eye(4)
 WINGBEAT_NAMES = tuple(f.name for f in dataclasses.fields(Wingbeat))
 # The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
 FREE_NAMES = tuple(name for name in WINGBEAT_NAMES if name != "wrist")
@@ -177,8 +179,9 @@ class OrbitProblem:
     def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
         """Return the derivative of the miss from that of the end of the period."""
         jacobian = np.array(end_jacobian)
-        jacobian[2:, :4] -= np.eye(4)
+        jacobian[2:, :4] -= _START
         if "frequency" in self.free:
             column = 4 + self.free.index("frequency")
-            jacobian[:2, column] += np.array([self.speed, self.climb]) / frequency**2
+            jacobian[0, column] += self.speed / frequency**2
+            jacobian[1, column] += self.climb / frequency**2
         return jacobian

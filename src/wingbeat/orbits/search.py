@@ -21,9 +21,10 @@ _APPROACH = 40
 
 @dataclass(frozen=True)
 class Candidate:
-    """Where a local search ended."""
+    """Where a local search ended, in the optimiser's scale, and the programme with the last flights made."""
 
-    unknowns: np.ndarray
+    programme: Transcription
+    scaled: np.ndarray
     objective: float
     closed: bool
     optimal: bool
@@ -53,7 +54,8 @@ def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -
         if closed and optimal:
             break
     return Candidate(
-        problem.physical(scaled),
+        problem,
+        scaled,
         problem.objective(scaled) * problem.problem.minimise.scale,
         closed,
         optimal,

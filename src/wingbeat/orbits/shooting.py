@@ -92,7 +92,7 @@ def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> 
 def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, states: Any) -> tuple[Any, Any]:
     """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
 
-    Returns the derivatives by state and by free parameter, shapes (stages, steps, 4 rates, 4) and (.., free).
+    Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, ..).
     """
 
     def in_lanes(rows: Any) -> Any:
@@ -109,38 +109,48 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
         return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
 
     def to_stages(rows: Any) -> Any:
-        return rows.reshape(rows.shape[0], 4, 4, STEPS).transpose(2, 3, 1, 0)
+        return rows.reshape(-1, 4, 4, STEPS)
 
     return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(in_lanes(tangents)))
 
 
+def _through(by_state: Any, tangents: Any) -> Any:
+    """Return what tangents (directions, 4, ..) become under a linear map (4, components, ..), by state first.
+
+    Written out, for XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
+    """
+    return sum(tangents[:, j, None] * by_state[j] for j in range(4))
+
+
 def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any) -> Flown:
-    """Compose the tangents of all stages into those of the steps, and these into those of the period."""
-    states, rates = (a.transpose(1, 2, 0) for a in (flight.states, flight.rates))
-    by_free = jnp.pad(by_free, ((0, 0), (0, 0), (0, 0), (4, 0)))
-    lengthen = jnp.pad(step_tangent, (4, 0))
-    first = jnp.broadcast_to(jnp.eye(4, lengthen.size), by_free.shape[1:])
+    """Compose the tangents of all stages into those of the steps, and these into those of the period.
+
+    Directions are the first axis, components the next, steps the last.
+    """
+    states, rates = flight.states, flight.rates
+    by_free = jnp.concatenate([jnp.zeros((4, *by_free.shape[1:])), by_free])
+    lengthen = jnp.pad(step_tangent, (4, 0))[:, None, None]
+    first = jnp.broadcast_to(jnp.eye(lengthen.size, 4)[..., None], (lengthen.size, 4, STEPS))
     state_tangents, rate_tangents = [first], []
     for i, advance in enumerate((0.5, 0.5, 1.0, None)):
-        rate_tangents.append(by_state[i] @ state_tangents[i] + by_free[i])
+        rate_tangents.append(settled(_through(by_state[:, :, i], state_tangents[i]) + by_free[:, :, i]))
         if advance is not None:
-            longer = rates[i][..., None] * lengthen
-            state_tangents.append(first + advance * (step * rate_tangents[i] + longer))
-    step_map = first + step * _combine(rate_tangents) + _combine(rates)[..., None] * lengthen
-    place_map = step * _combine(state_tangents) + _combine(states)[..., None] * lengthen
+            state_tangents.append(first + advance * (step * rate_tangents[i] + lengthen * rates[:, i]))
+    step_map = settled(first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2)))
+    mean_speed = _combine(states.transpose(1, 0, 2))[1:3]
+    place_map = settled(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
 
     def follow(jacobian: Any, after: Any) -> tuple[Any, Any]:
-        return (after[:, :4] @ jacobian).at[:, 4:].add(after[:, 4:]), jacobian
+        return _through(after[:4], jacobian).at[4:].add(after[4:]), jacobian
 
-    last, path = jax.lax.scan(follow, jnp.eye(4, lengthen.size), step_map)
-    place = jnp.einsum("kij,kjl->il", place_map[:, 1:3, :4], path)
-    place = place.at[:, 4:].add(jnp.sum(place_map[:, 1:3, 4:], axis=0))
-    travelled = step * jnp.sum(_combine(states)[:, 1:3], axis=0)
+    last, path = jax.lax.scan(follow, jnp.eye(lengthen.size, 4), step_map.transpose(2, 0, 1))
+    place = jnp.sum(_through(place_map[:4], path.transpose(1, 2, 0)), axis=-1)
+    place = place.at[4:].add(jnp.sum(place_map[4:], axis=-1))
     return Flown(
-        jnp.concatenate([travelled, flight.last]),
-        jnp.append(states[0, :, 0], flight.last[0]),
-        jnp.concatenate([place, last]),
-        jnp.concatenate([path[:, 0], last[None, 0]]),
+        jnp.concatenate([step * jnp.sum(mean_speed, axis=-1), flight.last]),
+        jnp.append(states[0, 0], flight.last[0]),
+        jnp.concatenate([place, last], axis=1).T,
+        jnp.concatenate([path[:, :, 0], last[None, :, 0]]),
     )
 
 

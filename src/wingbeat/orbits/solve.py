@@ -98,20 +98,23 @@ class Corrected:
         )
 
 
-def correct(problem: Transcription, unknowns: np.ndarray) -> Corrected:
+def correct(problem: Transcription, scaled: np.ndarray) -> Corrected:
     """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
 
     The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
     value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
     """
     problem = problem.anew()
-    scaled = problem.scaled(unknowns)
     polish = Polish(problem, scaled)
     for _ in range(_SETTLING):
         problem.tilt_at(scaled, _FINE)
         tilted, scaled = scaled, _settle(polish, scaled)
         if np.abs(scaled - tilted).max() <= _SETTLED:
             break
+    rough = _flown(problem, scaled, few=True)
+    if np.isfinite(rough.end).all():
+        problem.shift_at(scaled, rough)
+        scaled = _settle(polish, scaled)
     best: Corrected | None = None
     for _ in range(_CORRECTIONS):
         here = _certified(problem, scaled)
@@ -132,12 +135,17 @@ def _settle(polish: Polish, scaled: np.ndarray) -> np.ndarray:
     return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
 
 
-def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
+def _flown(problem: Transcription, scaled: np.ndarray, *, few: bool = False) -> Certificate:
     physical = problem.physical(scaled)
-    wingbeat = problem.problem.wingbeat(physical)
     begun = time.perf_counter()
-    certificate = certify(problem.model, wingbeat, physical[:4])
+    certificate = certify(problem.model, problem.problem.wingbeat(physical), physical[:4], few=few)
     problem.certify_seconds += time.perf_counter() - begun
+    return certificate
+
+
+def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
+    certificate, physical = _flown(problem, scaled), problem.physical(scaled)
+    wingbeat = problem.problem.wingbeat(physical)
     miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
     return Corrected(scaled, wingbeat, certificate, miss, problem)
 
@@ -202,7 +210,8 @@ def find_orbit(
     if best is not None:
         status, message = Status.CONVERGED, f"certified: re-flown, it closes to {_size(best.miss):.0e}"
     else:
-        best = correct(transcription, min(found, key=lambda c: c.violation).unknowns)
+        nearest = min(found, key=lambda c: c.violation)
+        best = correct(nearest.programme, nearest.scaled)
         status, message = _failure(found, best)
     return Solution(
         problem,
@@ -214,7 +223,7 @@ def find_orbit(
         active_bounds(best.programme, best.scaled),
         best.optimality,
         len(found),
-        len(_distinct(transcription, found)),
+        len(_distinct(found)),
         seed,
         time.perf_counter() - begun,
         transcription.certify_seconds,
@@ -252,21 +261,20 @@ def _searches(
 def _first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
     """Return the best candidate that the certifier closes, if any."""
     for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
-        certified = correct(problem, candidate.unknowns)
+        certified = correct(candidate.programme, candidate.scaled)
         problem.certify_seconds += certified.programme.certify_seconds
         if certified.is_orbit():
             return certified
     return None
 
 
-def _distinct(problem: Transcription, found: list[Candidate]) -> list[np.ndarray]:
+def _distinct(found: list[Candidate]) -> list[np.ndarray]:
     """Return the distinct optima among the candidates, in the optimiser's scale."""
     optima: list[np.ndarray] = []
     for candidate in found:
         if candidate.closed and candidate.optimal:
-            scaled = problem.scaled(candidate.unknowns)
-            if all(np.abs(scaled - other).max() > _SAME for other in optima):
-                optima.append(scaled)
+            if all(np.abs(candidate.scaled - other).max() > _SAME for other in optima):
+                optima.append(candidate.scaled)
     return optima
 
 

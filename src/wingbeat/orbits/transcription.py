@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.shooting import Flown, flier
 
 _LOST = 1e3
+# Flights remembered: that of the point at hand, and of the points that a difference or a line search started from.
+_KEPT = 4
 # An unknown this near to a bound, as a share of its range, is at the bound; body pitch likewise, in rad.
 AT_BOUND = 1e-6
 
@@ -37,49 +40,51 @@ class Transcription:
         self.unknowns: Unknowns = problem.unknowns()
         self.lower = self.unknowns.lower / self.unknowns.scale
         self.upper = self.unknowns.upper / self.unknowns.scale
+        self._closure_scale = self.unknowns.scale / CLOSURE_SCALE[:, None]
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
         self.fly = flier(self.model, problem.species.wingbeat, problem.free)
-        self._forget()
+        self._points: dict[bytes, Point] = {}
+        self._uncorrect()
 
-    def _forget(self) -> None:
+    def _uncorrect(self) -> None:
         self._shift = np.zeros(6)
         self._tilt = np.zeros((6, self.lower.size))
         self._anchor = np.zeros(self.lower.size)
         self._pitch_shift = np.zeros(2)
         self.certify_seconds = 0.0
-        self._key: bytes = b""
-        self._point: Point | None = None
 
     def anew(self) -> Transcription:
-        """Return the same problem with nothing flown yet, for another search at the same time."""
+        """Return the same problem uncorrected, for another search at the same time; flights are remembered."""
         other = copy.copy(self)
-        other._forget()
+        other._uncorrect()
+        other._points = dict(self._points)
         return other
 
     def physical(self, scaled: np.ndarray) -> np.ndarray:
         """Return the unknowns in SI, within their bounds."""
-        return np.clip(scaled * self.unknowns.scale, self.unknowns.lower, self.unknowns.upper)
+        return np.minimum(np.maximum(scaled * self.unknowns.scale, self.unknowns.lower), self.unknowns.upper)
 
     def scaled(self, unknowns: np.ndarray) -> np.ndarray:
         """Return unknowns in the optimiser's scale, within their bounds."""
-        return np.clip(unknowns / self.unknowns.scale, self.lower, self.upper)
+        return np.minimum(np.maximum(unknowns / self.unknowns.scale, self.lower), self.upper)
 
     def _at(self, scaled: np.ndarray) -> Point:
         key = scaled.tobytes()
-        if key != self._key or self._point is None:
+        if key not in self._points:
             unknowns = self.physical(scaled)
-            flown = self.fly(unknowns[4:], unknowns[:4])
-            self._key, self._point = key, self._scaled(flown, unknowns)
-        return self._point
+            if len(self._points) == _KEPT:
+                del self._points[next(iter(self._points))]
+            self._points[key] = self._scaled(self.fly(unknowns[4:], unknowns[:4]), unknowns)
+        return self._points[key]
 
     def _scaled(self, flown: Flown, unknowns: np.ndarray) -> Point:
         problem, scale = self.problem, self.unknowns.scale
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE
-        jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) / CLOSURE_SCALE[:, None] * scale
+        jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) * self._closure_scale
         point = Point(closure, jacobian, flown.pitch, flown.pitch_jacobian * scale)
         # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-        if all(np.isfinite(a).all() for a in point):
+        if math.isfinite(sum(a.sum() for a in point)):
             return point
         return Point(*(np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in point))
 

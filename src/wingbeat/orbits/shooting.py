@@ -117,7 +117,7 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
 def _through(by_state: Any, tangents: Any) -> Any:
     """Return what tangents (directions, 4, ..) become under a linear map (4, components, ..), by state first.
 
-    Written out, for XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
+    Written out: XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
     """
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 

@@ -272,9 +272,9 @@ def _distinct(found: list[Candidate]) -> list[np.ndarray]:
     """Return the distinct optima among the candidates, in the optimiser's scale."""
     optima: list[np.ndarray] = []
     for candidate in found:
-        if candidate.closed and candidate.optimal:
-            if all(np.abs(candidate.scaled - other).max() > _SAME for other in optima):
-                optima.append(candidate.scaled)
+        known = any(np.abs(candidate.scaled - other).max() <= _SAME for other in optima)
+        if candidate.closed and candidate.optimal and not known:
+            optima.append(candidate.scaled)
     return optima
 
 

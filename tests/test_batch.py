@@ -34,7 +34,7 @@ def same(one, other):
 
 
 def test_a_batch_gives_the_answers_of_single_orbits_in_their_order(monkeypatch):
-    monkeypatch.setattr(solving, "_ELASTIC_STARTS", 2)  # of 50: each takes seconds
+    monkeypatch.setattr(solving, "MOST_STARTS", 2)  # of 50: each takes seconds
     told = []
     found = wb.solve_orbits(problems(), starts=1, progress=lambda *done: told.append(done))
     assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]

@@ -191,7 +191,7 @@ def test_solve_orbit_finds_the_same_frequency_in_a_tilted_stroke_plane(pigeon_or
 
 def test_an_orbit_that_cannot_be_is_infeasible_and_says_what_fails(monkeypatch):
     """A bat that flaps by no more than 6 degrees falls: data, not an exception."""
-    monkeypatch.setattr(solving, "_ELASTIC_STARTS", 4)  # of 50: each takes seconds
+    monkeypatch.setattr(solving, "MOST_STARTS", 4)  # of 50: each takes seconds
     bounds = {"flap_amplitude": (math.radians(5), math.radians(6))}
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=8.0, aero=wb.aero.Dickinson(), bounds=bounds)
     orbit = wb.solve_orbit(problem, starts=1)

@@ -22,19 +22,20 @@ def find_orbits(
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
+    most_starts: int | None = None,
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in their order, as they come; a failed search is data as in `find_orbit`.
 
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
-    starts, seed : as in `find_orbit`, for each problem.
+    starts, seed, most_starts : as in `find_orbit`, for each problem.
     processes : how many Python processes share the work; with 1 it is done in this one.
     progress : called with (problems done, problems in all).
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed or processes out of range.
+    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
@@ -43,8 +44,9 @@ def find_orbits(
     if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
         faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
     faults.raise_if_any()
-    check_search(starts, seed)
-    return _each(problems, functools.partial(find_orbit, starts=starts, seed=seed, threads=1), processes, progress)
+    check_search(starts, seed, 1 if most_starts is None else most_starts)
+    find = functools.partial(find_orbit, starts=starts, seed=seed, threads=1, most_starts=most_starts)
+    return _each(problems, find, processes, progress)
 
 
 def _each(

@@ -15,6 +15,8 @@ from wingbeat.orbits.transcription import AT_BOUND, Transcription
 CLOSED = 1e-4
 # Largest residual of the optimality conditions, in the optimiser's scale, that counts as none.
 OPTIMAL = 1e-5
+# An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
+_HOPELESS = 1e-3
 # Evaluations of the elastic solve that goes before a search which is expected to be hard.
 _APPROACH = 40
 
@@ -31,22 +33,19 @@ class Candidate:
     violation: float
 
 
-def search(problem: Transcription, start: np.ndarray, give_up: float = np.inf) -> Candidate:
+def search(problem: Transcription, start: np.ndarray, *, elastic: bool = False) -> Candidate:
     """Search from unknowns `start` with SLSQP; one that stalls is brought nearer to closure and tried once more.
 
-    With `give_up` the search is brought near closure first, and ends there if it stays further off than that (in
-    the optimiser's scale).
-
-    A stall is mostly a spoilt BFGS matrix, or a start from which full Newton steps leave the region where the
-    quadratic model means anything.
+    With `elastic` it is brought nearer before the first try, too. A stall is mostly a spoilt BFGS matrix, or a
+    start from which full Newton steps leave the region where the quadratic model means anything.
     """
     scaled = problem.scaled(start)
     closed = optimal = False
-    for near in (False, True) if np.isinf(give_up) else (True, True):
+    for near in (elastic, True):
         if near:
             scaled = approach(problem, scaled)
-        if violation(problem, scaled) > give_up:
-            break
+            if violation(problem, scaled) > _HOPELESS:
+                break
         scaled, optimal = optimise(problem, scaled)
         closed = is_closed(problem, scaled)
         # SLSQP also stops where rounding lets it go no further; what counts is whether the conditions hold there.

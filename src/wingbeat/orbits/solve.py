@@ -32,9 +32,7 @@ _FINE = 8
 _SETTLED = 2e-2
 _SETTLING = 4
 _CORRECTIONS = 12
-_ELASTIC_STARTS = 50
-# An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
-_HOPELESS = 1e-3
+MOST_STARTS = 50
 _SAME = 1e-3
 
 
@@ -154,10 +152,10 @@ def _size(miss: np.ndarray) -> float:
     return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
 
 
-def check_search(starts: int, seed: int) -> None:
-    """Raise `InvalidInputError` unless both are whole numbers in range."""
+def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
+    """Raise `InvalidInputError` unless all are whole numbers in range."""
     faults = FaultList()
-    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("most_starts", most_starts, 1)):
         if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= 100_000:
             faults.add(name, value, f"must be a whole number from {least} to 100000")
     faults.raise_if_any()
@@ -169,16 +167,19 @@ def find_orbit(
     seed: int = 0,
     progress: Progress | None = None,
     threads: int | None = None,
+    most_starts: int | None = None,
 ) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; if none of them can be certified, more are made, up to 50, before giving up.
+    starts : number of searches.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
     threads : searches at a time, as many as there are cores if not given.
+    most_starts : if none of the searches can be certified, more are made, up to this many (50 if not
+        given), before giving up.
 
     Returns
     -------
@@ -186,19 +187,19 @@ def find_orbit(
 
     Raises
     ------
-    InvalidInputError : starts or seed not whole numbers in range.
+    InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
-    check_search(starts, seed)
+    most = MOST_STARTS if most_starts is None else most_starts
+    check_search(starts, seed, most)
     begun = time.perf_counter()
     found: list[Candidate] = []
     total = starts
     best: Corrected | None = None
     transcription = Transcription(problem)
     _load_programs(transcription, start_point(problem, 0, seed))
-    for stage in (range(starts), range(starts, max(starts, _ELASTIC_STARTS))):
+    for stage in (range(starts), range(starts, max(starts, most))):
         total = max(total, stage.stop)
-        give_up = _HOPELESS if stage.start else np.inf
-        for candidate in _searches(transcription, stage, seed, give_up, threads or os.cpu_count() or 1):
+        for candidate in _searches(transcription, stage, seed, stage.start > 0, threads or os.cpu_count() or 1):
             found.append(candidate)
             if progress is not None:
                 progress(len(found), total)
@@ -211,7 +212,8 @@ def find_orbit(
         status, message = Status.CONVERGED, f"certified: re-flown, it closes to {_size(best.miss):.0e}"
     else:
         nearest = min(found, key=lambda c: c.violation)
-        best = correct(nearest.programme, nearest.scaled)
+        # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
+        best = _certified(nearest.programme, optimise(nearest.programme, nearest.scaled)[0])
         status, message = _failure(found, best)
     return Solution(
         problem,
@@ -242,10 +244,10 @@ def _load_programs(problem: Transcription, start: np.ndarray) -> None:
 
 
 def _searches(
-    problem: Transcription, indices: Iterable[int], seed: int, give_up: float, threads: int
+    problem: Transcription, indices: Iterable[int], seed: int, elastic: bool, threads: int
 ) -> Iterator[Candidate]:
     def one(index: int) -> Candidate:
-        return search(problem.anew(), start_point(problem.problem, index, seed), give_up)
+        return search(problem.anew(), start_point(problem.problem, index, seed), elastic=elastic)
 
     if threads == 1:
         yield from map(one, indices)

@@ -146,6 +146,7 @@ def solve_orbits(
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
+    most_starts: int | None = None,
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem: the answers of `solve_orbit`, in the order of the problems.
 
@@ -158,10 +159,12 @@ def solve_orbits(
     processes : how many Python processes share the work. With more than one, a script must keep its calls under
         ``if __name__ == "__main__":``, as always with Python's processes.
     progress : called with (problems done, problems in all).
+    most_starts : searches for a problem that yields no orbit before it is given up, 50 if not given; fewer answer
+        sooner.
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed or processes out of range.
+    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -169,7 +172,7 @@ def solve_orbits(
     >>> [orbit.status.value for orbit in orbits]
     ['converged', 'converged', 'converged']
     """
-    found = find_orbits(problems, starts, seed, processes, progress)
+    found = find_orbits(problems, starts, seed, processes, progress, most_starts)
     return [_orbit(solution, starts, seed) for solution in found]
 
 

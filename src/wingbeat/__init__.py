@@ -12,6 +12,7 @@ from wingbeat._version import __version__ as __version__
 
 if TYPE_CHECKING:
     from wingbeat import aero as aero
+    from wingbeat import experiment as experiment
     from wingbeat import plots as plots
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import InvalidInputError as InvalidInputError
@@ -72,7 +73,7 @@ _HOME = {
     "solve_orbits": "results.orbit",
     "species_names": "species",
 }
-_MODULES = ("aero", "plots")
+_MODULES = ("aero", "experiment", "plots")
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
 

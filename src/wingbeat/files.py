@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import stat
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -12,7 +13,10 @@ from typing import Any
 
 from wingbeat.errors import FileError
 
-__all__ = ["read_text", "write_atomically", "writing"]
+__all__ = ["read_text", "toml_tables", "write_atomically", "writing"]
+
+# tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
+MAX_LINE = 4096
 
 
 def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
@@ -38,6 +42,30 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
         raise FileError(
             f"cannot read {_shown(path)}: byte {error.start} is not UTF-8 text; save the file as UTF-8 text"
         ) from None
+
+
+def toml_tables(text: str, label: str) -> dict[str, Any]:
+    r"""Return the tables of a TOML text.
+
+    Raises
+    ------
+    FileError : not TOML, nested beyond reason, or a line of more than 4096 characters.
+
+    >>> toml_tables("[wing]\nspan = 0.3", "a text")
+    {'wing': {'span': 0.3}}
+    """
+    longest = max(map(len, text.split("\n")))
+    if longest > MAX_LINE:
+        raise FileError(
+            f"cannot read {label!r}: a line has {longest} characters, more than {MAX_LINE}; break it up"
+        )
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise FileError(f"cannot read {label!r}: it is nested too deeply; is it the right file?") from None
+    except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold
+        reason = " ".join(str(error).split())[:200]
+        raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
 
 
 @contextmanager

@@ -36,7 +36,7 @@ Settings = Annotated[
     ),
 ]
 AeroName = Annotated[
-    str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), or a table ending in .csv.")
+    str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), a table (.csv) or a fit (.toml).")
 ]
 Extension = Annotated[
     str,

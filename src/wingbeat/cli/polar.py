@@ -25,7 +25,7 @@ Columns = dict[str, list[float] | list[None]]
 
 
 def polar(
-    model: Annotated[str, Parameter(help="Name of a coefficient model, or path of a table ending in .csv.")],
+    model: Annotated[str, Parameter(help="Name of a model, or path of a table (.csv) or of a fit (.toml).")],
     *,
     alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "0:110:2",
     about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
@@ -48,7 +48,7 @@ def polar(
     edge); the last two are empty where the model has no centre of pressure.
 
     Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. A table has the columns alpha_deg,
-    c_l, c_d and, if known, x_cp.
+    c_l, c_d and, if known, x_cp; a fitted model is what `wingbeat fit` wrote.
     """
     faults = FaultList()
     if csv and json:

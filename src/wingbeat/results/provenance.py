@@ -5,7 +5,15 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from wingbeat.aero import BladeElement, TableCoefficients, load_coefficients
+from wingbeat.aero import (
+    LIBRARY,
+    BladeElement,
+    CentreTerms,
+    FormulaCoefficients,
+    FormulaTerms,
+    TableCoefficients,
+    load_coefficients,
+)
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.objectives import Frequency
 from wingbeat.orbits.problem import OrbitProblem
@@ -13,6 +21,7 @@ from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
+_FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
 
 
@@ -22,6 +31,11 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
     aero = aero_record(problem.aero)
     if isinstance(coefficients, TableCoefficients):
         aero["table"] = {name: getattr(coefficients, name) for name in _TABLE}
+    elif isinstance(coefficients, FormulaCoefficients) and not _in_the_box(coefficients):
+        aero["formula"] = {name: getattr(coefficients, name) for name in _FORMULA}
+        for name in ("lift_terms", "drag_terms", "centre_terms"):
+            terms = getattr(coefficients, name)
+            aero["formula"][name] = None if terms is None else dict(vars(terms))
     inputs = {
         "species": {
             "name": species.name,
@@ -90,12 +104,33 @@ def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
     return {name: (low, high) for name, (low, high) in bounds.items()}
 
 
+def _in_the_box(coefficients: FormulaCoefficients) -> bool:
+    """Say whether the name alone brings back the formulas; a fit may carry a published model's name."""
+    if coefficients.name not in LIBRARY:
+        return False
+    return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients
+
+
 def _coefficients(aero: dict[str, Any]) -> Any:
-    extension, width = aero["extension"], aero["blend_width_deg"]
-    if "table" not in aero:
-        return load_coefficients(aero["coefficients"], extension, width)
-    table: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in aero["table"].items()}
-    return TableCoefficients(**table, extension=extension, blend_width_deg=width)
+    how = {"extension": aero["extension"], "blend_width_deg": aero["blend_width_deg"]}
+    if "table" in aero:
+        return TableCoefficients(**_tuples(aero["table"]), **how)
+    if "formula" not in aero:
+        return load_coefficients(aero["coefficients"], **how)
+    formula = _tuples(aero["formula"])
+    centre = formula.pop("centre_terms")
+    lift, drag = (FormulaTerms(**formula.pop(name)) for name in ("lift_terms", "drag_terms"))
+    return FormulaCoefficients(
+        **formula,
+        lift_terms=lift,
+        drag_terms=drag,
+        centre_terms=None if centre is None else CentreTerms(**centre),
+        **how,
+    )
+
+
+def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
 
 
 def _objective(name: str) -> Frequency:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from wingbeat.errors import Fault, FaultList, FileError
+from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
 
@@ -24,8 +24,6 @@ __all__ = [
     "to_si",
 ]
 
-# tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
-MAX_LINE = 4096
 Value = float | tuple[float, ...]
 
 
@@ -97,18 +95,7 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
     ------
     FileError : empty, not TOML, or nested beyond reason.
     """
-    longest = max(map(len, text.split("\n")))
-    if longest > MAX_LINE:
-        raise FileError(
-            f"cannot read {label!r}: a line has {longest} characters, more than {MAX_LINE}; break it up"
-        )
-    try:
-        raw = tomllib.loads(text)
-    except RecursionError:
-        raise FileError(f"cannot read {label!r}: it is nested too deeply; is it a species file?") from None
-    except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold
-        reason = " ".join(str(error).split())[:200]
-        raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
+    raw = toml_tables(text, label)
     if not raw:
         raise FileError(f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from")
     return raw

@@ -1,0 +1,222 @@
+"""A model file: coefficients fitted to measurements, as TOML with their covariance, for people and for programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.aero.extension import check_extension
+from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
+from wingbeat.errors import Fault, FaultList, InvalidInputError
+from wingbeat.files import read_text, toml_tables
+
+__all__ = ["KIND", "FittedCurve", "FittedModel", "load_model", "read_model"]
+
+KIND = "wing coefficients"
+MAX_BYTES = 1 << 16
+_WAVE = ("constant", "amplitude", "rate", "phase_deg")
+_DECAY = ("decay_amplitude", "decay_rate")
+_CENTRE = ("constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate")
+_TOP = (
+    "kind",
+    "name",
+    "citation",
+    "form",
+    "made_by",
+    "alpha_range_deg",
+    "reynolds_range",
+    "lift",
+    "drag",
+    "centre",
+)
+_FIT = ("free", "covariance", "r_squared", "aicc", "points")
+
+
+class FittedCurve(NamedTuple):
+    """Terms of one coefficient; `covariance`, shape (k, k), is that of the k terms named in `free`."""
+
+    terms: FormulaTerms | CentreTerms
+    free: tuple[str, ...]
+    covariance: NDArray[np.float64]
+
+
+class FittedModel(NamedTuple):
+    """What a model file says; `centre` is None where no centre of pressure was measured."""
+
+    name: str
+    citation: str
+    alpha_range_deg: tuple[float, float]
+    reynolds_range: tuple[float, float] | None
+    lift: FittedCurve
+    drag: FittedCurve
+    centre: FittedCurve | None
+
+    def coefficients(
+        self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
+    ) -> FormulaCoefficients:
+        """Return the coefficient model, some of its formulas (lift_terms, ...) replaced if given.
+
+        Raises
+        ------
+        InvalidInputError : what `FormulaCoefficients` refuses.
+        """
+        own: dict[str, Any] = {
+            "lift_terms": self.lift.terms,
+            "drag_terms": self.drag.terms,
+            "centre_terms": None if self.centre is None else self.centre.terms,
+        }
+        return FormulaCoefficients(
+            self.name,
+            **(own | terms),
+            citation=self.citation,
+            reynolds_range=self.reynolds_range,
+            alpha_range_deg=self.alpha_range_deg,
+            extension=extension,
+            blend_width_deg=blend_width_deg,
+        )
+
+
+def read_model(path: str | Path) -> FittedModel:
+    """Read a model file with the covariance of its terms, which is empty where none is given.
+
+    Raises
+    ------
+    FileError : the file is missing, cannot be read or is not TOML.
+    InvalidInputError : every wrong, missing or unknown key at once.
+    """
+    path = Path(path)
+    file, faults = path.name, FaultList()
+    raw = toml_tables(read_text(path, limit=MAX_BYTES), str(path))
+    if raw.get("kind") != KIND:
+        fix = "is it a species file? `wingbeat fit -o NAME.toml` writes model files"
+        faults.add(f"{file}: kind", raw.get("kind"), f"must be {KIND!r}", fix)
+        faults.raise_if_any()
+    _known(faults, file, raw, _TOP)
+    texts = {key: _text(faults, file, raw, key) for key in ("name", "citation", "form", "made_by")}
+    alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
+    reynolds = _pair(faults, file, raw, "reynolds_range", 0.0, 1e12) if "reynolds_range" in raw else None
+    curves = [_curve(faults, file, raw, key) for key in ("lift", "drag")]
+    centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
+    if not texts["name"] and "name" in raw:
+        faults.add(f"{file}: name", raw["name"], "must not be empty")
+    faults.raise_if_any()
+    assert alpha is not None  # or a fault was noted
+    lift, drag = curves
+    assert lift is not None
+    assert drag is not None
+    return FittedModel(texts["name"], texts["citation"] or file, alpha, reynolds, lift, drag, centre)
+
+
+def load_model(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
+    """Read the coefficient model of a model file.
+
+    Parameters
+    ----------
+    path : the TOML file; angles in degrees.
+    extension, blend_width_deg : as of `FormulaCoefficients`.
+
+    Raises
+    ------
+    FileError, InvalidInputError : as in `read_model`; a signed extension of drag that decays.
+    """
+    faults = FaultList()
+    check_extension(faults, extension, blend_width_deg)
+    try:
+        model = read_model(path)
+    except InvalidInputError as error:
+        raise InvalidInputError([*faults.faults, *error.faults]) from None
+    faults.raise_if_any()
+    return model.coefficients(extension, blend_width_deg)
+
+
+def _known(faults: FaultList, where: str, table: dict[str, Any], keys: Iterable[str]) -> None:
+    for key in table:
+        if key not in keys:
+            faults.add(f"{where}: {key!r}", "", "is not a known key", f"known are {', '.join(keys)}")
+
+
+def _text(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> str:
+    value = raw.get(key, "")
+    if not isinstance(value, str):
+        faults.add(f"{file}: {key}", value, "must be a text", "put it in quotes")
+        return ""
+    if key == "name" and key not in raw:
+        faults.add(f"{file}: {key}", "", "must be given", "name the model")
+    return value
+
+
+def _pair(
+    faults: FaultList, file: str, raw: dict[str, Any], key: str, low: float, high: float
+) -> tuple[float, float] | None:
+    pair = raw.get(key)
+    if not isinstance(pair, list) or len(pair) != 2:
+        faults.add(f"{file}: {key}", pair, "must be a list of two numbers", "write [lowest, highest]")
+        return None
+    if not all([faults.number(f"{file}: {key}[{i}]", v, at_least=low, at_most=high) for i, v in enumerate(pair)]):
+        return None
+    if pair[0] > pair[1]:
+        faults.add(f"{file}: {key}", pair, "puts the highest first", "write [lowest, highest]")
+    return float(pair[0]), float(pair[1])
+
+
+def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> FittedCurve | None:
+    """Return one curve, or None with its faults noted."""
+    table, where = raw.get(key), f"{file}: {key}"
+    if not isinstance(table, dict):
+        faults.add(where, table, "must be a table", f"write [{key}] with its terms below")
+        return None
+    earlier = len(faults.faults)
+    decays = key != "centre" and any(name in table for name in _DECAY)
+    names = _CENTRE if key == "centre" else (*_WAVE, *_DECAY) if decays else _WAVE
+    _known(faults, where, table, (*(_CENTRE if key == "centre" else (*_WAVE, *_DECAY)), "fit"))
+    for name in names:
+        faults.number(f"{where}.{name}", table.get(name), fix=f"the terms are {', '.join(names)}")
+    free, covariance = _covariance(faults, f"{where}.fit", table.get("fit", {}), names)
+    if len(faults.faults) > earlier:
+        return None
+    terms = {name: float(table[name]) for name in names}
+    try:
+        formula = CentreTerms(**terms) if key == "centre" else FormulaTerms(**terms)
+    except InvalidInputError as error:  # what the formula itself demands, in the words of the file
+        for fault in error.faults:
+            own = f"{where}.{fault.where.rpartition('.')[2]}"
+            faults.faults.append(Fault(own, fault.value, fault.rule, fault.fix))
+        return None
+    return FittedCurve(formula, free, covariance)
+
+
+def _covariance(
+    faults: FaultList, where: str, fit: Any, names: tuple[str, ...]
+) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Return the names of the fitted terms and their covariance, checked to be one."""
+    nothing = (), np.zeros((0, 0))
+    if not isinstance(fit, dict):
+        faults.add(where, fit, "must be a table", "with free = [...] and covariance = [[...], ...]")
+        return nothing
+    _known(faults, where, fit, _FIT)
+    free, rows = fit.get("free", []), fit.get("covariance", [])
+    if not isinstance(free, list) or not all(name in names for name in free) or len(set(free)) != len(free):
+        faults.add(
+            f"{where}.free", free, "must name terms of the formula, each once", f"they are {', '.join(names)}"
+        )
+        return nothing
+    size = len(free)
+    if not isinstance(rows, list) or [len(row) if isinstance(row, list) else -1 for row in rows] != [size] * size:
+        faults.add(f"{where}.covariance", "", f"must be {size} rows of {size} numbers, as free names terms")
+        return nothing
+    cells = [(i, k, cell) for i, row in enumerate(rows) for k, cell in enumerate(row)]
+    if not all([faults.number(f"{where}.covariance[{i}][{k}]", cell) for i, k, cell in cells]):
+        return nothing
+    matrix = np.array(rows, dtype=np.float64).reshape(size, size)
+    spread = np.sqrt(np.maximum(np.diag(matrix), 0.0))
+    scale = np.outer(spread, spread)
+    # The correlations, since variances of a phase in degrees and of a rate differ by many powers of ten.
+    correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
+    lame = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
+    if size and (lame or np.linalg.eigvalsh(correlation).min() < -1e-6):
+        faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy the fit's own")
+    return tuple(free), matrix

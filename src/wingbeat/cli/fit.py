@@ -1,0 +1,120 @@
+"""``wingbeat fit``: measured coefficients to a model file."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.options import check_outputs
+from wingbeat.errors import FaultList
+from wingbeat.experiment import WingFit, fit_wing, load_measurements
+from wingbeat.plots import check_figure_name, fit_page, save_figure
+
+
+def fit(
+    coefficients: Annotated[Path, Parameter(help="A table of `reduce`, or your own with alpha_deg, C_L, C_D.")],
+    /,
+    *,
+    form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson or sine-cosine.")] = "su-fan",
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"], help="The model file: .toml.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw data, fit and bands: .png, .pdf or .svg.")] = None,
+    name: Annotated[str, Parameter(help="Name of the model; that of the output if not given.")] = "",
+    citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
+    alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
+    alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,
+    json: Annotated[bool, Parameter(negative="", help="Print one JSON object.")] = False,
+) -> None:
+    """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
+
+    The model file works wherever a coefficient model is named: `polar mymodel.toml`, `orbit --aero mymodel.toml`.
+    Compare forms by AICc, the lower the better, on the same table.
+
+    Example: wingbeat fit coefficients.csv --form su-fan -o mymodel.toml --plot fit.png
+    """
+    faults = FaultList()
+    if output is not None and output.suffix.lower() != ".toml":
+        faults.add("--output", str(output), "is no model file", "end it in .toml")
+    if plot is not None:
+        check_figure_name(faults, "--plot", plot)
+    bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
+    if all(bounds) and alpha_min > alpha_max:
+        faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "turn them round")
+    faults.raise_if_any()
+    check_outputs(output, plot)
+    table = load_measurements(coefficients)
+    if alpha_min > -180 or alpha_max < 180:
+        table = table.between(alpha_min, alpha_max)
+    called = name or (output.stem if output is not None else coefficients.stem)
+    found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}")
+    if output is not None:
+        found.save(output)
+    if plot is not None:
+        save_figure(fit_page(found), plot)
+    if json:
+        print(json_format.dumps(_summary(found), indent=2, allow_nan=False))
+    else:
+        _print_table(found)
+    for note in found.notes:
+        print(f"warning: {note}", file=sys.stderr)
+    for path in (output, plot):
+        if path is not None:
+            print(f"wrote {path}", file=sys.stderr)
+
+
+def _summary(found: WingFit) -> dict[str, Any]:
+    """Return the fit as JSON's types; what is not finite is null."""
+
+    def curve(label: str) -> dict[str, Any]:
+        one = found.curves[label]
+        limits = one.interval()
+        return {
+            "formula": one.form.formula,
+            "parameters": {n: {"value": v, "interval": list(limits[n])} for n, v in one.parameters.items()},
+            "r_squared": _finite(one.r_squared),
+            "aicc": _finite(one.aicc),
+            "points": len(one.values),
+        }
+
+    return {
+        "name": found.name,
+        "form": found.form,
+        "alpha_range_deg": list(found.alpha_range_deg),
+        "reynolds_range": None if found.reynolds_range is None else list(found.reynolds_range),
+        **{label: curve(label) for label in found.curves},
+        "warnings": list(found.notes),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _print_table(found: WingFit) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    low, high = found.alpha_range_deg
+    stream = found.reynolds_range
+    title = f"{found.name}, form {found.form}, {low:g} to {high:g} degrees"
+    title += "" if stream is None else f", Re {stream[0]:.0f} to {stream[1]:.0f}"
+    # As Text, for rich would take [deg] in a plain string for markup.
+    caption = "angles in degrees; parameters as in wingbeat.aero's formulas"
+    table = Table(title=Text(title), caption=Text(caption))
+    for heading in ("curve", "parameter", "value", "95 % interval", "R-squared", "AICc"):
+        table.add_column(Text(heading), justify="left" if heading in ("curve", "parameter") else "right")
+    for label, curve in found.curves.items():
+        limits = curve.interval()
+        for i, (parameter, value) in enumerate(curve.parameters.items()):
+            interval = f"{limits[parameter][0]:.4g} to {limits[parameter][1]:.4g}"
+            # Cut, not rounded: 0.99996 is not 1.
+            r_squared = math.floor(curve.r_squared * 1e5) / 1e5 if math.isfinite(curve.r_squared) else math.nan
+            whole = (label, f"{r_squared:.5f}", f"{curve.aicc:.1f}") if i == 0 else ("", "", "")
+            table.add_row(whole[0], parameter, f"{value:.5g}", interval, *whole[1:], end_section=False)
+        table.add_section()
+    Console().print(table)

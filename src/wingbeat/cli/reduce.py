@@ -1,0 +1,66 @@
+"""``wingbeat reduce``: load-cell records to a table of coefficients."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.cli.options import check_outputs
+from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.experiment import LoadCellRun, read_run, reduce_runs
+
+MAX_NOTES = 10
+
+
+def reduce(
+    runs: Annotated[list[Path], Parameter(help="CSV files, one for each run at one angle.", negative=())],
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
+    last: Annotated[float, Parameter(help="Seconds at the end of each record that are steady.")] = 20.0,
+) -> None:
+    """Turn load-cell records into coefficients with their errors, repeats of a point pooled.
+
+    A record has the columns time [s], normal_force [N], tangential_force [N], moment [N m] (about mid-chord,
+    nose-up positive) and alpha_deg, and above them lines "# speed = ...", density, viscosity (kinematic), chord and
+    span in SI units; optional are thickness, channel_width and the readings in still fluid,
+    "# tare_normal_force = before, after" and so on, between which the zero drifts linearly.
+
+    Example: wingbeat reduce run*.csv -o coefficients.csv --last 20
+    """
+    faults = FaultList()
+    if output.suffix.lower() != ".csv":
+        faults.add("--output", str(output), "is no table", "end it in .csv")
+    faults.number("--last", last, above=0, unit="s")
+    if not runs:
+        faults.add("RUNS", "none", "there is nothing to reduce", "name the CSV files of the runs")
+    if output in runs:
+        faults.add("--output", str(output), "is one of the runs", "choose another name")
+    faults.raise_if_any()
+    check_outputs(output)
+    table = reduce_runs(_read_all(runs), last)
+    table.save(output)
+    for note in table.notes[:MAX_NOTES]:
+        print(f"note: {note}", file=sys.stderr)
+    if len(table.notes) > MAX_NOTES:
+        print(f"note: {len(table.notes) - MAX_NOTES} more notes stand in {output}", file=sys.stderr)
+    print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)
+
+
+def _read_all(paths: list[Path]) -> list[LoadCellRun]:
+    """Read every run; tell the faults of all files at once."""
+    runs, faults, unreadable = [], FaultList(), []
+    for path in paths:
+        try:
+            runs.append(read_run(path))
+        except InvalidInputError as error:
+            faults.faults.extend(error.faults)
+        except FileError as error:
+            unreadable.append(str(error))
+    if unreadable:
+        raise FileError("\n".join([*unreadable, *(str(fault) for fault in faults.faults)]))
+    faults.raise_if_any()
+    return runs

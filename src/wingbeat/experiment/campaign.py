@@ -1,0 +1,178 @@
+"""A SYNTHETIC water-channel campaign: records made by a random generator from a known truth, never measured.
+
+It exists to test what is done with real records: whatever the pipeline returns can be held against the truth.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.experiment.forms import power_law, wave
+from wingbeat.experiment.record import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
+from wingbeat.files import write_atomically
+
+__all__ = ["TRUTH", "Campaign", "save_runs", "synthetic_runs", "true_coefficients"]
+
+Array = NDArray[np.float64]
+# The published formulas themselves, without blends, as a fit meets them. Su et al. 2023, arXiv 2302.09602.
+TRUTH: dict[str, dict[str, float]] = {
+    "C_L": {"decay_amplitude": -0.44, "decay_rate": 0.47, "amplitude": 1.19, "rate": 1.74, "phase_deg": 20.0},
+    "C_D": {"constant": 1.04, "amplitude": 1.0, "rate": 1.72, "phase_deg": -70.0},
+    "x_cp": {
+        **{"constant": 0.247, "power_amplitude": 0.016, "exponent": 0.6},
+        **{"decay_amplitude": 0.026, "decay_rate": 0.11},
+    },
+}
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """What a synthetic campaign sweeps and how it errs; the defaults are the paper's plate, water and sweep.
+
+    Parameters
+    ----------
+    reynolds : chord Reynolds numbers.
+    alpha_deg : angles of attack [deg].
+    repeats : runs of each point.
+    duration, rate : length of a record [s] and samples a second [Hz].
+    turbulence : standard deviation of each force coefficient within a record [-], and of C_M a quarter of it.
+    memory : correlation time of that noise [s].
+    cell_noise : standard deviation of white noise of the load cell, as shares of its scale (1 N, 0.1 N m).
+    drift : largest change of the zero readings over a run, as a share of the same scale.
+    start : share by which loads overshoot when the stream starts, gone with a time constant of 1.5 s.
+    chord, span, thickness, channel_width : of plate and channel [m].
+    density, viscosity : of the water [kg/m3, m2/s].
+
+    Raises
+    ------
+    InvalidInputError : no angles, Reynolds numbers or repeats, or numbers that are not positive.
+    """
+
+    reynolds: tuple[float, ...] = (2e4, 3e4, 4e4, 5e4)
+    alpha_deg: tuple[float, ...] = tuple(float(a) for a in range(0, 111, 2))
+    repeats: int = 3
+    duration: float = 30.0
+    rate: float = 100.0
+    turbulence: float = 0.1
+    memory: float = 0.2
+    cell_noise: float = 0.01
+    drift: float = 0.02
+    start: float = 0.6
+    chord: float = 0.076
+    span: float = 0.456
+    thickness: float = 0.008
+    channel_width: float = 0.8
+    density: float = 998.0
+    viscosity: float = 1.0e-6
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        for name in ("reynolds", "alpha_deg"):
+            if not getattr(self, name):
+                faults.add(name, getattr(self, name), "is empty", "give at least one")
+        for name in ("duration", "rate", "memory", "chord", "span", "channel_width", "density", "viscosity"):
+            faults.number(name, getattr(self, name), above=0)
+        for name in ("turbulence", "cell_noise", "drift", "thickness"):
+            faults.number(name, getattr(self, name), at_least=0)
+        if self.repeats < 1:
+            faults.add("repeats", self.repeats, "must be at least 1")
+        faults.raise_if_any()
+
+
+def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
+    """Return the truth at angles [deg], shape (n,): C_L, C_D and x_cp.
+
+    >>> [round(float(c[0]), 4) for c in true_coefficients(np.array([40.0]))]
+    [1.19, 1.0191, 0.4061]
+    """
+    lift = wave(alpha_deg, {"constant": 0.0} | TRUTH["C_L"])[0]
+    return lift, wave(alpha_deg, TRUTH["C_D"])[0], power_law(alpha_deg, TRUTH["x_cp"])[0]
+
+
+def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
+    """Return the records of a synthetic campaign; the same seed gives the same records.
+
+    Each channel is the truth times its start-up ``1 + start exp(-t/1.5)``, plus fluctuations of the flow (a first
+    order Markov process), white noise of the cell, and a zero that drifts linearly between the readings given.
+
+    >>> small = Campaign(reynolds=(3e4,), alpha_deg=(10.0, 20.0), repeats=2, rate=10.0)
+    >>> [run.name for run in synthetic_runs(small)]
+    ['re30000_a10_1', 're30000_a10_2', 're30000_a20_1', 're30000_a20_2']
+    """
+    random = np.random.default_rng(seed)
+    count = round(campaign.duration * campaign.rate)
+    time = np.arange(count) / campaign.rate
+    lift, drag, centre = true_coefficients(np.array(campaign.alpha_deg))
+    cos, sin = np.cos(np.deg2rad(campaign.alpha_deg)), np.sin(np.deg2rad(campaign.alpha_deg))
+    normal = lift * cos + drag * sin
+    true = np.stack([normal, drag * cos - lift * sin, normal * (0.5 - centre)], axis=1)
+    runs = []
+    for reynolds in campaign.reynolds:
+        speed = reynolds * campaign.viscosity / campaign.chord
+        for alpha, coefficients in zip(campaign.alpha_deg, true, strict=True):
+            for repeat in range(1, campaign.repeats + 1):
+                loads, tare = _loads(campaign, coefficients, speed, time, random)
+                name = f"re{reynolds:.0f}_a{alpha:g}_{repeat}"
+                plate = {key: getattr(campaign, key) for key in _SHARED}
+                series = dict(zip(CHANNELS, loads, strict=True))
+                runs.append(LoadCellRun(name, time, **series, alpha_deg=alpha, speed=speed, tare=tare, **plate))
+    return runs
+
+
+_SHARED = ("density", "viscosity", "chord", "span", "thickness", "channel_width")
+
+
+def _loads(
+    campaign: Campaign, coefficients: Array, speed: float, time: Array, random: np.random.Generator
+) -> tuple[Array, Array]:
+    """Return the channels of one run, shape (3, n), and the zero readings before and after, shape (3, 2)."""
+    from scipy.signal import lfilter
+
+    count = len(time)
+    memory = np.exp(-1.0 / (campaign.rate * campaign.memory))
+    # From the stationary distribution on, or the first second would be too quiet.
+    kicks = random.normal(size=(3, count)) * np.sqrt(1.0 - memory**2)
+    kicks[:, 0] /= np.sqrt(1.0 - memory**2)
+    flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks, axis=1))
+    level = campaign.turbulence * np.array([[1.0], [1.0], [0.25]])
+    force = 0.5 * campaign.density * speed**2 * campaign.chord * campaign.span
+    size = np.array([[force], [force], [force * campaign.chord]])
+    transient = 1.0 + campaign.start * np.exp(-time / 1.5)
+    scale = np.array([[1.0], [1.0], [0.1]])
+    zero = random.uniform(-campaign.drift, campaign.drift, (3, 2)) * scale
+    drifting = zero[:, :1] + (zero[:, 1:] - zero[:, :1]) * (time - time[0]) / (time[-1] - time[0])
+    noise = campaign.cell_noise * scale * random.normal(size=(3, count))
+    return size * (coefficients[:, None] * transient + level * flow) + drifting + noise, zero
+
+
+def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:
+    """Write each run as a CSV file that `read_run` reads, labelled as synthetic; return the paths.
+
+    Raises
+    ------
+    FileError : the folder cannot be made or a file not be written.
+    """
+    paths = []
+    for run in runs:
+        text = StringIO()
+        text.write("# SYNTHETIC: made by wingbeat's random generator from known coefficients, not measured\n")
+        for key, unit in (CONSTANT_UNITS | OPTIONAL_UNITS).items():
+            if getattr(run, key) is not None:
+                text.write(f"# {key} [{unit}] = {float(getattr(run, key))!r}\n")
+        for channel, (before, after) in zip(CHANNELS, np.asarray(run.tare).tolist(), strict=True):
+            text.write(f"# tare_{channel} = {before!r}, {after!r}\n")
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(f"{name} [{unit}]" for name, unit in COLUMN_UNITS.items())
+        columns = [np.asarray(getattr(run, name)) for name in COLUMN_UNITS]
+        writer.writerows([f"{cell:.7g}" for cell in row] for row in zip(*columns, strict=True))
+        path = Path(folder) / f"{run.name}.csv"
+        write_atomically(path, text.getvalue())
+        paths.append(path)
+    return paths

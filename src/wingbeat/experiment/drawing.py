@@ -1,0 +1,97 @@
+"""Coefficient models drawn from what a fit leaves uncertain."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.aero import FormulaCoefficients
+from wingbeat.aero.model_file import FittedCurve, read_model
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.experiment.wing_fit import WingFit
+
+__all__ = ["draw"]
+
+MAX_COUNT = 100_000
+_TRIES = 100
+
+
+def draw(
+    source: str | Path | WingFit,
+    count: int,
+    seed: int = 0,
+    *,
+    extension: str = "mirrored",
+    blend_width_deg: float = 1.0,
+) -> list[FormulaCoefficients]:
+    """Return models whose terms are drawn from the normal distribution of a fit's parameters.
+
+    The parameters of lift, drag and centre of pressure are drawn each with their covariance, and independently of
+    one another. A draw that is no formula (a decay that grows) is drawn again. The same seed gives the same models.
+
+    Parameters
+    ----------
+    source : the path of a model file, or a fit.
+    count : how many models.
+    seed : of the random numbers.
+    extension, blend_width_deg : as of `FormulaCoefficients`.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : a count or seed that is no whole number, what `read_model` refuses, a file without
+        covariance, or a covariance so wide that hardly a draw is a formula.
+    """
+    faults = FaultList()
+    for name, value, lowest, highest in (("count", count, 1, MAX_COUNT), ("seed", seed, 0, 2**63)):
+        if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:
+            faults.add(name, value, f"must be a whole number from {lowest} to {highest}")
+    faults.raise_if_any()
+    model = source.model() if isinstance(source, WingFit) else read_model(source)
+    curves = {"lift_terms": model.lift, "drag_terms": model.drag}
+    if model.centre is not None:
+        curves["centre_terms"] = model.centre
+    if not any(curve.free for curve in curves.values()):
+        faults.add(model.name, "no covariance", "has nothing to draw from", "fit it with `wingbeat fit`")
+    faults.raise_if_any()
+    random = np.random.default_rng(seed)
+    drawn = {name: _terms(name, curve, count, random) for name, curve in curves.items()}
+    return [
+        model.coefficients(extension, blend_width_deg, **{name: terms[i] for name, terms in drawn.items()})
+        for i in range(count)
+    ]
+
+
+def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generator) -> list[Any]:
+    """Return `count` formulas of one coefficient."""
+    if not curve.free:
+        return [curve.terms] * count
+    mean = np.array([getattr(curve.terms, name) for name in curve.free])
+    factor = _root(curve.covariance)
+    found: list[Any] = []
+    for _ in range(_TRIES):
+        for values in mean + random.normal(size=(count, len(mean))) @ factor.T:
+            try:
+                found.append(
+                    dataclasses.replace(curve.terms, **dict(zip(curve.free, values.tolist(), strict=True)))
+                )
+            except InvalidInputError:
+                continue
+        if len(found) >= count:
+            return found[:count]
+    faults = FaultList()
+    rule = "is so wide that hardly a draw is a formula: the data do not determine this form"
+    faults.add(label, "covariance", rule, "choose a form with fewer parameters")
+    raise InvalidInputError(faults.faults)
+
+
+def _root(covariance: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a matrix whose square is the covariance, which rounding may have left a hair below semidefinite."""
+    spread = np.sqrt(np.diag(covariance))
+    scale = np.where(spread > 0, spread, 1.0)
+    values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
+    return scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))

@@ -1,0 +1,255 @@
+"""The curves that measurements are fitted to: a formula, its parameters, and where a fit should begin."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+
+__all__ = ["FORMS", "CurveForm", "WingForm", "power_law", "wave"]
+
+Array = NDArray[np.float64]
+_RAD = math.pi / 180
+# Grids of what a formula is not linear in; the rest follows from linear least squares at each node.
+_RATES = np.concatenate([np.geomspace(0.3, 3.0, 12), [3.6, 4.5]])
+_WAVE_DECAYS = np.geomspace(0.02, 2.0, 10)
+_EXPONENTS = np.linspace(0.2, 2.0, 10)
+_CENTRE_DECAYS = np.geomspace(0.02, 0.6, 10)
+
+
+class WaveGradient(NamedTuple):
+    """Slopes of `wave` in each of its terms, in their order."""
+
+    constant: Array
+    amplitude: Array
+    rate: Array
+    phase_deg: Array
+    decay_amplitude: Array
+    decay_rate: Array
+
+
+def wave(a: Array, terms: dict[str, float]) -> tuple[Array, dict[str, Array]]:
+    """Return ``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)`` and its slopes.
+
+    The terms are those of `wingbeat.aero.FormulaTerms`, the angle `a` in degrees; the slopes are by term.
+
+    >>> value, _ = wave(np.array([45.0]), {"constant": 0.1, "amplitude": 2.0, "rate": 2.0, "phase_deg": 0.0})
+    >>> round(float(value[0]), 12)
+    2.1
+    """
+    angle = (terms["rate"] * a + terms["phase_deg"]) * _RAD
+    sin, cos = np.sin(angle), np.cos(angle) * terms["amplitude"] * _RAD
+    decay, decay_rate = terms.get("decay_amplitude") or 0.0, terms.get("decay_rate") or 0.0
+    fading = np.exp(-decay_rate * a)
+    slopes = WaveGradient(np.ones_like(a), sin, cos * a, cos, fading, -decay * a * fading)
+    return terms["constant"] + terms["amplitude"] * sin + decay * fading, slopes._asdict()
+
+
+def power_law(a: Array, terms: dict[str, float]) -> tuple[Array, dict[str, Array]]:
+    """Return ``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)`` and its slopes.
+
+    The terms are those of `wingbeat.aero.CentreTerms`, the angle `a` >= 0 in degrees; the slopes are by term.
+
+    >>> terms = {"constant": 0.2, "power_amplitude": 0.1, "exponent": 0.5, "decay_amplitude": 0, "decay_rate": 0}
+    >>> round(float(power_law(np.array([4.0]), terms)[0][0]), 12)
+    0.4
+    """
+    power, fading = a ** terms["exponent"], a * np.exp(-terms["decay_rate"] * a)
+    logarithm = np.log(np.where(a > 0, a, 1.0))
+    slopes = {
+        "constant": np.ones_like(a),
+        "power_amplitude": power,
+        "exponent": terms["power_amplitude"] * power * logarithm,
+        "decay_amplitude": fading,
+        "decay_rate": -terms["decay_amplitude"] * a * fading,
+    }
+    value = terms["constant"] + terms["power_amplitude"] * power + terms["decay_amplitude"] * fading
+    return value, slopes
+
+
+@dataclass(frozen=True)
+class CurveForm:
+    """One curve with free parameters: of the box, or a function of your own.
+
+    Parameters
+    ----------
+    formula : the curve in words or symbols, for tables and figures.
+    function : of angles [deg], shape (n,), and of each parameter by its name; returns shape (n,).
+    start : names of the parameters with values to begin at.
+    lowest, highest : bounds of some of the parameters.
+    only_positive : whether it may not be evaluated at negative angles.
+
+    Raises
+    ------
+    InvalidInputError : no parameters, a start that is not finite, or names that the function does not take.
+
+    >>> line = CurveForm("m a + b", lambda a, m, b: m * a + b, {"m": 0.1, "b": 0.0})
+    >>> line.value(np.array([10.0]), {"m": 0.1, "b": 1.0}).tolist()
+    [2.0]
+    """
+
+    formula: str
+    function: Callable[..., Any]
+    start: dict[str, float]
+    lowest: dict[str, float] = field(default_factory=dict)
+    highest: dict[str, float] = field(default_factory=dict)
+    only_positive: bool = False
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not self.start:
+            faults.add("start", self.start, "names no parameter", "give {name: value to begin at}")
+        for name, value in self.start.items():
+            faults.number(f"start.{name}", value)
+        try:
+            inspect.signature(self.function).bind(np.zeros(1), **self.start)
+        except (TypeError, ValueError) as error:
+            faults.add("function", self.formula, f"does not take the parameters of start ({error})", "name them so")
+        faults.raise_if_any()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the free parameters."""
+        return tuple(self.start)
+
+    def value(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
+        """Return the curve at `alpha_deg`, shape (n,)."""
+        return np.asarray(self.function(alpha_deg, **parameters), dtype=np.float64)
+
+    def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
+        """Return the derivatives in the parameters, shape (n, parameters), by central differences."""
+        columns = []
+        for name, value in parameters.items():
+            step = 6e-6 * max(abs(value), 1e-3)
+            ends = [self.value(alpha_deg, parameters | {name: value + s}) for s in (step, -step)]
+            columns.append((ends[0] - ends[1]) / (2 * step))
+        return np.column_stack(columns)
+
+    def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
+        """Return where to begin a fit."""
+        del alpha_deg, values, weight  # a form of the user's own knows its start
+        return [self.start]
+
+
+@dataclass(frozen=True)
+class BoxForm(CurveForm):
+    """A formula of the box, some of its terms held fixed; its slopes are exact and it finds its own start."""
+
+    law: Callable[[Array, dict[str, float]], tuple[Array, dict[str, Array]]] = wave
+    fixed: dict[str, float] = field(default_factory=dict)
+    grids: dict[str, Array] = field(default_factory=dict)
+
+    def terms(self, parameters: dict[str, float]) -> dict[str, float]:
+        """Return all terms of the formula, those held fixed included."""
+        return self.fixed | parameters
+
+    def value(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
+        """Return the curve at `alpha_deg`, shape (n,)."""
+        return self.law(alpha_deg, self.terms(parameters))[0]
+
+    def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
+        """Return the derivatives in the parameters, shape (n, parameters)."""
+        slopes = self.law(alpha_deg, self.terms(parameters))[1]
+        return np.column_stack([slopes[name] for name in self.names])
+
+    def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
+        """Return the three best nodes of a grid over the non-linear terms, the others by linear least squares."""
+        found: list[tuple[float, dict[str, float]]] = []
+        for node in product(*self.grids.values()):
+            held = {name: float(at) for name, at in zip(self.grids, node, strict=True)}
+            basis, of = self._linear_basis(alpha_deg, held)
+            factors = np.linalg.lstsq(basis * weight[:, None], values * weight)[0]
+            left = (values - basis @ factors) * weight
+            found.append((float(left @ left), of(np.asarray(factors, dtype=np.float64))))
+        found.sort(key=lambda pair: pair[0])
+        return [start for _, start in found[:3]]
+
+    def _linear_basis(self, a: Array, held: dict[str, float]) -> tuple[Array, Callable[[Array], dict[str, float]]]:
+        """Return the functions the formula is linear in, and how their factors become parameters."""
+        blank = dict.fromkeys((*self.names, *self.fixed), 0.0) | {"exponent": 1.0} | self.fixed | held
+        one = blank | {"amplitude": 1.0} | held
+        names = [name for name in self.names if name not in self.grids and name != "phase_deg"]
+        slopes = self.law(a, one)[1]
+        # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
+        columns = {name: slopes[name] for name in names}
+        if "phase_deg" in self.names:
+            for name, phase in (("amplitude", 0.0), ("cosine", 90.0)):
+                columns[name] = self.law(a, one | {"phase_deg": phase})[1]["amplitude"]
+
+        def parameters(factors: Array) -> dict[str, float]:
+            value = dict(zip(columns, factors.tolist(), strict=True)) | held
+            if "cosine" in value:
+                sine, cosine = value["amplitude"], value.pop("cosine")
+                value["amplitude"] = math.hypot(sine, cosine)
+                value["phase_deg"] = math.degrees(math.atan2(cosine, sine))
+            return {name: value[name] for name in self.names}
+
+        return np.column_stack(list(columns.values())), parameters
+
+
+def _wave_form(formula: str, free: list[str], fixed: dict[str, float], **grids: Array) -> BoxForm:
+    decays = "decay_rate" in free
+    return BoxForm(
+        formula,
+        lambda a, **terms: wave(a, fixed | terms)[0],
+        dict.fromkeys(free, 1.0),
+        lowest={"decay_rate": 0.0} if decays else {},
+        highest={"decay_rate": 20.0} if decays else {},
+        only_positive=decays,
+        fixed=fixed,
+        grids=grids,
+    )
+
+
+_SINE = ["constant", "amplitude", "rate", "phase_deg"]
+_SINE_FORM = _wave_form("constant + amplitude sin(rate a + phase)", _SINE, {}, rate=_RATES)
+_CENTRE = BoxForm(
+    "constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)",
+    lambda a, **terms: power_law(a, terms)[0],
+    dict.fromkeys(["constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate"], 1.0),
+    lowest={"exponent": 1e-3, "decay_rate": 0.0},
+    highest={"exponent": 5.0, "decay_rate": 5.0},
+    only_positive=True,
+    law=power_law,
+    grids={"exponent": _EXPONENTS, "decay_rate": _CENTRE_DECAYS},
+)
+
+
+class WingForm(NamedTuple):
+    """Curves of lift, drag and centre of pressure; no curve of the centre is None."""
+
+    name: str
+    lift: CurveForm
+    drag: CurveForm
+    centre: CurveForm | None = None
+
+
+FORMS: dict[str, WingForm] = {
+    "su-fan": WingForm(
+        "su-fan",
+        _wave_form(
+            "amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)",
+            ["decay_amplitude", "decay_rate", "amplitude", "rate", "phase_deg"],
+            {"constant": 0.0},
+            rate=_RATES,
+            decay_rate=_WAVE_DECAYS,
+        ),
+        _SINE_FORM,
+        _CENTRE,
+    ),
+    "dickinson": WingForm("dickinson", _SINE_FORM, _SINE_FORM, _CENTRE),
+    "sine-cosine": WingForm(
+        "sine-cosine",
+        _wave_form("amplitude sin 2a", ["amplitude"], {"constant": 0.0, "rate": 2.0, "phase_deg": 0.0}),
+        _wave_form("constant - amplitude cos 2a", ["constant", "amplitude"], {"rate": 2.0, "phase_deg": -90.0}),
+        _CENTRE,
+    ),
+}

@@ -1,0 +1,145 @@
+"""What stands above the numbers of a measurement file: ``# key = value`` lines, and columns with their units."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.files import read_text
+
+__all__ = ["Heading", "Sheet", "parse_numbers", "read_sheet", "split_unit"]
+
+# A record of 30 s at 10 kHz has some 20 MB.
+MAX_BYTES = 1 << 26
+# Forty bad cells tell as much as forty thousand.
+MAX_CELL_FAULTS = 40
+_SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "°": "deg", "degrees": "deg", "seconds": "s"}
+
+
+class Heading(NamedTuple):
+    """A name with the unit in brackets behind it, if one was written."""
+
+    name: str
+    unit: str | None
+
+
+class Sheet(NamedTuple):
+    """A CSV file taken apart: constants by key with their row, column names, rows of cells with their row."""
+
+    file: str
+    constants: dict[str, tuple[int, str]]
+    header_row: int
+    header: list[str]
+    rows: list[tuple[int, str]]
+
+
+def split_unit(text: str) -> Heading:
+    """Return a column name or key without its unit, and the unit.
+
+    >>> split_unit("normal_force [N]")
+    Heading(name='normal_force', unit='N')
+    >>> split_unit("time")
+    Heading(name='time', unit=None)
+    """
+    match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", text)
+    name, square, round_ = match.groups() if match else (text.strip(), None, None)
+    unit = square if square is not None else round_
+    return Heading(name, None if unit is None else unit.strip())
+
+
+def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> None:
+    """Note a unit that is written and is not the one the column is read in."""
+    if unit is None:
+        return
+    plain = re.sub(r"\s+", " ", unit.strip().lower().replace("^", "").replace("²", "2").replace("³", "3"))
+    plain = re.sub(r"\s*/\s*", "/", plain)
+    if _SAME.get(plain, plain) == wanted.lower():
+        return
+    fix = f"convert the column to {wanted} and write [{wanted}]" if wanted else "write it without a unit"
+    faults.add(where, unit, f"is another unit than [{wanted or '-'}], in which it is read", fix)
+
+
+def read_sheet(path: str | Path) -> Sheet:
+    """Take a CSV file apart without reading its numbers.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : it is empty, or a constant stands there twice.
+    """
+    path = Path(path)
+    faults = FaultList()
+    constants: dict[str, tuple[int, str]] = {}
+    table: list[tuple[int, str]] = []
+    for row, line in enumerate(read_text(path, limit=MAX_BYTES).splitlines(), start=1):
+        text = line.strip()
+        if text.startswith("#"):
+            key, equals, value = text.lstrip("# ").partition("=")
+            name = key.strip()
+            if equals and name in constants:
+                faults.add(f"{path.name} row {row}", name, "stands there twice", "keep one")
+            elif equals:
+                constants[name] = (row, value.strip())
+        elif text:
+            table.append((row, text))
+    if not table:
+        faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
+        faults.raise_if_any()
+    header = [cell.strip() for cell in next(csv.reader([table[0][1]]))]
+    faults.raise_if_any()
+    return Sheet(path.name, constants, table[0][0], header, table[1:])
+
+
+def parse_numbers(
+    faults: FaultList, sheet: Sheet, names: list[str], *, blank: frozenset[str] = frozenset()
+) -> NDArray[np.float64]:
+    """Return the numbers of all rows, shape (rows, columns); each that is none is noted and NaN.
+
+    Parameters
+    ----------
+    names : what the columns are called in messages.
+    blank : the columns where a cell may be empty, which gives NaN.
+    """
+    if sheet.rows and not blank:
+        try:  # the quick way, for files in which nothing is wrong
+            numbers = np.loadtxt([text for _, text in sheet.rows], delimiter=",", ndmin=2, comments=None)
+        except ValueError:
+            numbers = np.empty((0, 0))
+        if numbers.shape == (len(sheet.rows), len(names)) and np.isfinite(numbers).all():
+            return numbers
+    values = np.full((len(sheet.rows), len(names)), np.nan)
+    enough = len(faults.faults) + MAX_CELL_FAULTS
+    for i, (row, text) in enumerate(sheet.rows):
+        if len(faults.faults) > enough:
+            faults.add(
+                sheet.file, f"{MAX_CELL_FAULTS} faults and more", "too many to list", "is it the right file?"
+            )
+            break
+        cells = [cell.strip() for cell in next(csv.reader([text]))]
+        if len(cells) != len(names):
+            rule = f"has {len(cells)} cells where {len(names)} columns are named"
+            faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
+            continue
+        for k, (name, cell) in enumerate(zip(names, cells, strict=True)):
+            if cell or name not in blank:
+                values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
+    return values
+
+
+def _number(faults: FaultList, where: str, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        rule = "is not a number" if cell else "is empty"
+        faults.add(where, cell, rule, "write one number with a decimal point, or drop the row")
+        return np.nan
+    if not np.isfinite(number):
+        faults.add(where, number, "must be finite", "drop the row or give a value")
+        return np.nan
+    return number

@@ -1,0 +1,215 @@
+"""One run on the load cell: what was recorded, at which angle, in which stream, on which plate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
+
+__all__ = ["LoadCellRun", "read_run", "refuse_radians"]
+
+MIN_SAMPLES = 32
+# Beyond this spread within one record the plate was still turning.
+MAX_TURN_DEG = 1.0
+CHANNELS = ("normal_force", "tangential_force", "moment")
+COLUMN_UNITS = {"time": "s", "normal_force": "N", "tangential_force": "N", "moment": "N m", "alpha_deg": "deg"}
+CONSTANT_UNITS = {"speed": "m/s", "density": "kg/m3", "viscosity": "m2/s", "chord": "m", "span": "m"}
+OPTIONAL_UNITS = {"thickness": "m", "channel_width": "m"}
+TARE_UNITS = {f"tare_{name}": COLUMN_UNITS[name] for name in CHANNELS}
+
+
+@dataclass(frozen=True)
+class LoadCellRun:
+    """The record of one run at one angle of attack.
+
+    Parameters
+    ----------
+    name : what the run is called in messages, such as its file.
+    time : rising times of the samples [s], shape (n,).
+    normal_force, tangential_force : along the plate's normal and towards its trailing edge [N], shape (n,).
+    moment : about mid-chord, nose-up positive [N m], shape (n,).
+    alpha_deg : angle of attack read by the encoder [deg], shape (n,) or one number.
+    speed, density, viscosity : of the stream [m/s, kg/m3, m2/s]; the viscosity is kinematic.
+    chord, span : of the plate [m].
+    thickness : of the plate [m]; 0 if not told.
+    channel_width : width of the channel across the span [m], or None.
+    tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2).
+
+    Raises
+    ------
+    InvalidInputError : a constant that is not positive, fewer than 32 samples, columns of different length, what
+        is not finite, times that do not rise, an angle that moves by more than a degree or exceeds half a turn.
+    """
+
+    name: str
+    time: NDArray[np.float64]
+    normal_force: NDArray[np.float64]
+    tangential_force: NDArray[np.float64]
+    moment: NDArray[np.float64]
+    alpha_deg: NDArray[np.float64] | float
+    speed: float
+    density: float
+    viscosity: float
+    chord: float
+    span: float
+    thickness: float = 0.0
+    channel_width: float | None = None
+    tare: ArrayLike = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0))
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        for name, unit in CONSTANT_UNITS.items():
+            faults.number(
+                f"{self.name}, {name}", getattr(self, name), above=0, unit=unit, fix="give it in SI units"
+            )
+        faults.number(f"{self.name}, thickness", self.thickness, at_least=0, unit="m")
+        if self.channel_width is not None:
+            faults.number(f"{self.name}, channel_width", self.channel_width, above=0, unit="m")
+        for name in (*COLUMN_UNITS, "tare"):
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=np.float64))
+        if np.shape(self.tare) != (3, 2) or not np.isfinite(self.tare).all():
+            faults.add(f"{self.name}, tare", self.tare, "must be three pairs of finite numbers", "before and after")
+        object.__setattr__(self, "alpha_deg", np.broadcast_to(self.alpha_deg, np.shape(self.time)))
+        _check_series(faults, self)
+        faults.raise_if_any()
+
+    @property
+    def duration(self) -> float:
+        """Length of the record, one sample's share included [s]."""
+        return float((self.time[-1] - self.time[0]) * len(self.time) / (len(self.time) - 1))
+
+    @property
+    def reynolds(self) -> float:
+        """``Re = U c / nu`` [-]."""
+        return self.speed * self.chord / self.viscosity
+
+
+def _check_series(faults: FaultList, run: LoadCellRun) -> None:
+    shape = run.time.shape
+    if len(shape) != 1 or shape[0] < MIN_SAMPLES:
+        rule = f"must hold at least {MIN_SAMPLES} samples"
+        faults.add(f"{run.name}, time", f"shape {shape}", rule, "record for longer")
+        return
+    for name in COLUMN_UNITS:
+        column = getattr(run, name)
+        if column.shape != shape:
+            faults.add(f"{run.name}, {name}", f"shape {column.shape}", f"must have the shape of time, {shape}")
+        elif not np.isfinite(column).all():
+            first = int(np.argmin(np.isfinite(column)))
+            faults.add(f"{run.name}, {name}[{first}]", float(column[first]), "must be finite", "drop the sample")
+    if len(faults.faults):
+        return
+    steps = np.diff(run.time)
+    if steps.min() <= 0:
+        first = int(np.argmin(steps > 0)) + 1
+        rule = f"must be above the {run.time[first - 1]:g} s before it"
+        faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop doubles")
+    alpha = np.asarray(run.alpha_deg)
+    if np.abs(alpha).max() > 180:
+        worst = float(alpha[np.argmax(np.abs(alpha))])
+        faults.add(f"{run.name}, alpha_deg", worst, "must lie in -180 to 180 degrees", "wrap the angle")
+    elif (spread := float(alpha.std())) > MAX_TURN_DEG:
+        rule = f"moves with a standard deviation of {spread:.2g} degrees, but a run has one angle"
+        faults.add(f"{run.name}, alpha_deg", float(alpha.mean()), rule, "write one file for each angle")
+
+
+def read_run(path: str | Path) -> LoadCellRun:
+    """Read one run from a CSV file: constants as ``# key = value`` lines, then a table of samples.
+
+    The columns are time, normal_force, tangential_force, moment and alpha_deg, in any order, each with or without
+    its unit in brackets; others are left alone. The keys are speed, density, viscosity, chord, span; optional are
+    thickness, channel_width, and tare_normal_force, tare_tangential_force, tare_moment = before, after.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are no numbers, and
+        what `LoadCellRun` refuses, each fault with its row and column.
+    """
+    sheet, faults = read_sheet(path), FaultList()
+    place = _columns(faults, sheet)
+    constants = _constants(faults, sheet)
+    if set(place) != set(COLUMN_UNITS):
+        faults.raise_if_any()
+    names = [split_unit(cell).name for cell in sheet.header]
+    numbers = parse_numbers(faults, sheet, names)
+    faults.raise_if_any()
+    series: dict[str, Any] = {name: numbers[:, k].copy() for name, k in place.items()}
+    single: dict[str, Any] = {name: values[0] for name, values in constants.items() if name not in TARE_UNITS}
+    tare = [constants.get(key, (0.0, 0.0)) for key in TARE_UNITS]
+    return LoadCellRun(sheet.file, **series, **single, tare=tare)
+
+
+def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
+    """Return the place of each column; note those missing, in another unit, or angles that are not in degrees."""
+    place: dict[str, int] = {}
+    for k, cell in enumerate(sheet.header):
+        name, unit = split_unit(cell)
+        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
+        if name in ("alpha", "angle", "alpha_rad"):
+            rule = "does not say that it is in degrees"
+            fix = "name it alpha_deg and write degrees; radians times 57.29578 are degrees"
+            faults.add(where, cell, rule, fix)
+            place["alpha_deg"] = k
+        elif name in place:
+            faults.add(where, cell, "stands there twice", "keep one")
+        elif name in COLUMN_UNITS:
+            check_unit(faults, f"{where}, {name}", unit, COLUMN_UNITS[name])
+            place[name] = k
+    for name, unit in COLUMN_UNITS.items():
+        if name not in place:
+            where = f"{sheet.file} row {sheet.header_row}, column {name}"
+            faults.add(where, ",".join(sheet.header), "the column is missing", f"add {name} [{unit}]")
+    return place
+
+
+def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
+    """Return the constants of the test; note those missing, in another unit, or that are no numbers."""
+    found: dict[str, tuple[float, ...]] = {}
+    units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
+    for key, (row, text) in sheet.constants.items():
+        name, unit = split_unit(key)
+        if name not in units:
+            continue
+        where = f"{sheet.file} row {row}, {name}"
+        check_unit(faults, where, unit, units[name])
+        wanted = 2 if name in TARE_UNITS else 1
+        cells = [cell.strip() for cell in text.split(",")]
+        # One try for the lot: "0.5 m/s" and "fast" are the same fault.
+        values: tuple[float, ...]
+        try:
+            values = tuple(float(cell) for cell in cells)
+        except ValueError:
+            values = ()
+        if len(values) != wanted:
+            rule = "must be two numbers, before and after" if wanted == 2 else "must be one number"
+            faults.add(where, text, rule, f"in {units[name]}; the unit goes in brackets before the =")
+            continue
+        found[name] = values
+    for name, unit in CONSTANT_UNITS.items():
+        if not any(split_unit(key).name == name for key in sheet.constants):
+            faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} = ...' [{unit}]")
+    return found
+
+
+def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
+    """Refuse a sweep of angles whose largest is no more than pi: it was written in radians.
+
+    Raises
+    ------
+    InvalidInputError : four angles or more, none beyond pi, and some not zero.
+    """
+    distinct = np.unique(np.round(angles, 3))
+    largest = float(np.abs(distinct).max())
+    if len(distinct) < 4 or not 0 < largest <= np.pi:
+        return
+    faults = FaultList()
+    rule = f"is the largest of {len(distinct)} angles, which looks like a sweep in radians"
+    faults.add(where, largest, rule, "write degrees (radians times 57.29578), and go beyond 4 degrees")
+    raise InvalidInputError(faults.faults)

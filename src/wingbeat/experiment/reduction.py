@@ -1,0 +1,226 @@
+"""From load-cell records to coefficients: each run by itself, then the repeats of a point together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.experiment.record import CHANNELS, MIN_SAMPLES, LoadCellRun, refuse_radians
+from wingbeat.experiment.statistics import added_variance, standard_error
+from wingbeat.experiment.table import QUANTITIES, CoefficientTable
+
+__all__ = ["RunMeans", "reduce_run", "reduce_runs"]
+
+LAST_SECONDS = 20.0
+# Repeats of one point: a positioning stage returns within a quarter degree, a stream within some per cent.
+SAME_ALPHA_DEG = 0.5
+SAME_REYNOLDS = 1.05
+# A ratio is no measurement where its denominator is as small as its error, or too small for the moment's.
+CENTRE_SIGNAL = 5.0
+CENTRE_FLOOR = 0.02
+# Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.
+_TREND_BLOCKS, _TREND_LIMIT = 16, 7.0
+_BLOCKED = 0.05
+
+
+class RunMeans(NamedTuple):
+    """Coefficients of one run: mean, standard deviation and standard error of each of `QUANTITIES`, and C_N.
+
+    `blockage` is the plate's width across the stream over the channel's, 0 where that is not told. x_cp and its
+    errors are NaN where the normal force is too small to divide by.
+    """
+
+    alpha_deg: float
+    reynolds: float
+    mean: NDArray[np.float64]
+    sd: NDArray[np.float64]
+    se: NDArray[np.float64]
+    normal: float
+    normal_se: float
+    blockage: float
+    notes: tuple[str, ...]
+
+
+def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
+    """Return the coefficients of one run from the last seconds of its record.
+
+    ``L = F_N cos a - F_T sin a``, ``D = F_N sin a + F_T cos a``; ``C_L = L/(q c h)``, ``C_D = D/(q c h)``,
+    ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. The readings in
+    still fluid are taken off, drifting linearly from the one before to the one after. Standard errors are those
+    of block means (`wingbeat.experiment.statistics`); that of the ratio x_cp is to first order.
+
+    Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
+
+    Parameters
+    ----------
+    last : length of the window at the end of the record [s]; what is before is transient.
+
+    Raises
+    ------
+    InvalidInputError : `last` not positive or longer than the record, or a window of fewer than 32 samples.
+    """
+    keep = _window(run, last)
+    share = (run.time[keep] - run.time[0]) / (run.time[-1] - run.time[0])
+    tare = np.asarray(run.tare)
+    raw = np.stack([getattr(run, name)[keep] for name in CHANNELS])
+    normal, tangential, moment = raw - tare[:, :1] - (tare[:, 1:] - tare[:, :1]) * share
+    alpha_deg = float(np.mean(np.asarray(run.alpha_deg)[keep]))
+    cos, sin = math.cos(math.radians(alpha_deg)), math.sin(math.radians(alpha_deg))
+    force = 0.5 * run.density * run.speed**2 * run.chord * run.span
+    c_n, c_t, c_m = normal / force, tangential / force, moment / (force * run.chord)
+    mean_n, mean_m = c_n.mean(), c_m.mean()
+    # How the ratio follows its parts, to first order; where there is no ratio it is not used.
+    lever = -(c_m - mean_m / mean_n * c_n) / mean_n if mean_n else np.zeros_like(c_m)
+    series = np.stack([c_n * cos - c_t * sin, c_n * sin + c_t * cos, c_m, lever, c_n])
+    mean, sd, se = series.mean(axis=1), series.std(axis=1, ddof=1), standard_error(series)
+    found = np.stack([mean, sd, se])[:, :4]
+    found[:, 3] = _centre(mean_n, mean_m, se[4], sd[3], se[3])
+    notes = _unsteady(run.name, series[:3])
+    blockage = _blockage(run, cos, sin)
+    return RunMeans(
+        alpha_deg, run.reynolds, found[0], found[1], found[2], float(mean_n), float(se[4]), blockage, notes
+    )
+
+
+def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
+    faults = FaultList()
+    fix = "give the seconds at the end of the record that are steady"
+    if faults.number("last", last, above=0, unit="s", fix=fix):
+        step = run.duration / len(run.time)
+        if last > run.duration + step:
+            rule = f"is longer than the record of {run.name}, {run.duration:.4g} s"
+            faults.add("last", last, rule, "give a smaller --last, or record for longer")
+        elif last / step < MIN_SAMPLES - 0.5:
+            rule = f"leaves fewer than {MIN_SAMPLES} samples of {run.name}"
+            faults.add("last", last, rule, "give a larger --last, or sample faster")
+    faults.raise_if_any()
+    # Half a sample of room, or rounding decides whether the first one is in.
+    return run.time > run.time[-1] - last + 0.5 * run.duration / len(run.time)
+
+
+def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float) -> tuple[float, float, float]:
+    """Return x_cp with its errors, NaN where the normal force is too small to divide by."""
+    if abs(normal) <= max(CENTRE_FLOOR, CENTRE_SIGNAL * normal_se):
+        return math.nan, math.nan, math.nan
+    return 0.5 - moment / normal, sd, se
+
+
+def _unsteady(name: str, series: NDArray[np.float64]) -> tuple[str, ...]:
+    """Say which coefficients drift within the window by more than their block means scatter about a line."""
+    size = series.shape[1] // _TREND_BLOCKS
+    blocks = series[:, : size * _TREND_BLOCKS].reshape(len(series), _TREND_BLOCKS, size).mean(axis=2)
+    place = np.linspace(-1.0, 1.0, _TREND_BLOCKS)
+    slope = blocks @ place / (place @ place)
+    left = blocks - blocks.mean(axis=1, keepdims=True) - slope[:, None] * place
+    error = np.sqrt((left**2).sum(axis=1) / (_TREND_BLOCKS - 2) / (place @ place))
+    drifts = np.abs(slope) > np.maximum(_TREND_LIMIT * error, 1e-9)
+    moved = [label for label, drifting in zip(QUANTITIES, drifts, strict=False) if drifting]
+    if not moved:
+        return ()
+    return (f"{name}: {', '.join(moved)} still moves within the window; give a smaller --last",)
+
+
+def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
+    """Return the plate's width across the stream over the channel's, 0 where that is not told."""
+    if run.channel_width is None:
+        return 0.0
+    return (run.chord * abs(sin) + run.thickness * abs(cos)) / run.channel_width
+
+
+def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> CoefficientTable:
+    """Return the coefficients of a campaign: one row for each angle and Reynolds number, repeats pooled.
+
+    Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is that of
+    its runs; its standard error is ``sqrt(sum se^2 / R^2 + tau^2 / R)``, where tau^2 is what the repeats scatter
+    beyond their own errors, estimated for each coefficient from all points of a Reynolds number together, and 0
+    unless it stands out. The standard deviation is that of the samples within runs; x_cp is that of the pooled
+    force and moment.
+
+    Raises
+    ------
+    InvalidInputError : no runs, a sweep of angles in radians, and what `reduce_run` refuses.
+    """
+    if not runs:
+        faults = FaultList()
+        faults.add("runs", "none", "there is nothing to reduce", "name at least one run")
+        faults.raise_if_any()
+    means = [reduce_run(run, last) for run in runs]
+    alpha = np.array([one.alpha_deg for one in means])
+    refuse_radians("alpha_deg of the runs", alpha)
+    stream = _clusters(np.log([one.reynolds for one in means]), math.log(SAME_REYNOLDS))
+    point = np.zeros(len(means), dtype=np.intp)
+    for k in range(stream.max() + 1):
+        here = stream == k
+        point[here] = _clusters(alpha[here], SAME_ALPHA_DEG) + (point.max() + 1 if k else 0)
+    return _pooled(means, stream, point)
+
+
+def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
+    """Return, for each value, the number of its cluster: a new one begins where the sorted values leap."""
+    order = np.argsort(values, kind="stable")
+    number = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
+    clusters = np.empty(len(values), dtype=np.intp)
+    clusters[order] = number
+    return clusters
+
+
+def _pooled(means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp]) -> CoefficientTable:
+    count = np.bincount(point)
+
+    def average(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.bincount(point, values) / count
+
+    def variance(values: NDArray[np.float64], errors: NDArray[np.float64]) -> Variance:
+        between = np.zeros(len(count))
+        for k in range(stream.max() + 1):
+            here = stream == k
+            groups, repeat = np.unique(point[here], return_inverse=True)
+            between[groups] = added_variance(values[here], errors[here], repeat)
+        return Variance(np.bincount(point, errors**2) / count**2, between / count)
+
+    value, sd, se = (np.array([getattr(one, name) for one in means]) for name in ("mean", "sd", "se"))
+    mean = {name: average(value[:, i]) for i, name in enumerate(QUANTITIES)}
+    spread = {name: np.sqrt(average(sd[:, i] ** 2)) for i, name in enumerate(QUANTITIES)}
+    parts = {name: variance(value[:, i], se[:, i]) for i, name in enumerate(QUANTITIES[:3])}
+    normal = average(np.array([one.normal for one in means]))
+    of_normal = variance(np.array([one.normal for one in means]), np.array([one.normal_se for one in means]))
+    error = {name: np.sqrt(part.within + part.between) for name, part in parts.items()}
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lever = mean["C_M"] / normal
+        # What repeats add is added to force and moment: the ratio feels it most where the force is small.
+        between = (parts["C_M"].between + lever**2 * of_normal.between) / normal**2
+        # Runs without a centre leave the error NaN, and the cell empty with it.
+        error["x_cp"] = np.sqrt(np.bincount(point, se[:, 3] ** 2) / count**2 + between)
+    floor = np.maximum(CENTRE_FLOOR, CENTRE_SIGNAL * np.sqrt(of_normal.within + of_normal.between))
+    known = (np.abs(normal) > floor) & np.isfinite(error["x_cp"])
+    for column, values in ((mean, 0.5 - lever), (spread, spread["x_cp"]), (error, error["x_cp"])):
+        column["x_cp"] = np.where(known, values, np.nan)
+    return CoefficientTable(
+        alpha_deg=average(np.array([one.alpha_deg for one in means])),
+        reynolds=average(np.array([one.reynolds for one in means])),
+        mean=mean,
+        sd=spread,
+        se=error,
+        runs=count,
+        notes=_notes(means),
+    )
+
+
+class Variance(NamedTuple):
+    """Variance of each point's mean: from its samples, and from what its repeats scatter beyond."""
+
+    within: NDArray[np.float64]
+    between: NDArray[np.float64]
+
+
+def _notes(means: list[RunMeans]) -> tuple[str, ...]:
+    notes = [note for one in means for note in one.notes]
+    blockage = max((one.blockage for one in means), default=0.0)
+    if blockage > _BLOCKED:
+        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; nothing was corrected")
+    return tuple(notes)

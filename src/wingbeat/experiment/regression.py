@@ -1,0 +1,301 @@
+"""Weighted least squares of one curve, with everything that says how far to trust it."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.experiment.forms import CurveForm
+
+__all__ = ["CurveFit", "FitRangeWarning", "fit_curve"]
+
+Array = NDArray[np.float64]
+# The scaled Jacobian loses half its digits beyond this.
+ILL_CONDITIONED = 1e4
+
+
+class FitRangeWarning(UserWarning):
+    """A fitted curve was evaluated outside the angles it was fitted to."""
+
+
+@dataclass(frozen=True)
+class CurveFit:
+    """A fitted curve: `parameters` by name, their `covariance` in that order, and the data it came from.
+
+    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so that scatter beyond the standard errors
+    given widens it, as does a form that does not fit. `sigma` are those errors, all one where none were given.
+    """
+
+    label: str
+    form: CurveForm
+    parameters: dict[str, float]
+    covariance: Array
+    condition: float
+    alpha_deg: Array
+    values: Array
+    sigma: Array
+    weighted: bool
+    notes: tuple[str, ...]
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom, points less parameters."""
+        return len(self.values) - len(self.parameters)
+
+    @property
+    def residuals(self) -> Array:
+        """Measured less fitted, shape (n,)."""
+        return self.values - self.form.value(self.alpha_deg, self.parameters)
+
+    @property
+    def chi_squared(self) -> float:
+        """Sum of squares of residuals over their standard errors."""
+        return self._misfit(self.parameters)
+
+    @property
+    def r_squared(self) -> float:
+        """``R^2 = 1 - sum r^2 / sum (y - mean y)^2``, unweighted, as the paper has it; NaN for constant data."""
+        total = float(((self.values - self.values.mean()) ** 2).sum())
+        return 1.0 - float((self.residuals**2).sum()) / total if total > 0 else math.nan
+
+    @property
+    def aicc(self) -> float:
+        """Akaike's criterion for small samples: the lower of two forms on the same data is the better one.
+
+        ``n ln(chi^2/n) + 2k + 2k(k+1)/(n-k-1)``, k parameters and a variance: Hurvich and Tsai 1989, doi
+        10.1093/biomet/76.2.297. NaN where there are no more points than that; -inf for a perfect fit.
+        """
+        n, k = len(self.values), len(self.parameters) + 1
+        if n - k - 1 <= 0:
+            return math.nan
+        misfit = self.chi_squared
+        likelihood = n * math.log(misfit / n) if misfit > 0 else -math.inf
+        return likelihood + 2 * k + 2 * k * (k + 1) / (n - k - 1)
+
+    @property
+    def standard_errors(self) -> dict[str, float]:
+        """Standard error of each parameter."""
+        return dict(zip(self.parameters, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
+
+    def interval(self, confidence: float = 0.95) -> dict[str, tuple[float, float]]:
+        """Return the confidence interval of each parameter by Student's t, to first order in the parameters.
+
+        Raises
+        ------
+        InvalidInputError : a confidence not between 0 and 1.
+        """
+        from scipy.stats import t
+
+        _check_confidence(confidence)
+        reach = float(t.ppf(0.5 + 0.5 * confidence, self.freedom))
+        errors = self.standard_errors
+        return {n: (v - reach * errors[n], v + reach * errors[n]) for n, v in self.parameters.items()}
+
+    def covers(self, parameters: dict[str, float], confidence: float = 0.95) -> bool:
+        """Say whether parameters lie in the joint confidence region of all of them.
+
+        The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41), which stays
+        right where the parameters are so correlated that the ellipse of the covariance does not.
+
+        Raises
+        ------
+        InvalidInputError : other names than those of the fit, a confidence not between 0 and 1.
+        """
+        from scipy.stats import f
+
+        _check_confidence(confidence)
+        faults = FaultList()
+        if set(parameters) != set(self.parameters):
+            names = ", ".join(self.parameters)
+            faults.add("parameters", ", ".join(parameters), "are not those of the fit", f"give {names}")
+        faults.raise_if_any()
+        count = len(self.parameters)
+        room = 1.0 + count / self.freedom * float(f.ppf(confidence, count, self.freedom))
+        return self._misfit(parameters) <= self.chi_squared * room
+
+    def predict(self, alpha_deg: ArrayLike) -> Array:
+        """Return the curve at angles [deg], shape (n,); `FitRangeWarning` outside those it was fitted to."""
+        a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
+        low, high = float(self.alpha_deg.min()), float(self.alpha_deg.max())
+        if a.min() < low - 1e-9 or a.max() > high + 1e-9:
+            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used beyond"
+            warnings.warn(text, FitRangeWarning, stacklevel=2)
+        return self.form.value(a, self.parameters)
+
+    def band(self, alpha_deg: ArrayLike, confidence: float = 0.95, *, of_mean: bool = False) -> Array:
+        """Return the half width of the band about the curve, shape (n,).
+
+        Parameters
+        ----------
+        alpha_deg : angles [deg], shape (n,).
+        of_mean : the band that holds the curve itself, and not a new measurement as precise as those there.
+
+        Raises
+        ------
+        InvalidInputError : a confidence not between 0 and 1.
+        """
+        from scipy.stats import t
+
+        _check_confidence(confidence)
+        a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
+        slopes = self.form.slopes(a, self.parameters)
+        variance = np.einsum("ij,jk,ik->i", slopes, self.covariance, slopes)
+        if not of_mean:
+            angles, place = np.unique(np.round(self.alpha_deg, 6), return_inverse=True)
+            there = np.bincount(place, self.sigma**2) / np.bincount(place)
+            variance = variance + np.interp(a, angles, there) * self.chi_squared / self.freedom
+        return float(t.ppf(0.5 + 0.5 * confidence, self.freedom)) * np.sqrt(np.maximum(variance, 0.0))
+
+    def _misfit(self, parameters: dict[str, float]) -> float:
+        scaled = (self.values - self.form.value(self.alpha_deg, parameters)) / self.sigma
+        return float(scaled @ scaled)
+
+
+def _check_confidence(confidence: float) -> None:
+    faults = FaultList()
+    faults.number("confidence", confidence, above=0, below=1, fix="95 % is 0.95")
+    faults.raise_if_any()
+
+
+def fit_curve(
+    alpha_deg: ArrayLike, values: ArrayLike, form: CurveForm, sigma: ArrayLike | None = None, label: str = "curve"
+) -> CurveFit:
+    """Fit a curve to measurements by weighted least squares.
+
+    Parameters
+    ----------
+    alpha_deg, values : angles [deg] and what was measured there, shape (n,).
+    form : the curve.
+    sigma : standard error of each measurement, shape (n,); None weighs all alike.
+    label : what the quantity is called in messages.
+
+    Raises
+    ------
+    InvalidInputError : columns of different length or not finite, fewer than two points more than parameters,
+        fewer angles than parameters, errors that are not positive, a form that does not hold at the negative
+        angles given, or a form of the user's own that gives no finite numbers.
+
+    >>> a = np.arange(0.0, 91.0, 10.0)
+    >>> line = CurveForm("m a + b", lambda a, m, b: m * a + b, {"m": 0.0, "b": 0.0})
+    >>> {name: round(value, 9) for name, value in fit_curve(a, 2 * a + 1, line).parameters.items()}
+    {'m': 2.0, 'b': 1.0}
+    """
+    a, y = np.asarray(alpha_deg, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    errors = np.ones_like(y) if sigma is None else np.asarray(sigma, dtype=np.float64)
+    _check_data(a, y, errors, form, label)
+    best = _least_squares(a, y, errors, form, label)
+    parameters = _tidy(dict(zip(form.names, best.x.tolist(), strict=True)))
+    slopes = form.slopes(a, parameters) / errors[:, None]
+    sizes = np.linalg.norm(slopes, axis=0)
+    sizes = np.where(sizes > 0, sizes, 1.0)
+    # By singular values of the scaled slopes: the normal matrix would square the condition.
+    _, singular, right = np.linalg.svd(slopes / sizes, full_matrices=False)
+    floor = max(float(singular[0]), 1e-300) * np.finfo(float).eps
+    inverse = right.T / np.maximum(singular, floor)
+    condition = float(singular[0] / max(float(singular[-1]), floor))
+    left = (y - form.value(a, parameters)) / errors
+    covariance = (inverse @ inverse.T) / np.outer(sizes, sizes) * float(left @ left) / (len(y) - len(parameters))
+    found = CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, ())
+    notes = _distrust(found)
+    return CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, notes)
+
+
+def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) -> None:
+    faults = FaultList()
+    if not a.shape == y.shape == errors.shape or a.ndim != 1:
+        shapes = f"{a.shape}, {y.shape}, {errors.shape}"
+        faults.add(label, shapes, "angles, values and errors must be lists of one length")
+        faults.raise_if_any()
+    for name, column in (("alpha_deg", a), (label, y), (f"{label}_se", errors)):
+        if not np.isfinite(column).all():
+            row = int(np.argmin(np.isfinite(column)))
+            faults.add(f"{name}[{row}]", float(column[row]), "must be finite", "drop the row")
+    if (errors <= 0).any():
+        row = int(np.argmax(errors <= 0))
+        fix = "give every row its standard error, or leave the column out"
+        faults.add(f"{label}_se[{row}]", float(errors[row]), "must be > 0 to weigh a row by it", fix)
+    count, angles = len(form.names), len(np.unique(np.round(a, 6)))
+    if len(y) < count + 2:
+        rule = f"are too few for the {count} parameters of {form.formula}"
+        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a plainer form")
+    elif angles < count:
+        rule = f"are too few to tell {count} parameters apart"
+        faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
+    if form.only_positive and len(a) and a.min() < 0:
+        rule = f"is below 0, where {form.formula} does not hold"
+        faults.add("alpha_deg", float(a.min()), rule, "fit from 0 up (--alpha-min 0), or choose dickinson")
+    faults.raise_if_any()
+
+
+def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: str) -> Any:
+    """Return the best of the searches from each of the form's starts."""
+    from scipy.optimize import least_squares
+
+    names = form.names
+    bounds = [form.lowest.get(n, -math.inf) for n in names], [form.highest.get(n, math.inf) for n in names]
+
+    def residuals(x: Array) -> Array:
+        return (form.value(a, dict(zip(names, x.tolist(), strict=True))) - y) / errors
+
+    def slopes(x: Array) -> Array:
+        return form.slopes(a, dict(zip(names, x.tolist(), strict=True))) / errors[:, None]
+
+    best: Any = None
+    for start in form.starts(a, y, 1.0 / errors):
+        x = np.clip([start[name] for name in names], *bounds)
+        if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
+            faults = FaultList()
+            faults.add(label, form.formula, "gives no finite numbers where the fit begins", "change its start")
+            faults.raise_if_any()
+        tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
+        found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
+        if best is None or found.cost < best.cost:
+            best = found
+    return best
+
+
+def _tidy(parameters: dict[str, float]) -> dict[str, float]:
+    """Return the same sine with a positive amplitude and a phase within half a turn."""
+    if "phase_deg" not in parameters or "amplitude" not in parameters:
+        return parameters
+    tidy = dict(parameters)
+    if tidy["amplitude"] < 0:
+        tidy["amplitude"], tidy["phase_deg"] = -tidy["amplitude"], tidy["phase_deg"] + 180.0
+    tidy["phase_deg"] = (tidy["phase_deg"] + 180.0) % 360.0 - 180.0
+    return tidy
+
+
+def _distrust(fit: CurveFit) -> tuple[str, ...]:
+    """Say which parameters the data do not determine."""
+    notes = []
+    for name, value in fit.parameters.items():
+        ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
+        if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
+            notes.append(f"{fit.label}: {name} ran into the limit of its search, {value:g}; the form does not fit")
+    limits = fit.interval()
+    loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
+    if loose:
+        text = f"{fit.label}: too uncertain to mean anything: {', '.join(loose)}"
+        notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
+    if fit.condition > ILL_CONDITIONED:
+        notes.append(
+            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters stand in for one another; "
+            "measure over more angles or choose a form with fewer"
+        )
+    return tuple(notes)
+
+
+def _room(fit: CurveFit, name: str) -> float:
+    """Return how far a parameter's interval may reach before it says nothing: as far as its own size."""
+    value = abs(fit.parameters[name])
+    if name == "phase_deg":
+        return 45.0
+    if name == "constant":  # which may be 0, and is then known well if it is small beside the curve
+        return max(value, float(np.ptp(fit.values)))
+    return max(value, 1e-12)

@@ -1,0 +1,126 @@
+"""The page that shows a fit: measurements with their errors, curves with their bands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.experiment import CurveFit, WingFit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# Okabe and Ito's colours, told apart by colour-blind eyes, each with a mark of its own for grey prints.
+_STREAMS = (("#0072B2", "o"), ("#E69F00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#56B4E9", "v"))
+_CURVE, _BAND = "#D55E00", "#D55E00"
+_LABELS = {
+    "C_L": "lift coefficient $C_L$ [-]",
+    "C_D": "drag coefficient $C_D$ [-]",
+    "x_cp": "centre of pressure $x_{cp}$ [chords]",
+    "C_M": "moment coefficient $C_M$ about 0.5 c [-]",
+}
+
+
+def fit_page(fit: WingFit) -> Figure:
+    """Return a figure with a panel for C_L, C_D and, where there are any, x_cp and C_M.
+
+    Points are the measurements with two standard errors either side; the curve is the fit with the 95 % band of a
+    new measurement, C_M the curve that follows from the other three.
+    """
+    from matplotlib.figure import Figure
+
+    shown = ["C_L", "C_D", *(name for name in ("x_cp", "C_M") if name in fit.table.mean)]
+    rows = (len(shown) + 1) // 2
+    figure = Figure(figsize=(9, 1.0 + 3.1 * rows), layout="constrained")
+    panels = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
+    for axes, name in zip(panels, shown, strict=False):
+        _draw_data(axes, fit, name)
+        if name in fit.curves:
+            _draw_curve(axes, fit.curves[name])
+        elif name == "C_M":
+            _draw_moment(axes, fit)
+        if name != "x_cp":  # which never comes near 0, and would lie flat under it
+            axes.axhline(0.0, color="0.6", linewidth=0.6, zorder=0)
+        axes.grid(color="0.92", linewidth=0.6)
+        axes.set(ylabel=_LABELS[name])
+        axes.tick_params(labelbottom=True)
+    for axes in panels[len(shown) :]:
+        axes.set_axis_off()
+    for axes in panels[: len(shown)]:
+        axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
+    figure.suptitle(f"{fit.name}: form {fit.form}" + (f"; {fit.citation}" if fit.citation else ""), fontsize=10)
+    handles: dict[str, Any] = {}
+    for axes in panels[: len(shown)]:
+        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    return figure
+
+
+def _draw_data(axes: Axes, fit: WingFit, name: str) -> None:
+    table = fit.table
+    values, errors = table.mean[name], table.se.get(name)
+    for label, rows, (colour, mark) in _streams(fit):
+        bars = None if errors is None else 2 * errors[rows]
+        axes.errorbar(
+            table.alpha_deg[rows],
+            values[rows],
+            bars,
+            color=colour,
+            marker=mark,
+            markersize=3,
+            markerfacecolor="none",
+            markeredgewidth=0.7,
+            linestyle="",
+            elinewidth=0.7,
+            label=label + ("" if errors is None else ", ±2 s.e."),
+            zorder=2,
+        )
+
+
+def _streams(fit: WingFit) -> list[tuple[str, Any, tuple[str, str]]]:
+    """Return label, rows and look of each Reynolds number, or of all rows where there are more than five."""
+    reynolds = fit.table.reynolds
+    if reynolds is None:
+        return [("measured", slice(None), _STREAMS[0])]
+    order = np.argsort(reynolds, kind="stable")
+    leap = np.diff(reynolds[order]) > 0.05 * reynolds[order][:-1]
+    group = np.empty(len(order), dtype=np.intp)
+    group[order] = np.concatenate([[0], np.cumsum(leap)])
+    count = int(group.max()) + 1
+    if count > len(_STREAMS):
+        return [(f"measured, Re {reynolds.min():.0f} to {reynolds.max():.0f}", slice(None), _STREAMS[0])]
+    return [(f"Re {reynolds[group == k].mean():.0f}", group == k, _STREAMS[k]) for k in range(count)]
+
+
+def _draw_curve(axes: Axes, curve: CurveFit) -> None:
+    alpha = np.linspace(curve.alpha_deg.min(), curve.alpha_deg.max(), 801)
+    value, reach = curve.predict(alpha), curve.band(alpha)
+    axes.fill_between(
+        alpha,
+        value - reach,
+        value + reach,
+        color=_BAND,
+        alpha=0.25,
+        linewidth=0,
+        label="95 % of new points",
+        zorder=1,
+    )
+    axes.plot(alpha, value, color=_CURVE, linewidth=1.2, label="fit", zorder=3)
+    axes.set_title(f"$R^2$ = {_shown(curve.r_squared)}", loc="right", fontsize=8)
+
+
+def _shown(r_squared: float) -> str:
+    """Return R-squared cut, not rounded: 0.99996 is not 1."""
+    return f"{np.floor(r_squared * 1e4) / 1e4:.4f}" if np.isfinite(r_squared) else "-"
+
+
+def _draw_moment(axes: Axes, fit: WingFit) -> None:
+    if fit.centre is None:
+        return
+    angles = fit.centre.alpha_deg
+    alpha = np.linspace(angles.min(), angles.max(), 801)
+    axes.plot(
+        alpha, fit.moment(alpha), color=_CURVE, linewidth=1.2, linestyle="--", zorder=3, label="from the fits"
+    )

@@ -1,0 +1,1 @@
+"""From load-cell records to coefficient models."""

@@ -33,8 +33,11 @@ COMMANDS = {
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the animals in the box, or a file of your own, with the source of every number.",
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
+    "reduce": "Turn load-cell records into lift, drag, moment and centre-of-pressure coefficients.",
+    "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
+    "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }
 

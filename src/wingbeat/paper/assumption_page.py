@@ -1,0 +1,186 @@
+"""What a study of assumptions found, as a page to read, a table of every set, and one figure."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wingbeat.files import write_atomically
+from wingbeat.paper.assumptions import ASSUMPTIONS
+from wingbeat.paper.importance import Importance, importance
+from wingbeat.paper.study import Study
+from wingbeat.plots import save_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# A claim must hold in this many sets before its never holding beside another one says anything.
+_OFTEN = 20
+# Assumptions that explain less of a claim's number than this are not named in words.
+_TELLING = 0.05
+# A surface that explains less than this of numbers it has not seen says little of what a claim hangs on.
+_TRUSTED = 0.3
+_BEST = 5
+
+
+def write_study(study: Study, folder: Path, heading: str) -> list[Path]:
+    """Write assumptions.md, .csv, .png and .pdf into a folder.
+
+    Parameters
+    ----------
+    study : what was run.
+    folder : where to.
+    heading : a line on how it was run: command, time.
+
+    Raises
+    ------
+    FileError : a file cannot be written.
+    """
+    hangs = [importance(study.sets, numbers) for numbers in study.numbers.T]
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"assumptions.{ending}" for ending in ("md", "csv", "png", "pdf")]
+    write_atomically(paths[0], page(study, hangs, heading))
+    write_atomically(paths[1], table(study))
+    figure = draw(study, hangs)
+    save_figure(figure, paths[2])
+    save_figure(figure, paths[3])
+    return paths
+
+
+def table(study: Study) -> str:
+    """Return every set in a line: its assumptions, orbits certified, each claim's number and verdict."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [assumption.name for assumption in ASSUMPTIONS]
+    claims = [f"{claim.id}{end}" for claim in study.claims for end in ("", ":holds")]
+    writer.writerow([*names, "certified", *claims])
+    for values, numbers, holds, flown in zip(study.sets, study.numbers, study.holds, study.flown, strict=True):
+        said = [cell for n, h in zip(numbers, holds, strict=True) for cell in (_cell(n, ".4g"), _cell(h, ".0f"))]
+        assumed = [v if isinstance(v, str) else f"{v:.4g}" for v in (values[name] for name in names)]
+        writer.writerow([*assumed, int(flown), *said])
+    return text.getvalue()
+
+
+def _cell(number: float, form: str) -> str:
+    return format(number, form) if np.isfinite(number) else ""
+
+
+def page(study: Study, hangs: Sequence[Importance | None], heading: str) -> str:
+    """Return the page."""
+    kept = np.nansum(study.holds, axis=1)
+    lines = [
+        "# What the paper's claims hang on",
+        "",
+        "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder, bounds or treatment of negative "
+        "angles "
+        f"of attack. Here {len(study.sets)} sets of assumptions, spread evenly over the plausible ranges below "
+        "with the "
+        "animals' whole masses held at the paper's, each ask for "
+        f"{study.asked} least-frequency orbits: pigeon and bat, both coefficient models, at the speeds the "
+        "claims need. "
+        f"{100 * study.flown.sum() / (study.asked * len(study.sets)):.0f} % of them were found and certified.",
+        "",
+        heading,
+        "",
+        "![Share of sets that satisfy each claim, and what it hangs on](assumptions.png)",
+        "",
+        "## Claim by claim",
+        "",
+        "*Told* is the share of sets whose orbits exist to test the claim; *holds* the share of those that "
+        "satisfy it. "
+        "*Hangs on* names the assumptions that explain at least a twentieth of the claim's number in a quadratic "
+        "response surface (share of the variance of its rank), *quality* how much of numbers it has not seen the "
+        f"surface explains; below {_TRUSTED:g} it says little.",
+        "",
+        "| claim | holds [%] | told [%] | hangs on | quality |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for claim, holds, hang in zip(study.claims, study.holds.T, hangs, strict=True):
+        told = np.isfinite(holds)
+        share = f"{100 * holds[told].mean():.0f}" if told.any() else "-"
+        quality = "-" if hang is None else f"{hang.quality:.2f}"
+        lines.append(f"| {claim.claim} | {share} | {100 * told.mean():.0f} | {_named(hang)} | {quality} |")
+    lines += [
+        "",
+        "## All at once",
+        "",
+        f"No set satisfies more than {kept.max():.0f} of the {len(study.claims)} claims; half of the sets "
+        "satisfy at "
+        f"least {np.median(kept):.0f}.",
+        "",
+        *_apart(study),
+        "",
+        f"The {_BEST} sets that satisfy most:",
+        "",
+        "| " + " | ".join(["claims", *(a.name for a in ASSUMPTIONS), "claims not satisfied"]) + " |",
+        "| " + " | ".join(["---"] * (len(ASSUMPTIONS) + 2)) + " |",
+    ]
+    for i in np.argsort(-kept, kind="stable")[:_BEST]:
+        missed = [claim.id for claim, holds in zip(study.claims, study.holds[i], strict=True) if holds != 1]
+        assumed = [v if isinstance(v, str) else f"{v:.3g}" for v in (study.sets[i][a.name] for a in ASSUMPTIONS)]
+        lines.append("| " + " | ".join([f"{kept[i]:.0f}", *assumed, ", ".join(missed)]) + " |")
+    lines += ["", "## What was sampled", "", "| assumption | range | why |", "| --- | --- | --- |"]
+    for a in ASSUMPTIONS:
+        span = ", ".join(a.choices) if a.choices else f"{a.low:g} to {a.high:g}"
+        lines.append(f"| {a.name}: {a.words} | {span} | {a.source} |")
+    return "\n".join(lines) + "\n"
+
+
+def _named(hang: Importance | None) -> str:
+    if hang is None:
+        return "-"
+    order = [i for i in np.argsort(-hang.shares) if hang.shares[i] >= _TELLING]
+    return ", ".join(f"{ASSUMPTIONS[i].name} {hang.shares[i]:.2f}" for i in order) or "none of them alone"
+
+
+def _apart(study: Study) -> list[str]:
+    """Return a line for each pair of claims that hold often, but never together."""
+    lines = []
+    often = [k for k in range(len(study.claims)) if np.nansum(study.holds[:, k]) >= _OFTEN]
+    for i, k in enumerate(often):
+        for other in often[i + 1 :]:
+            both = np.isfinite(study.holds[:, k]) & np.isfinite(study.holds[:, other])
+            if both.sum() >= _OFTEN and not (study.holds[both, k] * study.holds[both, other]).any():
+                lines.append(f"- never together: `{study.claims[k].id}` and `{study.claims[other].id}`")
+    never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
+    if never:
+        lines.append(f"- under no set: {', '.join(f'`{name}`' for name in never)}")
+    return lines or ["- every pair of claims that hold in many sets holds together in some"]
+
+
+def draw(study: Study, hangs: Sequence[Importance | None]) -> Figure:
+    """Draw, for each claim, the share of sets that satisfy it and what its number hangs on."""
+    from matplotlib.figure import Figure
+
+    count = len(study.claims)
+    figure = Figure(figsize=(10.0, 0.27 * count + 2.0), layout="constrained")
+    bars, heat, fits = figure.subplots(1, 3, sharey=True, width_ratios=(1.1, 3.0, 0.5))
+    places = np.arange(count)
+    told = np.isfinite(study.holds)
+    share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
+    bars.barh(places, share, color="#0072B2", height=0.7)
+    bars.plot(100 * told.mean(axis=0), places, "|", color="#D55E00", markersize=9, label="sets that tell")
+    bars.set(xlim=(0, 103), xlabel="sets that satisfy it [%]")
+    bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
+    bars.legend(fontsize=7, loc="lower right", frameon=True)
+    shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
+    image = heat.imshow(100 * shares, aspect="auto", cmap="cividis_r", vmin=0, vmax=60)
+    names = [assumption.name.replace("_", " ").removesuffix(" deg") for assumption in ASSUMPTIONS]
+    heat.set_xticks(np.arange(len(ASSUMPTIONS)), names, rotation=40, ha="right", fontsize=8)
+    figure.colorbar(image, ax=heat, label="share of its number explained [%]", fraction=0.03, pad=0.01)
+    quality = np.array([np.nan if h is None else h.quality for h in hangs])
+    fits.barh(places, np.maximum(quality, 0.0), color="#009E73", height=0.7)
+    fits.axvline(_TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
+    fits.set(xlim=(0, 1), xlabel="surface R² [-]")
+    heat.invert_yaxis()
+    for axes, letter in ((bars, "a"), (heat, "b"), (fits, "c")):
+        axes.set_title(letter, loc="left", fontsize=9, fontweight="bold")
+        axes.tick_params(length=2)
+    title = f"{len(study.sets)} sets of assumptions: which claims hold, and what they hang on"
+    figure.suptitle(title, fontsize=10)
+    return figure

@@ -1,0 +1,159 @@
+"""Sets of assumptions where the paper is silent: what is sampled, in what range, and the problems that follow."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.aero import EXTENSIONS, BladeElement, load_coefficients
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.species import load_species
+
+# Trims that are free, besides frequency, flap amplitude and pitch amplitude, which the paper names.
+TRIMS = ("both", "pitch-mean", "flap-mean", "none")
+FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """One thing that the paper leaves open: a range of numbers, or a choice of words.
+
+    Parameters
+    ----------
+    name : as in tables.
+    words : what it is, with its unit.
+    source : why this range.
+    low, high : the range; ignored if there are choices.
+    choices : words to choose from; empty for a number.
+    """
+
+    name: str
+    words: str
+    source: str
+    low: float = 0.0
+    high: float = 1.0
+    choices: tuple[str, ...] = ()
+
+    def at(self, share: float) -> float | str:
+        """Return the value at a share of the range, 0 to 1."""
+        if self.choices:
+            return self.choices[min(int(share * len(self.choices)), len(self.choices) - 1)]
+        return self.low + share * (self.high - self.low)
+
+
+ASSUMPTIONS = (
+    Assumption(
+        "wing_mass_share",
+        "mass of one wing over that of the animal",
+        "pigeon 6.3 (van den Berg and Rayner 1995) to 9.6 % (Harvey et al. 2022), bats 5.4 to 7 %",
+        0.05,
+        0.10,
+    ),
+    Assumption(
+        "mass_exponent",
+        "wing mass per span as (1 - s/L)^p",
+        "0 is even; 2 and 4 match van den Berg and Rayner 1995 and Harvey et al. 2022",
+        0.0,
+        4.0,
+    ),
+    Assumption("taper", "tip chord over root chord, same area", "the paper's rectangle is 1", 0.3, 1.0),
+    Assumption(
+        "body_inertia_factor",
+        "pitch inertia of the body over the species file's",
+        "first guesses and a scaled dissection differ by 1.7",
+        0.6,
+        1.7,
+    ),
+    Assumption(
+        "shoulder_ahead",
+        "shoulder ahead of the body's centre of mass over semi-span",
+        "0 by default; .13 in Harvey et al. 2022's pigeon",
+        0.0,
+        0.13,
+    ),
+    Assumption(
+        "shoulder_above", "shoulder above it over semi-span", "0 by default; .03 in the same pigeon", 0.0, 0.04
+    ),
+    Assumption(
+        "span_retraction", "share of span drawn in at mid-upstroke, pigeon", "the paper gives no number", 0.0, 0.5
+    ),
+    Assumption("twist_ratio", "pitch at the tip over that at the root, bat", "1.6 in the paper", 1.3, 1.9),
+    Assumption(
+        "flap_amplitude_deg",
+        "largest flap amplitude allowed [deg]",
+        "half of 90 (Bullen and McKenzie 2002 at 10 m/s) to 140 deg (their largest)",
+        40.0,
+        70.0,
+    ),
+    Assumption("trims", "mean angles that are free", "the paper names neither", choices=TRIMS),
+    Assumption("extension", "coefficients at negative angles", "the paper does not say", choices=EXTENSIONS),
+    Assumption(
+        "force_point",
+        "where the force acts, Su-Fan (Dickinson's has no centre of pressure)",
+        "quarter chord in the paper, which fits a centre of pressure all the same",
+        choices=FORCE_POINTS,
+    ),
+    Assumption(
+        "body_drag_factor",
+        "drag area of the body over .2 times Pennycuick's frontal area",
+        "the paper names no body drag",
+        0.0,
+        1.0,
+    ),
+)
+
+Values = dict[str, float | str]
+
+
+def sample_sets(count: int, seed: int = 0) -> list[Values]:
+    """Return sets of assumptions that fill their ranges, by a Latin hypercube.
+
+    >>> [round(s["taper"], 2) for s in sample_sets(2, seed=1)]
+    [0.36, 0.71]
+    """
+    from scipy.stats import qmc
+
+    shares = qmc.LatinHypercube(len(ASSUMPTIONS), rng=np.random.default_rng(seed)).random(count)
+    return [{a.name: a.at(float(share)) for a, share in zip(ASSUMPTIONS, row, strict=True)} for row in shares]
+
+
+def problem_under(values: Values, animal: str, model: str, speed: float) -> OrbitProblem:
+    """Return the orbit problem of an animal and a coefficient model under a set of assumptions."""
+    number = {name: value for name, value in values.items() if isinstance(value, float)}
+    species = load_species(animal)
+    vehicle, mass, span = species.vehicle, species.vehicle.mass, species.vehicle.wing.semi_span
+    root = 2.0 * vehicle.wing.mean_chord / (1.0 + number["taper"])
+    wing_mass = number["wing_mass_share"] * mass
+    changed = {
+        "wing.mass": wing_mass,
+        "body.mass": mass - 2.0 * wing_mass,
+        "wing.mass_exponent": number["mass_exponent"],
+        "wing.chord": (root, number["taper"] * root),
+        "body.pitch_inertia": number["body_inertia_factor"] * vehicle.body.pitch_inertia,
+        "wing.shoulder": (number["shoulder_ahead"] * span, 0.0, number["shoulder_above"] * span),
+        # Frontal area .00813 m^.666 (Pennycuick et al. 1988), drag coefficient .2.
+        "body.drag_area": number["body_drag_factor"] * 0.2 * 0.00813 * mass**0.666,
+    }
+    if animal == "pigeon":
+        changed["wingbeat.span_retraction"] = number["span_retraction"]
+    else:
+        changed["wingbeat.twist_ratio"] = number["twist_ratio"]
+    free = ["frequency", "flap_amplitude", "pitch_amplitude"]
+    for trim, name in (("flap-mean", "flap_mean"), ("pitch-mean", "pitch_mean")):
+        if values["trims"] in (trim, "both"):
+            free.append(name)
+        else:
+            changed[f"wingbeat.{name}"] = 0.0
+    at_centre = model == "su-fan" and values["force_point"] == "centre-of-pressure"
+    aero = BladeElement(
+        load_coefficients(model, str(values["extension"])),
+        force_point="centre-of-pressure" if at_centre else "quarter-chord",
+    )
+    changed_species = species.with_values(changed)
+    problem = OrbitProblem(changed_species, speed=speed, aero=aero, free=tuple(free))
+    lower, upper = problem.bounds["flap_amplitude"]
+    bound = min(upper, math.radians(number["flap_amplitude_deg"]))
+    return dataclasses.replace(problem, bounds={**problem.bounds, "flap_amplitude": (lower, bound)})

@@ -1,0 +1,91 @@
+"""The paper's claims about power and body pitch at 10 m/s, each tested on certified orbits."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
+from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
+
+
+def _peaks(evidence: Evidence, key: str) -> tuple[float, float]:
+    return tuple(float(evidence.record("bat", model)[key]) for model in ("su-fan", "dickinson"))  # type: ignore
+
+
+def peak_power(model: str) -> FlightClaim:
+    """Return the claim about the bat's peak power at 10 m/s with one model."""
+    paper = PAPER_PEAK_POWER[model]
+
+    def test(evidence: Evidence) -> TestResult:
+        peak = float(evidence.record("bat", model)["peak_power"])
+        return peak, abs(peak / paper - 1) <= 0.25
+
+    return FlightClaim(
+        f"peak-power-{model}",
+        "results, energetics",
+        f"the bat's peak power at 10 m/s with {model} (within 25 %)",
+        paper,
+        "W",
+        test,
+    )
+
+
+def four_times(evidence: Evidence) -> TestResult:
+    """Return the ratio of the bat's peak powers at 10 m/s, Dickinson over Su-Fan."""
+    fit, fly = _peaks(evidence, "peak_power")
+    return fly / fit, 3 <= fly / fit <= 5
+
+
+def power_exponent(evidence: Evidence) -> TestResult:
+    """Return the exponent that the two models' powers and frequencies at 10 m/s imply."""
+    fit, fly = _peaks(evidence, "peak_power")
+    slow, fast = (evidence.orbit("bat", model).wingbeat.frequency for model in ("su-fan", "dickinson"))
+    if abs(np.log(fast / slow)) < 0.05:
+        return 0.0, False
+    exponent = float(np.log(fly / fit) / np.log(fast / slow))
+    return exponent, abs(exponent - 2) <= 0.5
+
+
+def measured_power_below(evidence: Evidence) -> TestResult:
+    """Return the lower of the two peak powers at 10 m/s [W]."""
+    least = min(_peaks(evidence, "peak_power"))
+    return least, least > 4
+
+
+def lower_power(evidence: Evidence) -> TestResult:
+    """Return the largest ratio of mean positive powers at 10 m/s, Su-Fan over Dickinson, both animals."""
+    ratios = [
+        evidence.record(animal, "su-fan")["mean_positive_power"]
+        / evidence.record(animal, "dickinson")["mean_positive_power"]
+        for animal in ("pigeon", "bat")
+    ]
+    return max(ratios), max(ratios) < 1
+
+
+def pitch_range(model: str, bound: bool) -> FlightClaim:
+    """Return the claim about the bat's range of body pitch at 10 m/s with one model."""
+    paper = PAPER_PITCH_RANGE_DEG[model]
+
+    def test(evidence: Evidence) -> TestResult:
+        found = float(np.degrees(evidence.record("bat", model)["body_pitch_range"]))
+        return found, found <= paper if bound else abs(found / paper - 1) <= 0.25
+
+    words = "within its bound" if bound else "within 25 %"
+    return FlightClaim(
+        f"pitch-range-{model}",
+        "results, body pitch",
+        f"the bat's body pitch varies in a beat at 10 m/s, with {model}, by this much ({words})",
+        paper,
+        "deg",
+        test,
+    )
+
+
+def less_pitching(evidence: Evidence) -> TestResult:
+    """Return the largest ratio of body pitch ranges at 10 m/s, Su-Fan over Dickinson, both animals."""
+    ratios = [
+        evidence.record(animal, "su-fan")["body_pitch_range"]
+        / evidence.record(animal, "dickinson")["body_pitch_range"]
+        for animal in ("pigeon", "bat")
+    ]
+    return max(ratios), max(ratios) < 1

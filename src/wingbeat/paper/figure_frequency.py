@@ -1,0 +1,171 @@
+"""Figure 5: wingbeat frequency against flight speed."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.paper.figure_style import (
+    FONT_SMALL,
+    LOOKS,
+    MEASURED,
+    PAGE,
+    STYLE,
+    Table,
+    dress,
+    letter_panels,
+    sheet,
+)
+from wingbeat.paper.measured_bands import MEASURED_FREQUENCIES, Measured
+from wingbeat.paper.treatments import ANIMALS, MODELS, SPEEDS, Orbits, certified
+from wingbeat.species import load_species
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from wingbeat.results.orbit import Orbit
+
+# The treatments drawn, and how much of the marker is filled.
+FILLS = {"mirrored": True, "signed": False}
+_LEAST_TOP = 25.0  # Hz
+_NOTE = (
+    "Ours: certified orbits of least frequency; filled, thick line: coefficients mirrored at negative angles of "
+    "attack; open, thin line: formulas as they stand at negative angles. Neighbouring points may be of different "
+    "families of orbits; the flap amplitude rests on its bound in {leaning} of {all}. Crosses at the foot: no "
+    "certified orbit at that speed. Green: measured on animals, or a law of such measurements for a vehicle of "
+    "this mass and span; A: as in the source, D: computed by us from it; full sources stand in the table beside "
+    "this figure. The frequencies of Tobalske and Dial (1996) that the paper draws could not be had; they were "
+    "flat in speed."
+)
+
+
+def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
+    """Draw figure 5: frequency of A the pigeon and B the bat against speed, both models, two treatments.
+
+    Parameters
+    ----------
+    orbits : solved orbits by case; those of the treatments mirrored and signed are drawn where certified.
+
+    Returns
+    -------
+    The figure, and its rows: every orbit asked for with its status, and what was measured with its source.
+    """
+    from matplotlib import rc_context
+
+    series = itertools.product(FILLS, ANIMALS, MODELS)
+    drawn = [orbit for each in series for orbit in certified(orbits, *each).values()]
+    # Room for the legends above the measured frequencies, and for every orbit.
+    top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
+    with rc_context(STYLE):  # type: ignore[arg-type]
+        figure = sheet(PAGE, 82.0, _NOTE.format(**_leaning(drawn)))
+        panels = figure.subplots(1, 2)
+        for axes, animal in zip(panels, ANIMALS, strict=True):
+            dress(axes, "flight speed U [m/s]", "wingbeat frequency f [Hz]")
+            axes.set(xlim=(3, 21), ylim=(0, top))
+            axes.set_title(animal, fontsize=8, pad=3)
+            measured, ours = _draw_measured(axes, animal), _draw_orbits(axes, orbits, animal)
+            axes.legend(
+                handles=[*measured, *ours],
+                fontsize=FONT_SMALL,
+                frameon=False,
+                loc="upper left",
+                handlelength=2.4,
+                labelspacing=0.3,
+            )
+        letter_panels(panels)
+    return figure, [*_orbit_rows(orbits), *_measured_rows()]
+
+
+def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:
+    """Return how many of the orbits drawn flap as widely as they may, and how many there are."""
+    limits = [orbit.inputs["bounds"]["flap_amplitude"][1] for orbit in drawn]
+    reached = [
+        math.isclose(o.wingbeat.flap_amplitude, top, abs_tol=1e-4) for o, top in zip(drawn, limits, strict=True)
+    ]
+    return {"leaning": sum(reached), "all": len(drawn)}
+
+
+def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
+    handles = []
+    for (treatment, filled), (i, model) in itertools.product(FILLS.items(), enumerate(MODELS)):
+        look = LOOKS[model]
+        found = certified(orbits, treatment, animal, model)
+        style: dict[str, Any] = {"marker": look.marker, "markersize": 3.6, "markeredgewidth": 0.8, **look.line}
+        style |= {"markerfacecolor": look.color if filled else "w", "linewidth": 1.1 if filled else 0.6}
+        points = sorted((speed, orbit.wingbeat.frequency) for speed, orbit in found.items())
+        handles += axes.plot(*np.reshape(points, (-1, 2)).T, label=f"{look.name}, {treatment}", **style)
+        absent = [c.speed for c in orbits if (c.treatment, c.animal, c.model) == (treatment, animal, model)]
+        absent = sorted(set(absent) - set(found))
+        # In rows along the foot of the panel, one for each series.
+        height = 0.02 + 0.03 * (i + len(MODELS) * (not filled))
+        cross: dict[str, Any] = {"marker": "x" if filled else "+", "linestyle": "", "markersize": 3.5}
+        place = {"transform": axes.get_xaxis_transform(), "color": look.color, "gid": f"absent-{treatment}-{model}"}
+        axes.plot(absent, [height] * len(absent), **cross, **place)
+    return handles
+
+
+def _reach(measured: Measured) -> np.ndarray:
+    """Return the speeds at which to draw a measurement [m/s]: its own, within those of the figure."""
+    low, high = measured.speeds
+    if low == high:
+        return np.array([low])
+    return np.linspace(max(low, SPEEDS[0]), min(high, SPEEDS[-1]), 33)
+
+
+def measured_values(measured: Measured, speeds: np.ndarray) -> np.ndarray:
+    """Return the frequency for our own vehicle at flight speeds [m/s], shape (K,)."""
+    species = load_species(measured.animal)
+    return np.array([measured.value(species.vehicle, species.air, float(speed)) for speed in speeds])
+
+
+def _draw_measured(axes: Axes, animal: str) -> list[Any]:
+    handles, dashes = [], itertools.cycle([(0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5))])
+    for measured in (m for m in MEASURED_FREQUENCIES if m.animal == animal):
+        speeds = _reach(measured)
+        values, label = measured_values(measured, speeds), f"{measured.label} ({measured.grade})"
+        if len(speeds) == 1:
+            bar: dict[str, Any] = {"fmt": "D", "markersize": 4, "capsize": 2, "elinewidth": 0.8}
+            handles.append(axes.errorbar(speeds, values, measured.spread, color=MEASURED, label=label, **bar))
+            continue
+        if measured.spread:
+            axes.fill_between(
+                speeds, values - measured.spread, values + measured.spread, color=MEASURED, alpha=0.2, lw=0
+            )
+        handles += axes.plot(speeds, values, color=MEASURED, linestyle=next(dashes), label=label)
+    return handles
+
+
+def _orbit_rows(orbits: Orbits) -> list[dict[str, Any]]:
+    rows = []
+    for case in sorted(case for case in orbits if case.treatment in FILLS):
+        orbit = orbits[case]
+        good = case.speed in certified(orbits, case.treatment, case.animal, case.model)
+        rows.append(
+            {
+                "kind": "orbit",
+                "animal": case.animal,
+                "treatment": case.treatment,
+                "model": case.model,
+                "speed_m_per_s": case.speed,
+                "frequency_Hz": orbit.wingbeat.frequency if good else math.nan,
+                "flap_amplitude_deg": math.degrees(orbit.wingbeat.flap_amplitude) if good else math.nan,
+                "status": orbit.status.value,
+            }
+        )
+    return rows
+
+
+def _measured_rows() -> list[dict[str, Any]]:
+    rows = []
+    for measured in MEASURED_FREQUENCIES:
+        speeds = _reach(measured)
+        for speed, value in zip(speeds, measured_values(measured, speeds), strict=True):
+            about = {"kind": "measured", "animal": measured.animal, "label": measured.label, "speed_m_per_s": speed}
+            about |= {"frequency_Hz": value, "spread_Hz": measured.spread}
+            rows.append(about | {"source": measured.source, "grade": measured.grade})
+    return rows

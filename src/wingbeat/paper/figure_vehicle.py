@@ -1,0 +1,77 @@
+"""Figure 2: the vehicles to scale, their strips, axes and angles, drawn from the model's own points."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.paper.figure_cycle import sample_orbits
+from wingbeat.paper.figure_style import PAGE, STYLE, Table, letter_panels, sheet
+from wingbeat.paper.figure_vehicle_views import draw_front, draw_oblique, draw_section, draw_side, draw_top
+from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, SAMPLE_SPEED, Orbits
+from wingbeat.paper.vehicle_posture import CORNERS, Posture, flown, posture, section
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MID_DOWNSTROKE = 0.25
+PHASES = (MID_DOWNSTROKE, 0.0, 0.5, 0.75)
+
+
+def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
+    """Draw figure 2: A to C the pigeon with its axes and angles, D to G both animals to one scale.
+
+    Parameters
+    ----------
+    orbits : solved orbits by case; the animals are drawn at mid-downstroke of theirs at 10 m/s with Su-Fan, or of
+        the species' stock wingbeat where there is none.
+    sample : name of the treatment.
+
+    Returns
+    -------
+    The figure, and its rows: corners and quarter chords of the left wing's strips at the phases drawn.
+    """
+    from matplotlib import rc_context
+
+    found = {animal: sample_orbits(orbits, sample, animal).get(MODELS[0]) for animal in ANIMALS}
+    flights = {animal: flown(animal, orbit) for animal, orbit in found.items()}
+    postures = {animal: [posture(flight, phase) for phase in PHASES] for animal, flight in flights.items()}
+    pigeon, strips = postures["pigeon"][0], flights["pigeon"].model.strips
+    strip = min(int(0.75 * strips), strips - 1)
+    stock = [animal for animal, orbit in found.items() if orbit is None]
+    with rc_context(STYLE):  # type: ignore[arg-type]
+        figure = sheet(PAGE, 92.0, _note(flights, strips, strip, stock))
+        grid: Any = figure.add_gridspec(2, 4, height_ratios=(1, 1))
+        cells = (grid[0, :2], grid[0, 2], grid[0, 3], *(grid[1, i] for i in range(4)))
+        panels = [figure.add_subplot(cell) for cell in cells]
+        draw_oblique(panels[0], pigeon, flights["pigeon"].model.vehicle.wing)
+        draw_side(panels[1], pigeon)
+        draw_section(panels[2], section(flights["pigeon"], MID_DOWNSTROKE, strip))
+        for i, animal in enumerate(ANIMALS):
+            draw_front(panels[3 + 2 * i], postures[animal], animal)
+            draw_top(panels[4 + 2 * i], postures[animal][0], animal)
+        letter_panels(panels)
+    return figure, [row for animal in ANIMALS for each in postures[animal] for row in _rows(animal, each)]
+
+
+def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) -> str:
+    beats = ", ".join(f"{animal} {flight.wingbeat.frequency:.3g} Hz" for animal, flight in flights.items())
+    guess = f" No certified orbit of the {' and the '.join(stock)}: the species' stock wingbeat." if stock else ""
+    return (
+        f"Drawn from the model's own points at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s ({beats})."
+        f"{guess} Each wing: {strips} strips; dashed: quarter chord, which is the pitch axis; dot: shoulder. C: "
+        f"strip {strip + 1} of the pigeon across its span, forces to one scale, θ from the normal of the stroke "
+        "plane. D and F: the quarter chord also at both ends of the stroke (dotted) and at mid-upstroke (grey). "
+        "The body has no shape in the model: grey is the ellipsoid of water with its mass and pitch inertia."
+    )
+
+
+def _rows(animal: str, at: Posture) -> list[dict[str, Any]]:
+    rows = []
+    for i, fraction in enumerate(at.span_fraction):
+        about = {"animal": animal, "phase": at.phase, "strip": i + 1, "span_fraction": float(fraction)}
+        points = zip(("quarter chord", *CORNERS), [at.quarter_chord[i], *at.outlines[i]], strict=True)
+        for name, (x, y, z) in points:
+            angles = {"flap_deg": math.degrees(at.flap), "body_pitch_deg": math.degrees(at.body_pitch)}
+            rows.append({**about, "point": name, "x_m": float(x), "y_m": float(y), "z_m": float(z), **angles})
+    return rows

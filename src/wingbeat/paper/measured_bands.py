@@ -1,0 +1,117 @@
+"""Wingbeat frequencies measured on animals, each with its source, spread and how sure we are of it.
+
+Grades: A read in the source's own text, D computed from such a text for our vehicle. Numbers that we know only
+second-hand are left out, among them those of Tobalske and Dial 1996 that the paper draws: their table was not to be
+had, and their abstract says only that the frequency does not change appreciably from 6 to 20 m/s.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from wingbeat.vehicle import Air, Vehicle
+
+# What the paper prints about the bat at 10 m/s, by coefficient model: peak power [W], range of body pitch [deg].
+PAPER = "Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602"
+PAPER_PEAK_POWER = {"su-fan": 30.0, "dickinson": 150.0}
+PAPER_PITCH_RANGE_DEG = {"su-fan": 10.0, "dickinson": 25.0}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A measured wingbeat frequency.
+
+    Parameters
+    ----------
+    animal : which of our vehicles it is drawn beside.
+    label : short, for a legend.
+    speeds : lowest and highest flight speed it stands for [m/s]; the same twice for a point.
+    value : frequency for a vehicle, its air and a flight speed [m/s]; in `unit`.
+    spread : half width, in `unit`; 0 where the source states none.
+    source, grade : where it was read, and how sure we are (A or D).
+    unit : of value and spread.
+    """
+
+    animal: str
+    label: str
+    speeds: tuple[float, float]
+    value: Callable[[Vehicle, Air, float], float]
+    spread: float
+    source: str
+    grade: str
+    unit: str = "Hz"
+
+
+def _birds_by_mass(vehicle: Vehicle, air: Air, speed: float) -> float:
+    return 3.228 * vehicle.mass**-0.440
+
+
+def _birds_by_wing(vehicle: Vehicle, air: Air, speed: float) -> float:
+    return 1.807 * vehicle.wing.semi_span**-1.055
+
+
+def _birds_by_theory(vehicle: Vehicle, air: Air, speed: float) -> float:
+    wing = vehicle.wing
+    span, area = 2 * wing.semi_span, 2 * wing.semi_span * wing.mean_chord
+    lift = vehicle.mass ** (3 / 8) * air.gravity**0.5
+    return lift * span ** (-23 / 24) * area ** (-1 / 3) * air.density ** (-3 / 8)
+
+
+def _bats(vehicle: Vehicle, air: Air, speed: float) -> float:
+    return 5.54 - 3.068 * math.log10(vehicle.mass) - 2.857 * math.log10(speed)
+
+
+_RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, table 3"
+_FLAT = "flat in speed from 6 to 20 m/s: Tobalske and Dial 1996, J Exp Biol 199:263, abstract"
+MEASURED_FREQUENCIES = (
+    Measured(
+        "pigeon",
+        "birds by mass, van den Berg & Rayner 1995",
+        (6, 20),
+        _birds_by_mass,
+        0.0,
+        f"{_RAYNER}; {_FLAT}",
+        "D",
+    ),
+    Measured("pigeon", "birds by wing length, the same", (6, 20), _birds_by_wing, 0.0, f"{_RAYNER}; {_FLAT}", "D"),
+    Measured(
+        "pigeon",
+        "birds by size, Pennycuick 1996",
+        (6, 20),
+        _birds_by_theory,
+        0.0,
+        "Pennycuick 1996, m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8 as in the R package afpt, for our span and area; "
+        f"{_FLAT}",
+        "D",
+    ),
+    Measured(
+        "pigeon",
+        "loaded pigeons, Usherwood et al. 2005",
+        (4.46, 4.46),
+        lambda vehicle, air, speed: 8.02,
+        0.69,
+        "Usherwood, Hedrick, McGowan and Biewener 2005, doi 10.1242/jeb.01359, table 2: 0.483 kg with their load",
+        "A",
+    ),
+    Measured(
+        "bat",
+        "bats by mass, Bullen & McKenzie 2002",
+        (1, 10),
+        _bats,
+        1.0,
+        "Bullen and McKenzie 2002, J Exp Biol 205:2615, abstract: 23 Australian species, 21 of them within 1 Hz; "
+        "nearly flat at high speeds, so not drawn beyond 10 m/s",
+        "D",
+    ),
+    Measured(
+        "bat",
+        "6 Hz, as the paper says",
+        (4, 20),
+        lambda vehicle, air, speed: 6.0,
+        0.0,
+        f"{PAPER}, citing Norberg and Norberg 2012: around 6 Hz at every speed",
+        "A",
+    ),
+)

@@ -1,0 +1,129 @@
+"""What the paper leaves open, as named sets of assumptions, and the orbits that its figures and claims rest on."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Progress
+from wingbeat.results.orbit import Orbit, solve_orbits
+from wingbeat.species import load_species
+
+ANIMALS = ("pigeon", "bat")
+MODELS = ("su-fan", "dickinson")
+# The speed of the paper's sample orbit, forces, power and body pitch [m/s].
+SAMPLE_SPEED = 10.0
+SPEEDS = tuple(float(speed) for speed in range(4, 21))
+QUICK_SPEEDS = (4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 20.0)
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """One set of assumptions where the paper is silent.
+
+    Parameters
+    ----------
+    name : as in file names and tables.
+    words : the same for a reader.
+    extension : how the coefficients reach negative angles of attack (`wingbeat.aero.EXTENSIONS`).
+    uniform_wings : whether the wings' mass is spread evenly, rather than as dissected wings have it.
+    flap_amplitude_deg : largest flap amplitude allowed [deg]; None for that of the species file.
+    taper : tip chord over root chord at the same mean chord; 1 is the paper's rectangle.
+    """
+
+    name: str
+    words: str
+    extension: str
+    uniform_wings: bool = False
+    flap_amplitude_deg: float | None = None
+    taper: float = 1.0
+
+
+_HEAVY = "flap amplitude at most 45 deg, wing mass spread evenly"
+TREATMENTS = (
+    Treatment(
+        "mirrored",
+        "coefficients mirrored at negative angles; wing mass as in the species file",
+        "mirrored",
+    ),
+    Treatment("signed", "formulas used as they stand at negative angles where finite", "signed"),
+    Treatment("mirrored-heavy", f"mirrored; {_HEAVY}", "mirrored", True, 45.0),
+    Treatment("signed-heavy", f"signed; {_HEAVY}", "signed", True, 45.0),
+    Treatment("mirrored-tapered", "mirrored; wings tapered 3 to 1, same area", "mirrored", taper=1 / 3),
+)
+DEFAULT, TAPERED = TREATMENTS[0].name, TREATMENTS[-1].name
+
+
+@dataclass(frozen=True, order=True)
+class Case:
+    """One orbit asked for: which treatment, animal, coefficient model and speed [m/s]."""
+
+    treatment: str
+    animal: str
+    model: str
+    speed: float
+
+    @property
+    def name(self) -> str:
+        """Name of its record file, without the ending."""
+        return f"{self.treatment}-{self.animal}-{self.model}-{self.speed:g}"
+
+
+Orbits = Mapping[Case, Orbit]
+
+
+def all_cases(speeds: Iterable[float], treatments: Iterable[Treatment] = TREATMENTS) -> list[Case]:
+    """Return the cases at these speeds: every treatment, animal and model."""
+    return [
+        Case(treatment.name, animal, model, float(speed))
+        for treatment in treatments
+        for animal in ANIMALS
+        for model in MODELS
+        for speed in speeds
+    ]
+
+
+def problem_of(case: Case) -> OrbitProblem:
+    """Return the orbit problem of a case: level flight at least frequency."""
+    treatment = next(t for t in TREATMENTS if t.name == case.treatment)
+    species = load_species(case.animal)
+    if treatment.uniform_wings:
+        species = species.with_values({"wing.mass_exponent": 0.0})
+    if treatment.taper != 1:
+        root = 2.0 * species.vehicle.wing.mean_chord / (1.0 + treatment.taper)
+        species = species.with_values({"wing.chord": (root, treatment.taper * root)})
+    aero = BladeElement(load_coefficients(case.model, treatment.extension))
+    problem = OrbitProblem(species, speed=case.speed, aero=aero)
+    if treatment.flap_amplitude_deg is None:
+        return problem
+    lower, upper = problem.bounds["flap_amplitude"]
+    narrowed = {"flap_amplitude": (lower, min(upper, math.radians(treatment.flap_amplitude_deg)))}
+    return dataclasses.replace(problem, bounds={**problem.bounds, **narrowed})
+
+
+def solve_cases(
+    cases: Iterable[Case], starts: int, processes: int = 1, progress: Progress | None = None
+) -> dict[Case, Orbit]:
+    """Solve and certify the orbits of the cases; a failed search is data."""
+    wanted = sorted(set(cases))
+    # In shuffled order the dear ones spread over the processes.
+    order = np.random.default_rng(0).permutation(len(wanted))
+    found = solve_orbits([problem_of(wanted[i]) for i in order], starts, 0, processes, progress)
+    by_case = {wanted[i]: orbit for i, orbit in zip(order, found, strict=True)}
+    return {case: by_case[case] for case in wanted}
+
+
+def certified(orbits: Orbits, treatment: str, animal: str, model: str) -> dict[float, Orbit]:
+    """Return the certified orbits of a series by speed."""
+    return {
+        case.speed: orbit
+        for case, orbit in orbits.items()
+        if (case.treatment, case.animal, case.model) == (treatment, animal, model)
+        and orbit.status.value == "converged"
+    }

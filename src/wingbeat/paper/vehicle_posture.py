@@ -1,0 +1,144 @@
+"""Where a vehicle's body and strips are at one instant of its sample orbit: what figure 2 draws."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.frames import stroke_pitch
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.model import FlightModel, State, flight_model
+from wingbeat.paper.treatments import MODELS, SAMPLE_SPEED
+from wingbeat.results.dataset import evaluate
+from wingbeat.results.orbit import Orbit
+from wingbeat.species import load_species
+from wingbeat.vehicle import Body
+from wingbeat.wing_motion import strips_of, twist_factors
+from wingbeat.wing_points import wing_points
+
+_WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass and inertia
+CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
+
+
+class Posture(NamedTuple):
+    """A vehicle at one instant, its body's centre of mass at the origin; world axes, left wing, metres, radians.
+
+    ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3); ``quarter_chord`` and the
+    unit vectors ``chordwise`` and ``spanwise`` (N, 3); ``stroke`` is how far stroke axes are pitched nose-up;
+    ``body_axes`` are the half length and half depth of the body drawn as an ellipsoid.
+    """
+
+    phase: float
+    span_fraction: np.ndarray
+    outlines: np.ndarray
+    quarter_chord: np.ndarray
+    chordwise: np.ndarray
+    spanwise: np.ndarray
+    shoulder: np.ndarray
+    body_pitch: float
+    stroke: float
+    flap: float
+    body_axes: tuple[float, float]
+
+
+class Section(NamedTuple):
+    """One strip across its span: angles [rad] from the axis about which it would have no pitch, speed and forces.
+
+    ``pitch`` of the chord, ``motion`` of the velocity, their difference ``alpha``; lift and drag [N] of one strip.
+    """
+
+    pitch: float
+    motion: float
+    alpha: float
+    speed: float
+    lift: float
+    drag: float
+
+
+class Flown(NamedTuple):
+    """A flight model with its wingbeat, and body pitch, u, w and pitch rate at phases from 0 to 1, shape (K,)."""
+
+    model: FlightModel
+    wingbeat: Wingbeat
+    phase: np.ndarray
+    states: np.ndarray
+
+    def state(self, phase: float) -> np.ndarray:
+        """Return the state at a phase, shape (6,), its place at the origin."""
+        found = [np.interp(phase, self.phase, column) for column in self.states.T]
+        return np.array([0.0, 0.0, *found[2:]])
+
+
+def flown(animal: str, orbit: Orbit | None) -> Flown:
+    """Return a certified orbit's flight, or without one the species' stock wingbeat in level, even flight."""
+    if orbit is None:
+        species = load_species(animal)
+        aero = BladeElement(load_coefficients(MODELS[0]))
+        level = np.array([State(u=SAMPLE_SPEED)] * 2, dtype=float)
+        model = flight_model(species.vehicle, aero, species.air)
+        return Flown(model, species.wingbeat, np.array([0.0, 1.0]), level)
+    states = np.stack([orbit.dataset[name].values for name in State._fields], axis=1)
+    return Flown(orbit.problem.model, orbit.wingbeat, orbit.dataset["phase"].values, states)
+
+
+def posture(flight: Flown, phase: float) -> Posture:
+    """Place a vehicle at a phase of its wingbeat, from the points that the equations of motion use."""
+    model, wingbeat = flight.model, flight.wingbeat
+    attitude, flap = float(flight.state(phase)[2]), float(flap_angle(wingbeat, phase))
+    q = np.array([0.0, 0.0, attitude, flap, float(pitch_angle(wingbeat, phase))])
+    points = wing_points(model, wingbeat, q, phase / wingbeat.frequency)
+    quarter, fore, normal = (np.asarray(a) for a in (points.quarter_chord, points.chordwise, points.normal))
+    along = np.cross(normal, fore)
+    wing, strips = model.vehicle.wing, strips_of(model.vehicle.wing, model.strips)
+    half = 0.5 * wing.semi_span / model.strips * float(span_ratio(wingbeat, phase))
+    chord = np.asarray(strips.chord)[:, None]
+    corners = [
+        quarter + side * half * along + share * chord * fore
+        for side, share in ((-1, 0.25), (1, 0.25), (1, -0.75), (-1, -0.75))
+    ]
+    ahead, left, above = wing.shoulder
+    c, s = math.cos(attitude), math.sin(attitude)
+    return Posture(
+        phase,
+        np.asarray(strips.span_fraction),
+        np.stack(corners, axis=1),
+        quarter,
+        fore,
+        along,
+        np.array([c * ahead - s * above, left, s * ahead + c * above]),
+        attitude,
+        attitude + float(stroke_pitch(wing.stroke_plane_angle)),
+        flap,
+        body_axes(model.vehicle.body),
+    )
+
+
+def section(flight: Flown, phase: float, strip: int) -> Section:
+    """Return angles, speed and forces of one strip at a phase."""
+    model, wingbeat = flight.model, flight.wingbeat
+    found = evaluate(model, wingbeat, np.array([phase]), flight.state(phase)[None])
+    twist = float(twist_factors(wingbeat, (strip + 0.5) / model.strips))
+    pitch, alpha = float(found.wing_pitch[0]) * twist, float(found.alpha[0, strip])
+    rest = (float(values[0, strip]) for values in (found.strip_speed, found.lift, found.drag))
+    return Section(pitch, pitch - alpha, alpha, *rest)
+
+
+def body_axes(body: Body) -> tuple[float, float]:
+    """Return half length and half depth [m] of the round ellipsoid of water with the body's mass and pitch inertia.
+
+    The model knows no shape of the body; this is the roundest guess that has its numbers. A body too compact for
+    that is drawn as a ball.
+
+    >>> half_length, half_depth = body_axes(Body(mass=0.276, pitch_inertia=3.6e-4))
+    >>> round(half_length, 3), round(half_depth, 3)
+    (0.075, 0.03)
+    """
+    volume = 3 * body.mass / (4 * math.pi * _WATER)
+    squares = 5 * body.pitch_inertia / body.mass
+    # a^2 + volume/a = squares, of which the largest root is the long body.
+    roots = np.roots([1.0, 0.0, -squares, volume])
+    long = max((r.real for r in roots if abs(r.imag) < 1e-12 and r.real > 0), default=volume ** (1 / 3))
+    return float(long), math.sqrt(volume / float(long))

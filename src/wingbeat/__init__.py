@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import load_orbit as load_orbit
     from wingbeat.results.orbit import solve_orbit as solve_orbit
     from wingbeat.results.orbit import solve_orbits as solve_orbits
+    from wingbeat.results.orbit import solve_series as solve_series
     from wingbeat.species import Species as Species
     from wingbeat.species import load_species as load_species
     from wingbeat.species import species_names as species_names
@@ -71,6 +72,7 @@ _HOME = {
     "simulate_torque_driven": "flights",
     "solve_orbit": "results.orbit",
     "solve_orbits": "results.orbit",
+    "solve_series": "results.orbit",
     "species_names": "species",
 }
 _MODULES = ("aero", "experiment", "plots")

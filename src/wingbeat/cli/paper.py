@@ -81,7 +81,7 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> No
 
     begun = time.perf_counter()
     cases = all_cases(QUICK_SPEEDS if quick else SPEEDS)
-    with progress_bar("orbits") as progress:
+    with progress_bar("rows of orbits") as progress:
         orbits = solve_cases(cases, 3 if quick else 6, processes, progress)
     certified = sum(orbit.status.value == "converged" for orbit in orbits.values())
     print(f"{certified} of {len(cases)} orbits certified", file=sys.stderr)
@@ -102,8 +102,8 @@ def _assumptions(sets: int, seed: int, folder: Path, processes: int) -> None:
         study = run_study(sets, seed=seed, processes=processes, progress=progress)
     minutes = (time.perf_counter() - begun) / 60
     heading = (
-        f"`wingbeat paper assumptions --sets {sets} --seed {seed}`, one search an orbit, {processes} processes, "
-        f"{minutes:.0f} minutes."
+        f"`wingbeat paper assumptions --sets {sets} --seed {seed}`: one search an orbit, answers handed on along speed "
+        f"and from model to model; {processes} processes, {minutes:.0f} minutes."
     )
     for path in write_study(study, folder, heading):
         print(f"wrote {path}", file=sys.stderr)

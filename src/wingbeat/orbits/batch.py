@@ -6,10 +6,14 @@ import functools
 import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from typing import TypeVar
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, Solution, check_search, find_orbit
+
+T = TypeVar("T")
+R = TypeVar("R")
 
 # Problems handed to a process at a time: enough to hide the handing over, few enough to share out evenly.
 _CHUNK = 8
@@ -46,28 +50,40 @@ def find_orbits(
     faults.raise_if_any()
     check_search(starts, seed, 1 if most_starts is None else most_starts)
     find = functools.partial(find_orbit, starts=starts, seed=seed, threads=1, most_starts=most_starts)
-    return _each(problems, find, processes, progress)
+    return in_processes(find, problems, processes, progress, _CHUNK)
 
 
-def _each(
-    problems: Sequence[OrbitProblem],
-    find: Callable[[OrbitProblem], Solution],
+def in_processes(
+    work: Callable[[T], R],
+    items: Sequence[T],
     processes: int,
-    progress: Progress | None,
-) -> Iterator[Solution]:
-    def told(solutions: Iterator[Solution]) -> Iterator[Solution]:
-        for done, solution in enumerate(solutions, start=1):
+    progress: Progress | None = None,
+    chunk: int = 1,
+) -> Iterator[R]:
+    """Yield what `work` makes of each item, in their order, as they come.
+
+    Parameters
+    ----------
+    work : a function that can be pickled; its JAX programs run in the process it is called in.
+    items : what to work on.
+    processes : how many Python processes share the items; with 1 it is done in this one.
+    progress : called with (items done, items in all).
+    chunk : items handed to a process at a time.
+    """
+
+    def told(results: Iterator[R]) -> Iterator[R]:
+        for done, result in enumerate(results, start=1):
             if progress is not None:
-                progress(done, len(problems))
-            yield solution
+                progress(done, len(items))
+            yield result
 
     if processes == 1:
-        yield from told(map(find, problems))
+        yield from told(map(work, items))
         return
     # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(processes, max(len(problems), 1)), context) as pool:
+    with ProcessPoolExecutor(min(processes, max(len(items), 1)), context) as pool:
         try:
-            yield from told(pool.map(find, problems, chunksize=_CHUNK))
+            yield from told(pool.map(work, items, chunksize=chunk))
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -62,6 +62,18 @@ class Solution:
     seconds: float
     certify_seconds: float
 
+    @property
+    def unknowns(self) -> np.ndarray:
+        """Pitch state at the start and free parameters, as a search starts from them."""
+        free = [getattr(self.wingbeat, name) for name in self.problem.free]
+        return np.concatenate([self.certificate.states[0, 2:], free])
+
+    @property
+    def objective(self) -> float:
+        """What was made least."""
+        problem = self.problem
+        return problem.minimise.value(problem.unknowns().names, self.unknowns)
+
     @functools.cached_property
     def multipliers(self) -> np.ndarray:
         """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
@@ -208,15 +220,49 @@ def find_orbit(
         best = best or _first_certified(transcription, found)
         if best is not None:
             break
-    if best is not None:
-        status, message = Status.CONVERGED, f"certified: re-flown, it closes to {_size(best.miss):.0e}"
-    else:
+    failure = None
+    if best is None:
         nearest = min(found, key=lambda c: c.violation)
         # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
         best = _certified(nearest.programme, optimise(nearest.programme, nearest.scaled)[0])
-        status, message = _failure(found, best)
+        failure = _failure(found, best)
+    return _solution(best, found, seed, time.perf_counter() - begun, transcription.certify_seconds, failure)
+
+
+def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
+    """Search once from given unknowns; return the certified orbit, or None.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    start : unknowns to start from, clipped to their bounds.
+    below : the objective must come out less than this, or the orbit is not even certified.
+    """
+    begun = time.perf_counter()
+    transcription = Transcription(problem)
+    candidate = search(transcription, start)
+    if not (candidate.closed and candidate.optimal and candidate.objective < below):
+        return None
+    best = _first_certified(transcription, [candidate])
+    if best is None:
+        return None
+    return _solution(best, [candidate], 0, time.perf_counter() - begun, transcription.certify_seconds)
+
+
+def _solution(
+    best: Corrected,
+    found: list[Candidate],
+    seed: int,
+    seconds: float,
+    certify_seconds: float,
+    failure: tuple[Status, str] | None = None,
+) -> Solution:
+    status, message = failure or (
+        Status.CONVERGED,
+        f"certified: re-flown, it closes to {_size(best.miss):.0e}",
+    )
     return Solution(
-        problem,
+        best.programme.problem,
         status,
         message,
         best.wingbeat,
@@ -227,8 +273,8 @@ def find_orbit(
         len(found),
         len(_distinct(found)),
         seed,
-        time.perf_counter() - begun,
-        transcription.certify_seconds,
+        seconds,
+        certify_seconds,
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +12,8 @@ from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.shooting import Flown, flier
 
 _LOST = 1e3
+# Sums of a flight's numbers beyond this overflow when squared, or soon will.
+_WILD = 1e12
 # Flights remembered: that of the point at hand, and of the points that a difference or a line search started from.
 _KEPT = 4
 # An unknown this near to a bound, as a share of its range, is at the bound; body pitch likewise, in rad.
@@ -84,9 +85,9 @@ class Transcription:
         jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) * self._closure_scale
         point = Point(closure, jacobian, flown.pitch, flown.pitch_jacobian * scale)
         # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-        if math.isfinite(sum(a.sum() for a in point)):
+        if abs(sum(float(a.sum()) for a in point)) < _WILD:
             return point
-        return Point(*(np.nan_to_num(a, nan=_LOST, posinf=_LOST, neginf=-_LOST) for a in point))
+        return Point(*(np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in point))
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""

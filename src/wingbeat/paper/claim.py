@@ -70,6 +70,20 @@ def _words(assumptions: str) -> str:
     return next((t.words for t in TREATMENTS if t.name == assumptions), assumptions)
 
 
+NO_DATA = "the measurements are not deposited"
+
+
+def tested(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, holds: Any) -> Claim:
+    """Return a claim tested on what the paper prints, without any assumption."""
+    finding = Finding("what the paper prints", float(ours), bool(holds))
+    return Claim(name, where, claim, paper, unit, (finding,))
+
+
+def untestable(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, why: str) -> Claim:
+    """Return a claim that nothing here can test, with a number of ours to set beside it."""
+    return Claim(name, where, claim, paper, unit, (Finding(why, float(ours), None),))
+
+
 class NotFlownError(Exception):
     """A claim asks for an orbit that was not certified, or not flown."""
 

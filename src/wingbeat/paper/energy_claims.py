@@ -81,6 +81,12 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
     )
 
 
+def few_degrees(evidence: Evidence) -> TestResult:
+    """Return the bat's range of body pitch with Su-Fan at 10 m/s [deg]."""
+    found = float(np.degrees(evidence.record("bat", "su-fan")["body_pitch_range"]))
+    return found, found <= 5
+
+
 def less_pitching(evidence: Evidence) -> TestResult:
     """Return the largest ratio of body pitch ranges at 10 m/s, Su-Fan over Dickinson, both animals."""
     ratios = [

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import functools
-import multiprocessing
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
+from wingbeat.orbits.batch import in_processes
 from wingbeat.orbits.solve import Progress
 from wingbeat.paper.assumptions import Values, problem_under, sample_sets
 from wingbeat.paper.claim import FlightClaim
 from wingbeat.paper.claims import flight_claim_list
-from wingbeat.paper.treatments import MODELS, Case
-from wingbeat.results.orbit import solve_orbits
+from wingbeat.paper.treatments import MODELS, chain
+from wingbeat.results.orbit import solve_series
 
 # The speeds that the claims need [m/s].
 SPEEDS = {"pigeon": (10.0, 12.0, 16.0), "bat": (4.0, 5.0, 6.0, 8.0, 10.0, 12.0)}
-# What every set would say alike (identities), or what one search an orbit cannot tell.
+# Identities, which every set says alike; what few searches cannot tell; what another claim's number says.
 _LEFT_OUT = {
     "closed-loops",
     "open-loop",
@@ -28,6 +26,7 @@ _LEFT_OUT = {
     "least-frequency",
     "force-balance",
     "differentiable",
+    "few-degrees",
 }
 _SET = "set"
 
@@ -66,10 +65,9 @@ def judge_set(values: Values, starts: int) -> Outcome:
     """Fly the orbits that the claims need under one set of assumptions, and judge the claims."""
     orbits = {}
     for animal, speeds in SPEEDS.items():
-        for model in MODELS:
-            problems = [problem_under(values, animal, model, speed) for speed in speeds]
-            found = solve_orbits(problems, starts, most_starts=starts)
-            orbits |= {Case(_SET, animal, model, s): orbit for s, orbit in zip(speeds, found, strict=True)}
+        row = chain(_SET, animal, speeds)
+        problems = [problem_under(values, animal, case.model, case.speed) for case in row]
+        orbits |= dict(zip(row, solve_series(problems, starts, most_starts=starts), strict=True))
     judged = [claim.judge(orbits, [_SET]).findings[0] for claim in study_claims()]
     return Outcome(
         tuple(np.nan if f.number is None else f.number for f in judged),
@@ -86,17 +84,13 @@ def run_study(
     Parameters
     ----------
     count : number of sets.
-    starts : searches an orbit.
+    starts : searches of each orbit before answers are handed on along speed and from model to model.
     seed : of the sample.
     processes : Python processes that share the sets.
     progress : called with (sets done, sets in all).
     """
     sets = sample_sets(count, seed)
-    outcomes = []
-    for outcome in _outcomes(sets, functools.partial(judge_set, starts=starts), processes):
-        outcomes.append(outcome)
-        if progress is not None:
-            progress(len(outcomes), count)
+    outcomes = list(in_processes(functools.partial(judge_set, starts=starts), sets, processes, progress))
     return Study(
         tuple(sets),
         study_claims(),
@@ -104,15 +98,3 @@ def run_study(
         np.array([o.holds for o in outcomes]),
         np.array([o.flown for o in outcomes]),
     )
-
-
-def _outcomes(sets: Sequence[Values], judge: functools.partial[Outcome], processes: int) -> Iterator[Outcome]:
-    if processes == 1:
-        yield from map(judge, sets)
-        return
-    # A process that has run JAX must not be forked.
-    with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
-        try:
-            yield from pool.map(judge, sets)
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.orbits.batch import in_processes
+from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress
-from wingbeat.results.orbit import Orbit, solve_orbits
+from wingbeat.orbits.solve import Progress, Solution
+from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
 
 ANIMALS = ("pigeon", "bat")
@@ -107,16 +108,44 @@ def problem_of(case: Case) -> OrbitProblem:
     return dataclasses.replace(problem, bounds={**problem.bounds, **narrowed})
 
 
+def chain(treatment: str, animal: str, speeds: Iterable[float]) -> list[Case]:
+    """Return an animal's cases in a row in which neighbours are alike: one model up in speed, the other down."""
+    up = sorted(speeds)
+    rows = zip(MODELS, (up, up[::-1]), strict=True)
+    return [Case(treatment, animal, model, speed) for model, row in rows for speed in row]
+
+
+def _solve_row(row: list[Case], starts: int) -> list[Solution]:
+    return find_series([problem_of(case) for case in row], starts)
+
+
 def solve_cases(
     cases: Iterable[Case], starts: int, processes: int = 1, progress: Progress | None = None
 ) -> dict[Case, Orbit]:
-    """Solve and certify the orbits of the cases; a failed search is data."""
+    """Solve and certify the orbits of the cases; a failed search is data.
+
+    The cases of an animal under a treatment are solved in a row, so that each is searched from its neighbours'
+    answers, too.
+
+    Parameters
+    ----------
+    cases : which orbits.
+    starts : searches of each before answers are handed on.
+    processes : Python processes that share the rows.
+    progress : called with (rows done, rows in all).
+    """
     wanted = sorted(set(cases))
-    # In shuffled order the dear ones spread over the processes.
-    order = np.random.default_rng(0).permutation(len(wanted))
-    found = solve_orbits([problem_of(wanted[i]) for i in order], starts, 0, processes, progress)
-    by_case = {wanted[i]: orbit for i, orbit in zip(order, found, strict=True)}
-    return {case: by_case[case] for case in wanted}
+    rows = []
+    for treatment, animal in sorted({(case.treatment, case.animal) for case in wanted}):
+        speeds = {case.speed for case in wanted if (case.treatment, case.animal) == (treatment, animal)}
+        rows.append([case for case in chain(treatment, animal, speeds) if case in wanted])
+    solved = in_processes(functools.partial(_solve_row, starts=starts), rows, processes, progress)
+    found = {
+        case: Orbit.of(solution, starts)
+        for row, solutions in zip(rows, solved, strict=True)
+        for case, solution in zip(row, solutions, strict=True)
+    }
+    return {case: found[case] for case in wanted}
 
 
 def certified(orbits: Orbits, treatment: str, animal: str, model: str) -> dict[float, Orbit]:

@@ -15,6 +15,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, Solution, Status, check_search, find_orbit
 from wingbeat.results.dataset import evaluate, flight_dataset
@@ -36,7 +37,7 @@ class Summary(NamedTuple):
 
 
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit`, `solve_orbits` or `load_orbit`."""
+    """One periodic orbit and everything about it; made by `solve_orbit` and its like, or by `load_orbit`."""
 
     def __init__(
         self,
@@ -49,6 +50,36 @@ class Orbit:
         self._inputs = inputs
         self._make_record = record
         self._series = series
+
+    @classmethod
+    def of(cls, solution: Solution, starts: int, seed: int = 0) -> Orbit:
+        """Return the orbit of a solution; record and time series are made when asked for.
+
+        Parameters
+        ----------
+        solution : what a search found.
+        starts, seed : what the search was asked for.
+        """
+        problem, certificate = solution.problem, solution.certificate
+        inputs = inputs_of(problem, starts, seed)
+
+        @functools.cache
+        def loads() -> Loads:
+            return evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
+
+        @functools.cache
+        def record() -> dict[str, Any]:
+            return orbit_record(solution, loads())
+
+        def series() -> xr.Dataset:
+            attributes = orbit_attributes(record(), inputs)
+            return flight_dataset(
+                problem.model, solution.wingbeat, certificate.phase, certificate.states, loads(), attributes
+            )
+
+        start = State(*certificate.states[0].tolist())
+        summary = Summary(solution.status, solution.message, solution.wingbeat, start)
+        return cls(summary, inputs, record, series)
 
     @functools.cached_property
     def _record(self) -> dict[str, Any]:
@@ -137,7 +168,7 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
             model = problem.model
             pool.submit(evaluate, model, problem.species.wingbeat, np.zeros(1), np.zeros((1, 6)))
         solution = find_orbit(problem, starts, seed, progress)
-    return _orbit(solution, starts, seed)
+    return Orbit.of(solution, starts, seed)
 
 
 def solve_orbits(
@@ -173,30 +204,34 @@ def solve_orbits(
     ['converged', 'converged', 'converged']
     """
     found = find_orbits(problems, starts, seed, processes, progress, most_starts)
-    return [_orbit(solution, starts, seed) for solution in found]
+    return [Orbit.of(solution, starts, seed) for solution in found]
 
 
-def _orbit(solution: Solution, starts: int, seed: int) -> Orbit:
-    problem, certificate = solution.problem, solution.certificate
-    inputs = inputs_of(problem, starts, seed)
+def solve_series(
+    problems: Sequence[OrbitProblem], starts: int = 1, seed: int = 0, most_starts: int | None = None
+) -> list[Orbit]:
+    """Find and certify orbits of problems in a row, such as speeds in order, each helped by its neighbours.
 
-    @functools.cache
-    def loads() -> Loads:
-        return evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
+    After its own searches each problem is searched from its neighbours' answers, up and down the row until
+    nothing gets better: the best family of orbits met anywhere reaches wherever it leads.
 
-    @functools.cache
-    def record() -> dict[str, Any]:
-        return orbit_record(solution, loads())
+    Parameters
+    ----------
+    problems : with the same free parameters, in an order in which neighbours are alike.
+    starts, seed, most_starts : as in `solve_orbits`, for each problem before answers are handed on.
 
-    def series() -> xr.Dataset:
-        attributes = orbit_attributes(record(), inputs)
-        return flight_dataset(
-            problem.model, solution.wingbeat, certificate.phase, certificate.states, loads(), attributes
-        )
+    Raises
+    ------
+    InvalidInputError : starts, seed or most_starts out of range.
 
-    start = State(*certificate.states[0].tolist())
-    summary = Summary(solution.status, solution.message, solution.wingbeat, start)
-    return Orbit(summary, inputs, record, series)
+    >>> import wingbeat as wb
+    >>> bat = wb.load_species("bat")
+    >>> orbits = wb.solve_series([wb.OrbitProblem(bat, speed=u) for u in (7.0, 8.0, 9.0)])
+    >>> all(orbit.record()["starts"] > 1 for orbit in orbits)
+    True
+    """
+    check_search(starts, seed)
+    return [Orbit.of(solution, starts, seed) for solution in find_series(problems, starts, seed, most_starts)]
 
 
 def load_orbit(path: str | PathLike[str]) -> Orbit:

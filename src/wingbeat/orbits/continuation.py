@@ -1,0 +1,70 @@
+"""Problems in a row, each a little different from the last: answers are handed on to the neighbours and back."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Solution, Status, find_orbit, follow
+
+# Sweeps up and down the row after which handing on stops, better answers or not.
+_SWEEPS = 6
+# A neighbour's answer must better one's own by this share to take its place.
+_BETTER = 1e-4
+
+
+def find_series(
+    problems: Sequence[OrbitProblem], starts: int = 1, seed: int = 0, most_starts: int | None = None
+) -> list[Solution]:
+    """Solve problems in a row, such as speeds in order, each searched from its neighbours' answers, too.
+
+    One search from a stock wingbeat meets whichever family of orbits is near; handed up and down the row, the best
+    family met anywhere reaches wherever it leads. Problems must have the same free parameters.
+
+    Parameters
+    ----------
+    problems : in such an order that neighbours are alike.
+    starts, seed, most_starts : as in `find_orbit`, for each problem before anything is handed on.
+
+    Returns
+    -------
+    The solutions; `starts` of each counts the searches made for it.
+    """
+    best = [find_orbit(p, starts, seed, threads=1, most_starts=most_starts) for p in problems]
+    tried: set[tuple[int, int]] = set()
+    upward = [(i, i + 1) for i in range(len(best) - 1)]
+    downward = [(i + 1, i) for i in reversed(range(len(best) - 1))]
+    for sweep in range(_SWEEPS):
+        better = False
+        for giver, taker in upward if sweep % 2 == 0 else downward:
+            key = (id(best[giver]), taker)
+            if best[giver].status is Status.CONVERGED and key not in tried:
+                tried.add(key)
+                better |= _hand_on(best, giver, taker)
+        if sweep and not better:
+            break
+    return best
+
+
+def _hand_on(best: list[Solution], giver: int, taker: int) -> bool:
+    """Search from a neighbour's answer; put it in the place of one's own if it is better."""
+    own = best[taker]
+    below = float("inf")
+    if own.status is Status.CONVERGED:
+        below = own.objective - _BETTER * abs(own.objective)
+    found = follow(own.problem, best[giver].unknowns, below)
+    made = own.starts + 1
+    seconds, certifying = own.seconds, own.certify_seconds
+    if found is None:
+        best[taker] = dataclasses.replace(own, starts=made)
+        return False
+    best[taker] = dataclasses.replace(
+        found,
+        starts=made,
+        distinct_optima=own.distinct_optima + 1,
+        seed=own.seed,
+        seconds=seconds + found.seconds,
+        certify_seconds=certifying + found.certify_seconds,
+    )
+    return True

@@ -52,9 +52,8 @@ def test_assumptions_are_sampled_and_written(monkeypatch, tmp_path, capsys):
     def run(count, seed, processes, progress):
         assert (count, seed, processes) == (3, 7, 1)
         shape = (count, len(study_claims()))
-        return Study(
-            tuple(sample_sets(count, seed)), study_claims(), np.ones(shape), np.ones(shape), np.ones(count)
-        )
+        sets = tuple(sample_sets(count, seed))
+        return Study(sets, study_claims(), np.ones(shape), np.ones(shape), np.ones(count))
 
     monkeypatch.setattr(study, "run_study", run)
     words = ["paper", "assumptions", "--sets", "3", "--seed", "7", "--processes", "1", "-o", str(tmp_path)]

@@ -115,17 +115,19 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     rows = list(csv.DictReader(io.StringIO(paths[1].read_text())))
     assert len(rows) == len(study.sets)
     assert float(rows[7]["taper"]) == pytest.approx(study.sets[7]["taper"], rel=1e-3)
-    assert rows[0][first] == "" and rows[9][f"{first}:holds"] in ("0", "1")
+    assert rows[0][first] == ""
+    assert rows[9][f"{first}:holds"] in ("0", "1")
     bars, heat, fits = pages.draw(study, [None] * len(study.claims)).axes[:3]
-    assert [bar.get_width() for bar in bars.patches][0] == pytest.approx(share)
-    assert "R²" in fits.get_xlabel() and len(heat.get_xticks()) == len(ASSUMPTIONS)
+    assert bars.patches[0].get_width() == pytest.approx(share)
+    assert "R²" in fits.get_xlabel()
+    assert len(heat.get_xticks()) == len(ASSUMPTIONS)
 
 
 def test_one_set_is_flown_and_judged():
     values = sample_sets(1)[0] | {"trims": "both", "extension": "mirrored", "force_point": "quarter-chord"}
     outcome = judge_set(values, starts=1)
     asked = 2 * sum(len(speeds) for speeds in SPEEDS.values())
-    assert asked - 4 <= outcome.flown <= asked
+    assert asked - 2 <= outcome.flown <= asked
     assert len(outcome.numbers) == len(outcome.holds) == len(study_claims())
     told = np.isfinite(outcome.holds)
     assert told.sum() >= 20

@@ -102,8 +102,8 @@ def _assumptions(sets: int, seed: int, folder: Path, processes: int) -> None:
         study = run_study(sets, seed=seed, processes=processes, progress=progress)
     minutes = (time.perf_counter() - begun) / 60
     heading = (
-        f"`wingbeat paper assumptions --sets {sets} --seed {seed}`: one search an orbit, answers handed on along speed "
-        f"and from model to model; {processes} processes, {minutes:.0f} minutes."
+        f"`wingbeat paper assumptions --sets {sets} --seed {seed}`: one search an orbit, answers handed on along "
+        f"speed and from model to model; {processes} processes, {minutes:.0f} minutes."
     )
     for path in write_study(study, folder, heading):
         print(f"wrote {path}", file=sys.stderr)

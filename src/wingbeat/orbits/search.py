@@ -17,6 +17,8 @@ CLOSED = 1e-4
 OPTIMAL = 1e-5
 # An elastic solve that ends further off than this, in the optimiser's scale, is no lead worth optimising.
 _HOPELESS = 1e-3
+# Iterations from a neighbour's answer.
+_BRIEFLY = 40
 # Evaluations of the elastic solve that goes before a search which is expected to be hard.
 _APPROACH = 40
 
@@ -52,14 +54,19 @@ def search(problem: Transcription, start: np.ndarray, *, elastic: bool = False) 
         optimal = optimal or (closed and optimality(problem, scaled) <= OPTIMAL)
         if closed and optimal:
             break
-    return Candidate(
-        problem,
-        scaled,
-        problem.objective(scaled) * problem.problem.minimise.scale,
-        closed,
-        optimal,
-        violation(problem, scaled),
-    )
+    return _candidate(problem, scaled, closed, optimal)
+
+
+def refine(problem: Transcription, start: np.ndarray) -> Candidate:
+    """Search once from unknowns that are taken to be near an orbit, and briefly: if they are, that is enough."""
+    scaled, optimal = optimise(problem, problem.scaled(start), iterations=_BRIEFLY)
+    closed = is_closed(problem, scaled)
+    return _candidate(problem, scaled, closed, optimal or (closed and optimality(problem, scaled) <= OPTIMAL))
+
+
+def _candidate(problem: Transcription, scaled: np.ndarray, closed: bool, optimal: bool) -> Candidate:
+    objective = problem.objective(scaled) * problem.problem.minimise.scale
+    return Candidate(problem, scaled, objective, closed, optimal, violation(problem, scaled))
 
 
 def violation(problem: Transcription, scaled: np.ndarray) -> float:

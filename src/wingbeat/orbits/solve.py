@@ -17,7 +17,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
-from wingbeat.orbits.search import OPTIMAL, Candidate, active_bounds, optimality, optimise, search
+from wingbeat.orbits.search import OPTIMAL, Candidate, active_bounds, optimality, optimise, refine, search
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_point
@@ -224,13 +224,14 @@ def find_orbit(
     if best is None:
         nearest = min(found, key=lambda c: c.violation)
         # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
-        best = _certified(nearest.programme, optimise(nearest.programme, nearest.scaled)[0])
+        at_bounds, _ = optimise(nearest.programme, nearest.scaled, iterations=5)
+        best = _certified(nearest.programme, at_bounds)
         failure = _failure(found, best)
     return _solution(best, found, seed, time.perf_counter() - begun, transcription.certify_seconds, failure)
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
-    """Search once from given unknowns; return the certified orbit, or None.
+    """Search once from unknowns near an orbit; return the certified orbit, or None.
 
     Parameters
     ----------
@@ -240,7 +241,7 @@ def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> S
     """
     begun = time.perf_counter()
     transcription = Transcription(problem)
-    candidate = search(transcription, start)
+    candidate = refine(transcription, start)
     if not (candidate.closed and candidate.optimal and candidate.objective < below):
         return None
     best = _first_certified(transcription, [candidate])

@@ -92,16 +92,18 @@ def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
         broken = problem.pitch_margin(x)[:, None] < 0
         return np.concatenate([problem.closure_jacobian(x), broken * problem.pitch_margin_jacobian(x)])
 
-    found = least_squares(
-        misses,
-        np.clip(scaled, problem.lower + inside, problem.upper - inside),
-        jac=jacobian,  # type: ignore[arg-type]
-        bounds=(problem.lower, problem.upper),
-        max_nfev=_APPROACH,
-        xtol=1e-9,
-        ftol=1e-9,
-        gtol=1e-9,
-    )
+    # Flights that run off overflow in what it squares; such a lead is given up by its violation.
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = least_squares(
+            misses,
+            np.clip(scaled, problem.lower + inside, problem.upper - inside),
+            jac=jacobian,  # type: ignore[arg-type]
+            bounds=(problem.lower, problem.upper),
+            max_nfev=_APPROACH,
+            xtol=1e-9,
+            ftol=1e-9,
+            gtol=1e-9,
+        )
     return found.x
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from wingbeat.model import flight_model as flight_model
     from wingbeat.orbits.objectives import Frequency as Frequency
     from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
-    from wingbeat.orbits.solve import Status as Status
+    from wingbeat.orbits.solution import Status as Status
     from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
     from wingbeat.results.orbit import Orbit as Orbit
@@ -56,7 +56,7 @@ _HOME = {
     "OrbitProblem": "orbits.problem",
     "Species": "species",
     "State": "model",
-    "Status": "orbits.solve",
+    "Status": "orbits.solution",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
     "Wingbeat": "kinematics",

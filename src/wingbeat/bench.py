@@ -19,7 +19,8 @@ from wingbeat.model import body_rates, motion_table
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.shooting import flier
-from wingbeat.orbits.solve import Progress, Solution, find_orbit
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import Progress, find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.species import load_species
 

@@ -10,7 +10,8 @@ from typing import TypeVar
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress, Solution, check_search, find_orbit
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import Progress, check_search, find_orbit
 
 T = TypeVar("T")
 R = TypeVar("R")

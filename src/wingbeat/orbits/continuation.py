@@ -6,7 +6,8 @@ import dataclasses
 from collections.abc import Sequence
 
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Solution, Status, find_orbit, follow
+from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solve import find_orbit, follow
 
 # Sweeps up and down the row after which handing on stops, better answers or not.
 _SWEEPS = 6

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 import functools
 import os
 import time
@@ -19,7 +18,7 @@ from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.search import OPTIMAL, Candidate, active_bounds, optimality, optimise, refine, search
 from wingbeat.orbits.shooting import fly_part
-from wingbeat.orbits.stability import floquet_multipliers
+from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 
@@ -34,51 +33,6 @@ _SETTLING = 4
 _CORRECTIONS = 12
 MOST_STARTS = 50
 _SAME = 1e-3
-
-
-class Status(enum.Enum):
-    """How a search for an orbit ended; the value is the name in records."""
-
-    CONVERGED = "converged"
-    INFEASIBLE = "infeasible"
-    NOT_CONVERGED = "not-converged"
-
-
-@dataclass(frozen=True)
-class Solution:
-    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted."""
-
-    problem: OrbitProblem
-    status: Status
-    message: str
-    wingbeat: Wingbeat
-    certificate: Certificate
-    closure: dict[str, float]
-    active_bounds: tuple[str, ...]
-    optimality: float
-    starts: int
-    distinct_optima: int
-    seed: int
-    seconds: float
-    certify_seconds: float
-
-    @property
-    def unknowns(self) -> np.ndarray:
-        """Pitch state at the start and free parameters, as a search starts from them."""
-        free = [getattr(self.wingbeat, name) for name in self.problem.free]
-        return np.concatenate([self.certificate.states[0, 2:], free])
-
-    @property
-    def objective(self) -> float:
-        """What was made least."""
-        problem = self.problem
-        return problem.minimise.value(problem.unknowns().names, self.unknowns)
-
-    @functools.cached_property
-    def multipliers(self) -> np.ndarray:
-        """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
-        problem = self.problem
-        return floquet_multipliers(problem.model, self.wingbeat, self.certificate.states[0, 2:], problem.free)
 
 
 Progress = Callable[[int, int], None]

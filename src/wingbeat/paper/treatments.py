@@ -12,7 +12,8 @@ from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.orbits.batch import in_processes
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress, Solution
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
 

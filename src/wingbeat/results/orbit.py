@@ -17,7 +17,8 @@ from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress, Solution, Status, check_search, find_orbit
+from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solve import Progress, check_search, find_orbit
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import orbit_record

@@ -12,7 +12,7 @@ from wingbeat.aero import BladeElement
 from wingbeat.loads import Loads
 from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solve import Solution, Status
+from wingbeat.orbits.solution import Solution, Status
 from wingbeat.results.warnings import orbit_warnings
 
 

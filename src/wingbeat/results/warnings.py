@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from wingbeat.loads import Loads
-from wingbeat.orbits.solve import Solution
+from wingbeat.orbits.solution import Solution
 from wingbeat.vehicle import Air, Vehicle
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.

@@ -1,0 +1,59 @@
+"""What a search found, and how it ended."""
+
+from __future__ import annotations
+
+import enum
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.kinematics import Wingbeat
+from wingbeat.orbits.certify import Certificate
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.stability import floquet_multipliers
+
+
+class Status(enum.Enum):
+    """How a search for an orbit ended; the value is the name in records."""
+
+    CONVERGED = "converged"
+    INFEASIBLE = "infeasible"
+    NOT_CONVERGED = "not-converged"
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted."""
+
+    problem: OrbitProblem
+    status: Status
+    message: str
+    wingbeat: Wingbeat
+    certificate: Certificate
+    closure: dict[str, float]
+    active_bounds: tuple[str, ...]
+    optimality: float
+    starts: int
+    distinct_optima: int
+    seed: int
+    seconds: float
+    certify_seconds: float
+
+    @property
+    def unknowns(self) -> np.ndarray:
+        """Pitch state at the start and free parameters, as a search starts from them."""
+        free = [getattr(self.wingbeat, name) for name in self.problem.free]
+        return np.concatenate([self.certificate.states[0, 2:], free])
+
+    @property
+    def objective(self) -> float:
+        """What was made least."""
+        problem = self.problem
+        return problem.minimise.value(problem.unknowns().names, self.unknowns)
+
+    @functools.cached_property
+    def multipliers(self) -> np.ndarray:
+        """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
+        problem = self.problem
+        return floquet_multipliers(problem.model, self.wingbeat, self.certificate.states[0, 2:], problem.free)

@@ -59,3 +59,21 @@ def test_orbits_of_a_row_have_records_and_bad_counts_are_refused(row):
     assert [orbit.record()["speed"] for orbit in orbits] == [7.0, 8.0]
     with pytest.raises(InvalidInputError, match="starts"):
         wb.solve_series(row[:1], starts=0)
+
+
+def test_an_answer_is_handed_to_a_neighbour_once(row, monkeypatch):
+    handed = []
+
+    def counted(problem, start, below):
+        handed.append((problem.speed, start.tobytes()))
+        return follow(problem, start, below)
+
+    monkeypatch.setattr(continuation, "follow", counted)
+    find_series(row)
+    assert len(handed) == len(set(handed)) >= 2 * (len(row) - 1)
+
+
+def test_a_row_must_leave_the_same_free(row):
+    other = dataclasses.replace(row[1], free=("frequency", "flap_amplitude"), bounds={})
+    with pytest.raises(InvalidInputError, match=r"problems\[1\].free"):
+        wb.solve_series([row[0], other])

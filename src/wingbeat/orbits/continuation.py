@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 
+from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import find_orbit, follow
@@ -31,15 +32,25 @@ def find_series(
     Returns
     -------
     The solutions; `starts` of each counts the searches made for it.
+
+    Raises
+    ------
+    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
     """
+    faults = FaultList()
+    for i, problem in enumerate(problems):
+        if problem.free != problems[0].free:
+            fix = f"give all of a row the same, as the first: {', '.join(problems[0].free)}"
+            faults.add(f"problems[{i}].free", problem.free, "is not what is free beside it", fix)
+    faults.raise_if_any()
     best = [find_orbit(p, starts, seed, threads=1, most_starts=most_starts) for p in problems]
-    tried: set[tuple[int, int]] = set()
+    tried: set[tuple[bytes, int]] = set()
     upward = [(i, i + 1) for i in range(len(best) - 1)]
     downward = [(i + 1, i) for i in reversed(range(len(best) - 1))]
     for sweep in range(_SWEEPS):
         better = False
         for giver, taker in upward if sweep % 2 == 0 else downward:
-            key = (id(best[giver]), taker)
+            key = (best[giver].unknowns.tobytes(), taker)
             if best[giver].status is Status.CONVERGED and key not in tried:
                 tried.add(key)
                 better |= _hand_on(best, giver, taker)

@@ -6,10 +6,18 @@ import numpy as np
 
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
+from wingbeat.paper.treatments import ANIMALS, MODELS
 
 
-def _peaks(evidence: Evidence, key: str) -> tuple[float, float]:
-    return tuple(float(evidence.record("bat", model)[key]) for model in ("su-fan", "dickinson"))  # type: ignore
+def _peaks(evidence: Evidence) -> list[float]:
+    """Return the bat's peak powers at 10 m/s, Su-Fan's and Dickinson's [W]."""
+    return [float(evidence.record("bat", model)["peak_power"]) for model in MODELS]
+
+
+def _largest_ratio(evidence: Evidence, key: str) -> TestResult:
+    """Return the larger of both animals' ratios of a number at 10 m/s, Su-Fan over Dickinson; below 1 holds."""
+    ratios = [evidence.record(a, "su-fan")[key] / evidence.record(a, "dickinson")[key] for a in ANIMALS]
+    return max(ratios), max(ratios) < 1
 
 
 def peak_power(model: str) -> FlightClaim:
@@ -32,14 +40,14 @@ def peak_power(model: str) -> FlightClaim:
 
 def four_times(evidence: Evidence) -> TestResult:
     """Return the ratio of the bat's peak powers at 10 m/s, Dickinson over Su-Fan."""
-    fit, fly = _peaks(evidence, "peak_power")
+    fit, fly = _peaks(evidence)
     return fly / fit, 3 <= fly / fit <= 5
 
 
 def power_exponent(evidence: Evidence) -> TestResult:
     """Return the exponent that the two models' powers and frequencies at 10 m/s imply."""
-    fit, fly = _peaks(evidence, "peak_power")
-    slow, fast = (evidence.orbit("bat", model).wingbeat.frequency for model in ("su-fan", "dickinson"))
+    fit, fly = _peaks(evidence)
+    slow, fast = (evidence.orbit("bat", model).wingbeat.frequency for model in MODELS)
     if abs(np.log(fast / slow)) < 0.05:
         return 0.0, False
     exponent = float(np.log(fly / fit) / np.log(fast / slow))
@@ -48,18 +56,13 @@ def power_exponent(evidence: Evidence) -> TestResult:
 
 def measured_power_below(evidence: Evidence) -> TestResult:
     """Return the lower of the two peak powers at 10 m/s [W]."""
-    least = min(_peaks(evidence, "peak_power"))
+    least = min(_peaks(evidence))
     return least, least > 4
 
 
 def lower_power(evidence: Evidence) -> TestResult:
     """Return the largest ratio of mean positive powers at 10 m/s, Su-Fan over Dickinson, both animals."""
-    ratios = [
-        evidence.record(animal, "su-fan")["mean_positive_power"]
-        / evidence.record(animal, "dickinson")["mean_positive_power"]
-        for animal in ("pigeon", "bat")
-    ]
-    return max(ratios), max(ratios) < 1
+    return _largest_ratio(evidence, "mean_positive_power")
 
 
 def pitch_range(model: str, bound: bool) -> FlightClaim:
@@ -89,9 +92,4 @@ def few_degrees(evidence: Evidence) -> TestResult:
 
 def less_pitching(evidence: Evidence) -> TestResult:
     """Return the largest ratio of body pitch ranges at 10 m/s, Su-Fan over Dickinson, both animals."""
-    ratios = [
-        evidence.record(animal, "su-fan")["body_pitch_range"]
-        / evidence.record(animal, "dickinson")["body_pitch_range"]
-        for animal in ("pigeon", "bat")
-    ]
-    return max(ratios), max(ratios) < 1
+    return _largest_ratio(evidence, "body_pitch_range")

@@ -223,7 +223,7 @@ def solve_series(
 
     Raises
     ------
-    InvalidInputError : starts, seed or most_starts out of range.
+    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
 
     >>> import wingbeat as wb
     >>> bat = wb.load_species("bat")

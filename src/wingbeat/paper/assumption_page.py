@@ -155,6 +155,7 @@ def _apart(study: Study) -> list[str]:
 
 def draw(study: Study, hangs: Sequence[Importance | None]) -> Figure:
     """Draw, for each claim, the share of sets that satisfy it and what its number hangs on."""
+    from matplotlib import colormaps
     from matplotlib.figure import Figure
 
     count = len(study.claims)
@@ -169,15 +170,18 @@ def draw(study: Study, hangs: Sequence[Importance | None]) -> Figure:
     bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
     bars.legend(fontsize=7, loc="lower right", frameon=True)
     shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
-    image = heat.imshow(100 * shares, aspect="auto", cmap="cividis_r", vmin=0, vmax=60)
+    image = heat.imshow(
+        100 * shares, aspect="auto", cmap=colormaps["Blues"].with_extremes(bad="0.85"), vmin=0, vmax=60
+    )
     names = [assumption.name.replace("_", " ").removesuffix(" deg") for assumption in ASSUMPTIONS]
     heat.set_xticks(np.arange(len(ASSUMPTIONS)), names, rotation=40, ha="right", fontsize=8)
-    figure.colorbar(image, ax=heat, label="share of its number explained [%]", fraction=0.03, pad=0.01)
+    figure.colorbar(
+        image, ax=heat, label="share of its number explained [%]; grey: too few sets", fraction=0.03, pad=0.01
+    )
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
     fits.barh(places, np.maximum(quality, 0.0), color="#009E73", height=0.7)
     fits.axvline(_TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
     fits.set(xlim=(0, 1), xlabel="surface R² [-]")
-    heat.invert_yaxis()
     for axes, letter in ((bars, "a"), (heat, "b"), (fits, "c")):
         axes.set_title(letter, loc="left", fontsize=9, fontweight="bold")
         axes.tick_params(length=2)

@@ -75,8 +75,7 @@ def measure() -> dict[str, dict[str, int]]:
     table = motion_table(model, beat, jnp.asarray(0.3))
 
     def value(start: Any) -> Any:
-        rows, step = _tabulate(model, beat, 0.0, 1.0)
-        like = jax.eval_shape(lambda: motion_table(model, beat, jnp.zeros(1)))
+        (rows, step), like = _tabulate(model, beat, 0.0, 1.0)
         return _march(model, rows, like, step, start)
 
     def flight(values: Any, start: Any) -> Any:

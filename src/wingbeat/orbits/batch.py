@@ -1,23 +1,23 @@
-"""Many orbit problems, spread over processes: the same searches and answers as one by one."""
+"""Many orbit problems, spread over processes; of problems alike, the later ones start from the answers before."""
 
 from __future__ import annotations
 
 import functools
+import itertools
 import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import TypeVar
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.neighbours import Answers, alike
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, check_search, find_orbit
+from wingbeat.orbits.solution import Solution, Status, better_of
+from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
 
 T = TypeVar("T")
 R = TypeVar("R")
 
-# Problems handed to a process at a time: enough to hide the handing over, few enough to share out evenly.
-_CHUNK = 8
 _MOST_PROCESSES = 1024
 
 
@@ -29,13 +29,16 @@ def find_orbits(
     progress: Progress | None = None,
     most_starts: int | None = None,
 ) -> Iterator[Solution]:
-    """Yield the solution of each problem, in their order, as they come; a failed search is data as in `find_orbit`.
+    """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
+
+    Of problems that differ in numbers only, the first are searched as in `find_orbit`. Of a later one the first
+    search starts from what their answers foretell; if that leads to no certified orbit, it does not count.
 
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
     starts, seed, most_starts : as in `find_orbit`, for each problem.
-    processes : how many Python processes share the work; with 1 it is done in this one.
+    processes : how many Python processes share the work; with 1 it is done in this one. The answers are the same.
     progress : called with (problems done, problems in all).
 
     Raises
@@ -50,8 +53,52 @@ def find_orbits(
         faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
     faults.raise_if_any()
     check_search(starts, seed, 1 if most_starts is None else most_starts)
-    find = functools.partial(find_orbit, starts=starts, seed=seed, threads=1, most_starts=most_starts)
-    return in_processes(find, problems, processes, progress, _CHUNK)
+    solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts)
+    return _in_order(solve, problems, processes, progress)
+
+
+def _in_order(
+    solve: Callable[[Sequence[OrbitProblem]], Iterator[Solution]],
+    problems: Sequence[OrbitProblem],
+    processes: int,
+    progress: Progress | None,
+) -> Iterator[Solution]:
+    """Solve group by group, and yield each solution when its turn comes."""
+    groups = alike(problems)
+    work = solve if processes == 1 else functools.partial(_all_of, solve)
+    found = in_processes(work, [[problems[i] for i in group] for group in groups], processes)
+    waiting: dict[int, Solution] = {}
+    due = 0
+    indices = itertools.chain.from_iterable(groups)
+    for index, solution in zip(indices, itertools.chain.from_iterable(found), strict=True):
+        waiting[index] = solution
+        if progress is not None:
+            progress(due + len(waiting), len(problems))
+        while due in waiting:
+            yield waiting.pop(due)
+            due += 1
+
+
+def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
+    return list(solve(item))
+
+
+def _solve_alike(
+    problems: Sequence[OrbitProblem], starts: int, seed: int, most_starts: int | None
+) -> Iterator[Solution]:
+    """Solve problems of one group in turn, each helped by the answers before."""
+    answers = Answers(problems)
+    for i, problem in enumerate(problems):
+        guess = answers.foretell(i)
+        best = None if guess is None else settle(problem, guess)
+        own = starts if best is None else starts - 1
+        if own:
+            cold = find_orbit(problem, own, seed, threads=1, most_starts=most_starts)
+            best = cold if best is None else better_of(cold, best)
+        assert best is not None
+        if best.status is Status.CONVERGED:
+            answers.add(i, best.unknowns)
+        yield best
 
 
 def in_processes(
@@ -59,7 +106,6 @@ def in_processes(
     items: Sequence[T],
     processes: int,
     progress: Progress | None = None,
-    chunk: int = 1,
 ) -> Iterator[R]:
     """Yield what `work` makes of each item, in their order, as they come.
 
@@ -69,7 +115,6 @@ def in_processes(
     items : what to work on.
     processes : how many Python processes share the items; with 1 it is done in this one.
     progress : called with (items done, items in all).
-    chunk : items handed to a process at a time.
     """
 
     def told(results: Iterator[R]) -> Iterator[R]:
@@ -85,6 +130,6 @@ def in_processes(
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(processes, max(len(items), 1)), context) as pool:
         try:
-            yield from told(pool.map(work, items, chunksize=chunk))
+            yield from told(pool.map(work, items))
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import find_orbit, follow
 
 # Sweeps up and down the row after which handing on stops, better answers or not.
@@ -66,17 +66,5 @@ def _hand_on(best: list[Solution], giver: int, taker: int) -> bool:
     if own.status is Status.CONVERGED:
         below = own.objective - _BETTER * abs(own.objective)
     found = follow(own.problem, best[giver].unknowns, below)
-    made = own.starts + 1
-    seconds, certifying = own.seconds, own.certify_seconds
-    if found is None:
-        best[taker] = dataclasses.replace(own, starts=made)
-        return False
-    best[taker] = dataclasses.replace(
-        found,
-        starts=made,
-        distinct_optima=own.distinct_optima + 1,
-        seed=own.seed,
-        seconds=seconds + found.seconds,
-        certify_seconds=certifying + found.certify_seconds,
-    )
-    return True
+    best[taker] = dataclasses.replace(own, starts=own.starts + 1) if found is None else better_of(own, found)
+    return found is not None

@@ -13,10 +13,14 @@ from wingbeat.orbits.transcription import AT_BOUND, Transcription
 # Step of the difference quotient of the curvature, and the Newton step whose successor counts as none, in the
 # optimiser's scale.
 _STEP = 1e-4
-_STILL = 1e-5
-_ITERATIONS = 6
+STILL = 1e-5
+_ITERATIONS = 10
+# A step tells of the curvature along the null space if its part across is shorter than this share of it, and if
+# the curvature is more than this share of what was thought.
+_ASIDE = 0.05
+_BENT = 0.1
 # Newton's method that leaves this far from closure has lost its way.
-_LOST = 1.0
+_LOST = 5.0
 
 
 class Polish:
@@ -31,7 +35,7 @@ class Polish:
         # Fewer unknowns than conditions cannot meet them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1]
         if self.fits:
-            self.along = _null_space(jacobian)
+            self.along = _Conditions(jacobian).null
             self.curvature = self._curvature(scaled, jacobian)
             self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
 
@@ -45,7 +49,7 @@ class Polish:
     def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
         """Return the Lagrangian's second derivative along the null space, by differences of its gradient."""
         gradient = self.problem.objective_gradient(scaled)[self.free]
-        multipliers = np.linalg.lstsq(jacobian.T, gradient)[0]
+        multipliers = _Conditions(jacobian).multipliers(gradient)
         change = []
         for direction in self.along.T:
             moved = scaled.copy()
@@ -55,27 +59,60 @@ class Polish:
         curvature = np.reshape(change, (-1, self.free.sum())) @ self.along / _STEP
         return 0.5 * (curvature + curvature.T)
 
-    def follow(self, scaled: np.ndarray) -> np.ndarray | None:
-        """Return the optimum next to a point, or None where Newton's method leads to none within the bounds."""
+    def follow(self, scaled: np.ndarray, still: float = STILL) -> np.ndarray | None:
+        """Return the optimum next to a point, or None where Newton's method leads to none within the bounds.
+
+        It ends with a step shorter than `still`.
+        """
         problem = self.problem
+        before: tuple[np.ndarray, ...] | None = None
         for _ in range(_ITERATIONS if self.fits else 0):
             values, jacobian = self._rows(scaled)
             if not np.isfinite(values).all() or np.abs(values).max() > _LOST:
                 return None
-            null = _null_space(jacobian)
-            left, _, right = np.linalg.svd(null.T @ self.along)
-            along = null @ left @ right
-            downhill = along.T @ problem.objective_gradient(scaled)[self.free]
-            step = np.linalg.lstsq(jacobian, -values)[0] - along @ np.linalg.solve(self.curvature, downhill)
+            gradient = problem.objective_gradient(scaled)[self.free]
+            conditions = _Conditions(jacobian)
+            if before is not None:
+                along, sliding, gradient_before, jacobian_before = before
+                turned = (jacobian - jacobian_before).T @ conditions.multipliers(gradient)
+                self._learn(sliding, along.T @ (gradient - gradient_before - turned))
+            left, _, right = np.linalg.svd(conditions.null.T @ self.along)
+            along = conditions.null @ left @ right
+            closing = conditions.shortest(-values)
+            sliding = -np.linalg.solve(self.curvature, along.T @ gradient)
+            step = closing + along @ sliding
+            slides = np.abs(closing).max() <= _ASIDE * np.abs(sliding).max(initial=0.0)
+            before = (along, sliding, gradient, jacobian) if slides else None
             scaled = scaled.copy()
             scaled[self.free] += step
             if (scaled < problem.lower).any() or (scaled > problem.upper).any():
                 return None
-            if np.abs(step).max() <= _STILL:
+            if np.abs(step).max() <= still:
                 # A bound on the path that was not met before may be broken now, which these conditions do not see.
                 return scaled if problem.pitch_margin(scaled).min() >= -AT_BOUND else None
         return None
 
+    def _learn(self, sliding: np.ndarray, change: np.ndarray) -> None:
+        """Take into the curvature how a step along the null space changed the Lagrangian's gradient (BFGS)."""
+        told = self.curvature @ sliding
+        if sliding @ change > _BENT * (sliding @ told):
+            by_step = np.outer(change, change) / (sliding @ change)
+            self.curvature = self.curvature - np.outer(told, told) / (sliding @ told) + by_step
 
-def _null_space(jacobian: np.ndarray) -> np.ndarray:
-    return np.linalg.svd(jacobian)[2][jacobian.shape[0] :].T
+
+class _Conditions:
+    """Linear conditions ``jacobian @ step = values``, taken apart once: what they leave free, and what they fix."""
+
+    def __init__(self, jacobian: np.ndarray) -> None:
+        rows = jacobian.shape[0]
+        whole, triangle = np.linalg.qr(jacobian.T, mode="complete")
+        self.null = whole[:, rows:]
+        self._range, self._triangle = whole[:, :rows], triangle[:rows]
+
+    def shortest(self, values: np.ndarray) -> np.ndarray:
+        """Return the shortest step that meets the conditions."""
+        return self._range @ np.linalg.solve(self._triangle.T, values)
+
+    def multipliers(self, gradient: np.ndarray) -> np.ndarray:
+        """Return the weights of the conditions that come nearest to a gradient."""
+        return np.linalg.solve(self._triangle, self._range.T @ gradient)

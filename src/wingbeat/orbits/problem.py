@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -136,9 +137,9 @@ class OrbitProblem:
         """The vehicle that flies."""
         return self.species.vehicle
 
-    @property
+    @functools.cached_property
     def model(self) -> FlightModel:
-        """The flight model: vehicle, air loads, air."""
+        """The flight model: vehicle, air loads, air; joined once, for its coefficients take a flight's time."""
         return flight_model(self.vehicle, self.aero, self.air)
 
     def unknowns(self) -> Unknowns:

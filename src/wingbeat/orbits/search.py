@@ -158,6 +158,8 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
             columns.append(row)
             signs.append((0.0, np.inf))
     lower, upper = np.array(signs).T
-    gradient = problem.objective_gradient(scaled)
-    fit = lsq_linear(np.array(columns).T, gradient, bounds=(lower, upper))
-    return float(np.abs(np.array(columns).T @ fit.x - gradient).max())
+    gradient, normals = problem.objective_gradient(scaled), np.array(columns).T
+    multipliers = np.linalg.lstsq(normals, gradient)[0]
+    if (multipliers < lower).any():
+        multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
+    return float(np.abs(normals @ multipliers - gradient).max())

@@ -34,12 +34,15 @@ class Flown(NamedTuple):
     pitch_jacobian: Any
 
 
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[Any, Any]:
-    """Tabulate the wing at the ends of the steps, then at their middles, in rows; and the length of a step [s]."""
+def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[tuple[Any, Any], WingMotion]:
+    """Tabulate the wing at the ends of the steps, then at their middles.
+
+    Returns the table in rows and the length of a step [s], and the table as it is.
+    """
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
     table = motion_table(model, wingbeat, phase)
-    return _in_rows(table), (last - first) / (wingbeat.frequency * STEPS)
+    return (_in_rows(table), (last - first) / (wingbeat.frequency * STEPS)), table
 
 
 def _in_rows(table: WingMotion) -> Any:
@@ -48,7 +51,7 @@ def _in_rows(table: WingMotion) -> Any:
 
 
 def _from_rows(rows: Any, like: Any) -> WingMotion:
-    """Return the table whose rows these are; `like` has its shapes with one more axis, of times."""
+    """Return the table whose rows these are; `like` is a table of any times."""
     leaves, tree = jax.tree_util.tree_flatten(like)
     sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
     parts = jnp.split(rows, sizes[:-1])
@@ -75,12 +78,13 @@ def _combine(stages: Any) -> Any:
 
 def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
+    rates_of = jax.jit(body_rates)  # traced once for all stages
 
     def advance(state: Any, rows: Any) -> tuple[Any, tuple[Any, Any]]:
         begin, middle, end = (_from_rows(a, like) for a in rows)
         states, rates = [state], []
         for here, ahead in ((begin, 0.5), (middle, 0.5), (middle, 1.0), (end, None)):
-            rates.append(body_rates(model, here, states[-1]))
+            rates.append(rates_of(model, here, states[-1]))
             if ahead is not None:
                 states.append(state + ahead * step * rates[-1])
         return state + step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
@@ -163,9 +167,8 @@ def fly_part(
     def by_values(at: Any) -> Any:
         return _tabulate(model, unpack(free, wingbeat, at), first, last)
 
-    (table, step), along = jax.linearize(by_values, values)
+    (table, step), along, like = jax.linearize(by_values, values, has_aux=True)
     tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
-    like = jax.eval_shape(lambda: motion_table(model, wingbeat, jnp.zeros(1)))
     table, tangents = settled((table, tangents))
     flight = _march(model, table, like, step, start)
     by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)

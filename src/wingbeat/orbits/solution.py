@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import enum
 import functools
 from dataclasses import dataclass
@@ -12,6 +13,9 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.stability import floquet_multipliers
+
+# Optima nearer to one another than this, in the optimiser's scale, are one.
+SAME = 1e-3
 
 
 class Status(enum.Enum):
@@ -57,3 +61,18 @@ class Solution:
         """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
         problem = self.problem
         return floquet_multipliers(problem.model, self.wingbeat, self.certificate.states[0, 2:], problem.free)
+
+
+def better_of(own: Solution, other: Solution) -> Solution:
+    """Return the better of two answers to one problem, with the searches, optima and times of both."""
+    scale = own.problem.unknowns().scale
+    same = np.abs((own.unknowns - other.unknowns) / scale).max() <= SAME
+    converged = [s for s in (own, other) if s.status is Status.CONVERGED]
+    return dataclasses.replace(
+        min(converged, key=lambda s: s.objective, default=own),
+        starts=own.starts + other.starts,
+        distinct_optima=own.distinct_optima + (0 if same else other.distinct_optima),
+        seed=own.seed,
+        seconds=own.seconds + other.seconds,
+        certify_seconds=own.certify_seconds + other.certify_seconds,
+    )

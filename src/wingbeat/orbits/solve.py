@@ -16,9 +16,18 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
-from wingbeat.orbits.search import OPTIMAL, Candidate, active_bounds, optimality, optimise, refine, search
+from wingbeat.orbits.search import (
+    OPTIMAL,
+    Candidate,
+    active_bounds,
+    optimality,
+    optimise,
+    refine,
+    search,
+    violation,
+)
 from wingbeat.orbits.shooting import fly_part
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import SAME, Solution, Status
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 
@@ -31,8 +40,9 @@ _FINE = 8
 _SETTLED = 2e-2
 _SETTLING = 4
 _CORRECTIONS = 12
+# Violation, in the optimiser's scale, of unknowns that are next to an orbit.
+_NEXT_TO = 5.0
 MOST_STARTS = 50
-_SAME = 1e-3
 
 
 Progress = Callable[[int, int], None]
@@ -69,7 +79,10 @@ def correct(problem: Transcription, scaled: np.ndarray) -> Corrected:
     value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
     """
     problem = problem.anew()
-    polish = Polish(problem, scaled)
+    return _corrected(problem, Polish(problem, scaled), scaled)
+
+
+def _corrected(problem: Transcription, polish: Polish, scaled: np.ndarray) -> Corrected:
     for _ in range(_SETTLING):
         problem.tilt_at(scaled, _FINE)
         tilted, scaled = scaled, _settle(polish, scaled)
@@ -181,7 +194,25 @@ def find_orbit(
         at_bounds, _ = optimise(nearest.programme, nearest.scaled, iterations=5)
         best = _certified(nearest.programme, at_bounds)
         failure = _failure(found, best)
-    return _solution(best, found, seed, time.perf_counter() - begun, transcription.certify_seconds, failure)
+    seconds = time.perf_counter() - begun
+    return _solution(best, len(found), len(_distinct(found)), seed, seconds, transcription.certify_seconds, failure)
+
+
+def settle(problem: OrbitProblem, guess: np.ndarray) -> Solution | None:
+    """Correct unknowns taken to be next to an orbit, without a search; return the certified orbit, or None."""
+    begun = time.perf_counter()
+    transcription = Transcription(problem)
+    scaled = transcription.scaled(guess)
+    if violation(transcription, scaled) > _NEXT_TO:
+        return None
+    polish = Polish(transcription, scaled)
+    nearer = polish.follow(scaled, still=_SETTLED)
+    if nearer is None:
+        return None
+    corrected = _corrected(transcription, polish, nearer)
+    if not corrected.is_orbit():
+        return None
+    return _solution(corrected, 1, 1, 0, time.perf_counter() - begun, transcription.certify_seconds)
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
@@ -201,12 +232,13 @@ def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> S
     best = _first_certified(transcription, [candidate])
     if best is None:
         return None
-    return _solution(best, [candidate], 0, time.perf_counter() - begun, transcription.certify_seconds)
+    return _solution(best, 1, 1, 0, time.perf_counter() - begun, transcription.certify_seconds)
 
 
 def _solution(
     best: Corrected,
-    found: list[Candidate],
+    searches: int,
+    distinct_optima: int,
     seed: int,
     seconds: float,
     certify_seconds: float,
@@ -225,8 +257,8 @@ def _solution(
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
         active_bounds(best.programme, best.scaled),
         best.optimality,
-        len(found),
-        len(_distinct(found)),
+        searches,
+        distinct_optima,
         seed,
         seconds,
         certify_seconds,
@@ -275,7 +307,7 @@ def _distinct(found: list[Candidate]) -> list[np.ndarray]:
     """Return the distinct optima among the candidates, in the optimiser's scale."""
     optima: list[np.ndarray] = []
     for candidate in found:
-        known = any(np.abs(candidate.scaled - other).max() <= _SAME for other in optima)
+        known = any(np.abs(candidate.scaled - other).max() <= SAME for other in optima)
         if candidate.closed and candidate.optimal and not known:
             optima.append(candidate.scaled)
     return optima

@@ -1,0 +1,100 @@
+"""Which problems of a batch are alike, and what the answers of some foretell of another's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from wingbeat.jax64 import jax
+from wingbeat.orbits.problem import OrbitProblem
+
+# Problems that learn from one another: enough for good guesses, few enough to share a batch out over processes.
+TOGETHER = 128
+# Relative differences between numbers that come from rounding.
+_ROUNDING = 1e-12
+
+
+def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
+    """Return the indices of problems in groups that differ in numbers only, each group in an order to learn from.
+
+    A group is of one species and one coefficient model, by name. It has neighbouring numbers, and its order goes to
+    what is farthest from all that came before. Groups hang on the problems alone, not on who solves them.
+    """
+    kinds: dict[object, list[int]] = {}
+    for i, problem in enumerate(problems):
+        leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
+        shapes = tuple(np.shape(leaf) for leaf in leaves)
+        names = problem.species.name, problem.aero.coefficients.name, *problem.free, repr(problem.minimise)
+        kinds.setdefault((names, tree, shapes), []).append(i)
+    groups = []
+    for members in kinds.values():
+        places = differences([problems[i] for i in members])
+        groups += [[members[j] for j in _spread(places, part)] for part in _parts(places, np.arange(len(members)))]
+    return groups
+
+
+def differences(problems: Sequence[OrbitProblem]) -> np.ndarray:
+    """Return where problems of one kind are, from their mean, in as few directions as they differ in.
+
+    Distances are those between the numbers that describe them, each over its largest; shape (problems, directions).
+    """
+    numbers = np.array([_numbers(problem) for problem in problems])
+    numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
+    places, sizes, _ = np.linalg.svd(numbers - numbers.mean(axis=0), full_matrices=False)
+    told = sizes > _ROUNDING * np.sqrt(numbers.size)
+    return places[:, told] * sizes[told]
+
+
+def _numbers(problem: OrbitProblem) -> np.ndarray:
+    leaves = jax.tree_util.tree_leaves((problem.model, problem.species.wingbeat))
+    bounds = list(problem.bounds.values())
+    # What a coefficient model has none of is not-a-number.
+    return np.nan_to_num(np.concatenate([np.ravel(a) for a in (*leaves, problem.speed, problem.climb, bounds)]))
+
+
+def _parts(places: np.ndarray, members: np.ndarray) -> list[np.ndarray]:
+    """Halve where the numbers differ most, until the parts are small enough."""
+    if members.size <= TOGETHER:
+        return [members]
+    here = places[members]
+    order = members[np.argsort(here[:, np.ptp(here, axis=0).argmax()], kind="stable")] if here.size else members
+    half = members.size // 2
+    return _parts(places, order[:half]) + _parts(places, order[half:])
+
+
+def _spread(places: np.ndarray, members: np.ndarray) -> np.ndarray:
+    """Return the members from the middle on, each the farthest from those before it."""
+    here = places[members] - places[members].mean(axis=0)
+    order, away = [], np.full(members.size, np.inf)
+    nearest = np.linalg.norm(here, axis=1).argmin()
+    for _ in members:
+        order.append(nearest)
+        away = np.minimum(away, np.linalg.norm(here - here[nearest], axis=1))
+        away[order] = -1.0
+        nearest = away.argmax()
+    return members[order]
+
+
+class Answers:
+    """Answers of a group's problems so far, and what they foretell of the next by a line through the nearest."""
+
+    def __init__(self, problems: Sequence[OrbitProblem]) -> None:
+        self._places = differences(problems)
+        self._known: list[int] = []
+        self._unknowns: list[np.ndarray] = []
+        self._enough = self._places.shape[1] + 2
+
+    def add(self, index: int, unknowns: np.ndarray) -> None:
+        """Remember the answer of a problem."""
+        self._known.append(index)
+        self._unknowns.append(unknowns)
+
+    def foretell(self, index: int) -> np.ndarray | None:
+        """Return the unknowns of a problem by linear regression, or None where too little is known."""
+        if len(self._known) < self._enough:
+            return None
+        away = self._places[self._known] - self._places[index]
+        nearest = np.linalg.norm(away, axis=1).argsort(kind="stable")[: 2 * self._enough]
+        lines = np.column_stack([np.ones(nearest.size), away[nearest]])
+        return np.linalg.lstsq(lines, np.array(self._unknowns)[nearest])[0][0]

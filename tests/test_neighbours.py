@@ -61,8 +61,10 @@ def test_answers_that_lie_on_a_plane_are_foretold_exactly(pigeons):
     enough = places.shape[1] + 2
     for i in range(enough):
         assert answers.foretell(enough) is None
-        answers.add(i, 1.0 + places[i] @ slopes)
-    np.testing.assert_allclose(answers.foretell(enough), 1.0 + places[enough] @ slopes, rtol=1e-9)
+        answers.add(i, 1.0 + places[i] @ slopes, None)
+    unknowns, polish = answers.foretell(enough)
+    assert polish is None
+    np.testing.assert_allclose(unknowns, 1.0 + places[enough] @ slopes, rtol=1e-9)
 
 
 def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search(pigeons, monkeypatch):
@@ -87,11 +89,13 @@ def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search
 
 def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
     found = find_orbit(pigeons[0], 1, threads=1)
-    again = settle(pigeons[0], found.unknowns)
+    again, polish = settle(pigeons[0], found.unknowns, None)
     assert again.objective == pytest.approx(found.objective, rel=1e-8)
+    once_more, _ = settle(pigeons[0], found.unknowns, polish)
+    assert once_more.objective == pytest.approx(found.objective, rel=1e-8)
     away = found.unknowns.copy()
     away[1] += 6.0
-    assert settle(pigeons[0], away) is None
+    assert settle(pigeons[0], away, None) is None
 
 
 def test_of_two_answers_the_better_is_kept_with_the_counts_of_both(pigeons):

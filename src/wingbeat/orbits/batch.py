@@ -89,15 +89,16 @@ def _solve_alike(
     """Solve problems of one group in turn, each helped by the answers before."""
     answers = Answers(problems)
     for i, problem in enumerate(problems):
-        guess = answers.foretell(i)
-        best = None if guess is None else settle(problem, guess)
+        foretold = answers.foretell(i)
+        settled = None if foretold is None else settle(problem, *foretold)
+        best, polish = settled or (None, None)
         own = starts if best is None else starts - 1
         if own:
             cold = find_orbit(problem, own, seed, threads=1, most_starts=most_starts)
             best = cold if best is None else better_of(cold, best)
         assert best is not None
         if best.status is Status.CONVERGED:
-            answers.add(i, best.unknowns)
+            answers.add(i, best.unknowns, polish)
         yield best
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from wingbeat.jax64 import jax
+from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 
 # Problems that learn from one another: enough for good guesses, few enough to share a batch out over processes.
@@ -83,18 +84,22 @@ class Answers:
         self._places = differences(problems)
         self._known: list[int] = []
         self._unknowns: list[np.ndarray] = []
+        self._polishes: list[Polish | None] = []
         self._enough = self._places.shape[1] + 2
 
-    def add(self, index: int, unknowns: np.ndarray) -> None:
-        """Remember the answer of a problem."""
+    def add(self, index: int, unknowns: np.ndarray, polish: Polish | None) -> None:
+        """Remember the answer of a problem, and what corrected it if it was foretold."""
         self._known.append(index)
         self._unknowns.append(unknowns)
+        self._polishes.append(polish)
 
-    def foretell(self, index: int) -> np.ndarray | None:
-        """Return the unknowns of a problem by linear regression, or None where too little is known."""
+    def foretell(self, index: int) -> tuple[np.ndarray, Polish | None] | None:
+        """Foretell unknowns by linear regression, and the nearest polish; None where too little is known."""
         if len(self._known) < self._enough:
             return None
         away = self._places[self._known] - self._places[index]
-        nearest = np.linalg.norm(away, axis=1).argsort(kind="stable")[: 2 * self._enough]
+        order = np.linalg.norm(away, axis=1).argsort(kind="stable")
+        nearest = order[: 2 * self._enough]
         lines = np.column_stack([np.ones(nearest.size), away[nearest]])
-        return np.linalg.lstsq(lines, np.array(self._unknowns)[nearest])[0][0]
+        unknowns = np.linalg.lstsq(lines, np.array(self._unknowns)[nearest])[0][0]
+        return unknowns, next((self._polishes[i] for i in order if self._polishes[i] is not None), None)

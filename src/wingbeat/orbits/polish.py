@@ -24,9 +24,12 @@ _LOST = 5.0
 
 
 class Polish:
-    """Newton's method from an optimum to that of a slightly changed problem, with what is active at the first."""
+    """Newton's method from an optimum to that of a slightly changed problem, with what is active at the first.
 
-    def __init__(self, problem: Transcription, scaled: np.ndarray) -> None:
+    The curvature is that of `like`, where that was found near by with the same active, or else it is measured.
+    """
+
+    def __init__(self, problem: Transcription, scaled: np.ndarray, like: Polish | None = None) -> None:
         self.problem = problem
         reach = AT_BOUND * (problem.upper - problem.lower)
         self.free = (scaled - problem.lower > reach) & (problem.upper - scaled > reach)
@@ -34,10 +37,17 @@ class Polish:
         _, jacobian = self._rows(scaled)
         # Fewer unknowns than conditions cannot meet them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1]
-        if self.fits:
+        if not self.fits:
+            return
+        if like is not None and like.fits and self._has_the_active_of(like):
+            self.along, self.curvature = like.along, like.curvature
+        else:
             self.along = _Conditions(jacobian).null
             self.curvature = self._curvature(scaled, jacobian)
             self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
+
+    def _has_the_active_of(self, other: Polish) -> bool:
+        return np.array_equal(self.free, other.free) and np.array_equal(self.on_path, other.on_path)
 
     def _rows(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the values that must vanish and their derivative by the unknowns that are not at a bound."""

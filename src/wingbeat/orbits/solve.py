@@ -198,21 +198,33 @@ def find_orbit(
     return _solution(best, len(found), len(_distinct(found)), seed, seconds, transcription.certify_seconds, failure)
 
 
-def settle(problem: OrbitProblem, guess: np.ndarray) -> Solution | None:
-    """Correct unknowns taken to be next to an orbit, without a search; return the certified orbit, or None."""
+def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tuple[Solution, Polish] | None:
+    """Correct unknowns taken to be next to an orbit, without a search.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    guess : unknowns.
+    like : what corrected a problem much the same.
+
+    Returns
+    -------
+    The certified orbit and what corrected it, or None.
+    """
     begun = time.perf_counter()
     transcription = Transcription(problem)
     scaled = transcription.scaled(guess)
     if violation(transcription, scaled) > _NEXT_TO:
         return None
-    polish = Polish(transcription, scaled)
+    polish = Polish(transcription, scaled, like)
     nearer = polish.follow(scaled, still=_SETTLED)
     if nearer is None:
         return None
     corrected = _corrected(transcription, polish, nearer)
     if not corrected.is_orbit():
         return None
-    return _solution(corrected, 1, 1, 0, time.perf_counter() - begun, transcription.certify_seconds)
+    seconds = time.perf_counter() - begun
+    return _solution(corrected, 1, 1, 0, seconds, transcription.certify_seconds), polish
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:

@@ -165,10 +165,9 @@ def draw(study: Study, hangs: Sequence[Importance | None]) -> Figure:
     told = np.isfinite(study.holds)
     share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
     bars.barh(places, share, color="#0072B2", height=0.7)
-    bars.plot(100 * told.mean(axis=0), places, "|", color="#D55E00", markersize=9, label="sets that tell")
-    bars.set(xlim=(0, 103), xlabel="sets that satisfy it [%]")
+    bars.plot(100 * told.mean(axis=0), places, "|", color="#D55E00", markersize=9)
+    bars.set(xlim=(0, 103), xlabel="bar: sets that satisfy it [%]\ntick: sets that tell [%]")
     bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
-    bars.legend(fontsize=7, loc="lower right", frameon=True)
     shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
     image = heat.imshow(
         100 * shares, aspect="auto", cmap=colormaps["Blues"].with_extremes(bad="0.85"), vmin=0, vmax=60

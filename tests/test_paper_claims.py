@@ -10,6 +10,7 @@ from wingbeat.paper import claims as judging
 from wingbeat.paper.claim import FAILS, HOLDS, HOLDS_UNDER, UNTESTABLE, Claim, Evidence, Finding, NotFlownError
 from wingbeat.paper.coefficient_claims import coefficient_claims
 from wingbeat.paper.experiment_claims import experiment_claims
+from wingbeat.paper.premise_claims import premise_claims
 from wingbeat.paper.treatments import TREATMENTS, Case, all_cases, problem_of, solve_cases
 
 KEYS = {"id", "where", "claim", "paper", "ours", "unit", "verdict", "assumptions", "orbits"}
@@ -59,6 +60,22 @@ def test_slopes_are_those_of_lines_through_the_formula():
     assert claim.paper == pytest.approx(2 * math.pi)
 
 
+def test_premises_are_tested_on_the_formulas_by_hand():
+    found = {claim.id: claim for claim in premise_claims()}
+    slope = found["two-dimensional"].findings[0].number
+    assert abs(slope - 2 * math.pi * 6 / 8) < abs(slope - 2 * math.pi)
+    assert found["two-dimensional"].verdict == FAILS
+    # 1.92 - 1.55 cos(2.04 a - 9.82), .225 + 1.58 sin(2.13 a - 7.2): Dickinson et al. 1999, degrees.
+    assert found["same-peak-as-insects"].findings[0].number == pytest.approx((90 + 7.2) / 2.13, abs=0.05)
+    alpha = np.radians(np.arange(0.5, 90.01, 0.05))
+    fly = 1.92 - 1.55 * np.cos(2.04 * alpha - math.radians(9.82))
+    fit = 1.07 + 0.97 * np.sin(np.radians(2.04 * np.degrees(alpha) - 90))
+    assert np.corrcoef(fly, fit)[0, 1] == pytest.approx(found["drag-alike-in-form"].findings[0].number, abs=0.01)
+    # x_cp has the power .6 of the angle: its steepness at 1e-4 deg is 100 ** .4 times that at 1e-2 deg.
+    assert found["formulas-differentiable"].verdict == FAILS
+    assert found["transient-cut"].findings[0].number == pytest.approx(10 * (2e4 * 1e-6 / 0.076) / 0.076)
+
+
 def test_experiment_claims_have_numbers_and_those_without_data_no_verdict():
     found = {claim.id: claim for claim in experiment_claims()}
     assert found["blockage"].findings[0].number == pytest.approx(0.076 / 0.8)
@@ -95,6 +112,27 @@ def test_identities_hold_under_every_treatment(claims):
     for name in ("closed-loops", "open-loop", "force-balance", "differentiable"):
         assert found[name].verdict == HOLDS, name
     assert found["printed-sign"].findings[0].number == pytest.approx(-10.0, rel=1e-6)
+
+
+def test_the_steps_of_the_argument_are_tested_on_the_flights_themselves(claims, orbits):
+    found = {claim.id: claim.findings[0].number for claim in claims}
+    fit, fly = (orbits[Case("mirrored", "bat", model, 10.0)] for model in ("su-fan", "dickinson"))
+    assert found["over-prediction"] == fly.wingbeat.frequency
+    assert found["closer-power"] == pytest.approx(
+        (fit.record()["peak_power"] - 4) / (fly.record()["peak_power"] - 4), rel=1e-12
+    )
+    assert found["many-wingbeats"] == 4 + len(fit.problem.free) - 6
+    alpha = fit.dataset["alpha"].values[:-1]
+    assert found["arm-nose-up"] == pytest.approx((alpha[:, 2] > 0).mean(), abs=0.05)
+    assert 0 <= found["small-angles-critical"] <= 1
+    # Dickinson's drag in the same flight: the change of force from the strips, as if it were against all of their
+    # velocity, spanwise part included.
+    coefficients = [o.problem.model.kernel.lift_drag(fit.dataset["alpha"].values)[1] for o in (fit, fly)]
+    velocity, speed = fit.dataset["strip_velocity"].values[..., 0], fit.dataset["strip_speed"].values
+    more = fit.dataset["drag"].values * (np.asarray(coefficients[1]) / np.asarray(coefficients[0]) - 1)
+    change = -2.0 * (more * velocity / speed).sum(axis=1)[:-1].mean()
+    weight = fit.problem.vehicle.mass * fit.problem.air.gravity
+    assert found["drag-costs-thrust"] == pytest.approx(change / weight, rel=0.1)
 
 
 def test_a_claim_can_be_recomputed_from_the_records_it_names(claims, orbits, tmp_path):

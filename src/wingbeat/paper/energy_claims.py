@@ -31,7 +31,7 @@ def peak_power(model: str) -> FlightClaim:
     return FlightClaim(
         f"peak-power-{model}",
         "results, energetics",
-        f"the bat's peak power at 10 m/s with {model} (within 25 %)",
+        f"the peak power at 10 m/s with {model}, in our reading the bat's (within 25 %)",
         paper,
         "W",
         test,
@@ -77,7 +77,7 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
     return FlightClaim(
         f"pitch-range-{model}",
         "results, body pitch",
-        f"the bat's body pitch varies in a beat at 10 m/s, with {model}, by this much ({words})",
+        f"body pitch varies in a beat with {model} by this much, in our reading the bat's at 10 m/s ({words})",
         paper,
         "deg",
         test,

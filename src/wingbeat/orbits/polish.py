@@ -117,12 +117,13 @@ class _Conditions:
         rows = jacobian.shape[0]
         whole, triangle = np.linalg.qr(jacobian.T, mode="complete")
         self.null = whole[:, rows:]
-        self._range, self._triangle = whole[:, :rows], triangle[:rows]
+        # Conditions that say the same twice leave a triangle without an inverse.
+        self._inverse = whole[:, :rows] @ np.linalg.pinv(triangle[:rows]).T
 
     def shortest(self, values: np.ndarray) -> np.ndarray:
         """Return the shortest step that meets the conditions."""
-        return self._range @ np.linalg.solve(self._triangle.T, values)
+        return self._inverse @ values
 
     def multipliers(self, gradient: np.ndarray) -> np.ndarray:
         """Return the weights of the conditions that come nearest to a gradient."""
-        return np.linalg.solve(self._triangle, self._range.T @ gradient)
+        return self._inverse.T @ gradient

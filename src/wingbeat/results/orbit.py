@@ -180,7 +180,11 @@ def solve_orbits(
     progress: Progress | None = None,
     most_starts: int | None = None,
 ) -> list[Orbit]:
-    """Find and certify an orbit for each problem: the answers of `solve_orbit`, in the order of the problems.
+    """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
+
+    Of problems that differ in numbers only, the first are searched as `solve_orbit` does; of a later one the first
+    search starts from what their answers foretell, and counts if it ends in a certified orbit. Where a problem has
+    several optima, that may be another than a search by itself would meet. `processes` do not change the answers.
 
     Records and time series are made when asked for, so that thousands of orbits can be held and few looked at.
 

@@ -71,7 +71,6 @@ def test_premises_are_tested_on_the_formulas_by_hand():
     fly = 1.92 - 1.55 * np.cos(2.04 * alpha - math.radians(9.82))
     fit = 1.07 + 0.97 * np.sin(np.radians(2.04 * np.degrees(alpha) - 90))
     assert np.corrcoef(fly, fit)[0, 1] == pytest.approx(found["drag-alike-in-form"].findings[0].number, abs=0.01)
-    # x_cp has the power .6 of the angle: its steepness at 1e-4 deg is 100 ** .4 times that at 1e-2 deg.
     assert found["formulas-differentiable"].verdict == FAILS
     assert found["transient-cut"].findings[0].number == pytest.approx(10 * (2e4 * 1e-6 / 0.076) / 0.076)
 

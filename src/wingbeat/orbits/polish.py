@@ -42,8 +42,9 @@ class Polish:
         if like is not None and like.fits and self._has_the_active_of(like):
             self.along, self.curvature = like.along, like.curvature
         else:
-            self.along = _Conditions(jacobian).null
-            self.curvature = self._curvature(scaled, jacobian)
+            conditions = _Conditions(jacobian)
+            self.along = conditions.null
+            self.curvature = self._curvature(scaled, jacobian, conditions)
             self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
 
     def _has_the_active_of(self, other: Polish) -> bool:
@@ -56,10 +57,10 @@ class Polish:
         by_path = problem.pitch_margin_jacobian(scaled)[self.on_path]
         return values, np.concatenate([problem.closure_jacobian(scaled), by_path])[:, self.free]
 
-    def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
+    def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray, conditions: _Conditions) -> np.ndarray:
         """Return the Lagrangian's second derivative along the null space, by differences of its gradient."""
         gradient = self.problem.objective_gradient(scaled)[self.free]
-        multipliers = _Conditions(jacobian).multipliers(gradient)
+        multipliers = conditions.multipliers(gradient)
         change = []
         for direction in self.along.T:
             moved = scaled.copy()

@@ -8,23 +8,20 @@ import numpy as np
 
 from wingbeat.model import flight_model
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
-from wingbeat.paper.flight_claims import BAT_MEASURED, PIGEON_MEASURED, station_series
+from wingbeat.paper.energy_claims import BATS_NEED
+from wingbeat.paper.flight_claims import ARM, BAT_MEASURED, HAND, PIGEON_MEASURED, station_series
 from wingbeat.paper.treatments import MODELS
 from wingbeat.results.dataset import evaluate
 from wingbeat.results.record import beat_mean
 
-_ARM, _HAND = 0.25, 0.75
 # Up to here the plate has more lift than Dickinson's wing.
 _SMALL = np.radians(13.0)
-# What CFD and a quasi-steady model of like bats find at most [W].
-_BATS_NEED = 4.0
 _DISCUSSION = "discussion, simulations"
 
 
-def _coefficients(evidence: Evidence, model: str, alpha: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return C_L and C_D of a model as the bat flies with it."""
-    lift, drag = evidence.orbit("bat", model).problem.model.kernel.lift_drag(alpha)
-    return np.asarray(lift), np.asarray(drag)
+def _drag(evidence: Evidence, model: str, alpha: np.ndarray) -> np.ndarray:
+    """Return C_D of a model, as the bat flies with it, at angles of attack [rad]."""
+    return np.asarray(evidence.orbit("bat", model).problem.model.kernel.lift_drag(alpha)[1])
 
 
 def _share(where: np.ndarray) -> float:
@@ -34,19 +31,19 @@ def _share(where: np.ndarray) -> float:
 
 def hand_leaves_small_angles(evidence: Evidence) -> TestResult:
     """Return the least share of the beat that the hand spends beyond 13 degrees, both models."""
-    shares = [_share(np.abs(station_series(evidence, m, "alpha", _HAND)) > _SMALL) for m in MODELS]
+    shares = [_share(np.abs(station_series(evidence, m, "alpha", HAND)) > _SMALL) for m in MODELS]
     return min(shares), min(shares) > 0.5
 
 
 def arm_nose_up(evidence: Evidence) -> TestResult:
     """Return the share of the beat in which the arm meets the air at a positive angle, Su-Fan."""
-    alpha = station_series(evidence, "su-fan", "alpha", _ARM)
+    alpha = station_series(evidence, "su-fan", "alpha", ARM)
     return _share(alpha > 0), bool((alpha > 0).all())
 
 
 def arm_angle_smaller_throughout(evidence: Evidence) -> TestResult:
     """Return the share of the beat in which the arm's angle is smaller with Su-Fan."""
-    fit, fly = (np.abs(station_series(evidence, model, "alpha", _ARM)) for model in MODELS)
+    fit, fly = (np.abs(station_series(evidence, model, "alpha", ARM)) for model in MODELS)
     return _share(fit < fly), bool((fit < fly).all())
 
 
@@ -58,13 +55,13 @@ def over_prediction(evidence: Evidence) -> TestResult:
 
 def closer_power(evidence: Evidence) -> TestResult:
     """Return what the bat's peak power exceeds 4 W by, Su-Fan over Dickinson."""
-    fit, fly = (float(evidence.record("bat", model)["peak_power"]) - _BATS_NEED for model in MODELS)
+    fit, fly = (float(evidence.record("bat", model)["peak_power"]) - BATS_NEED for model in MODELS)
     return fit / fly, abs(fit) < abs(fly)
 
 
 def higher_drag_penalty(evidence: Evidence) -> TestResult:
     """Return the arm's mean drag, Dickinson over Su-Fan."""
-    fit, fly = (beat_mean(station_series(evidence, model, "drag", _ARM)) for model in MODELS)
+    fit, fly = (beat_mean(station_series(evidence, model, "drag", ARM)) for model in MODELS)
     return fly / fit, fly > fit
 
 
@@ -91,7 +88,7 @@ def small_angles_critical(evidence: Evidence) -> TestResult:
     """Return the share of the power that Dickinson's drag would cost more in Su-Fan's flight, below 13 degrees."""
     flight = evidence.orbit("bat", "su-fan").dataset
     alpha = flight["alpha"].values
-    fit, fly = (_coefficients(evidence, model, alpha)[1] for model in MODELS)
+    fit, fly = (_drag(evidence, model, alpha) for model in MODELS)
     more = flight["drag"].values * flight["strip_speed"].values * (fly / fit - 1)
     small = float(beat_mean(np.where(np.abs(alpha) <= _SMALL, more, 0.0).sum(axis=1)) / beat_mean(more.sum(axis=1)))
     return small, small >= 0.5

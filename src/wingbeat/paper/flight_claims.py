@@ -8,7 +8,8 @@ from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.treatments import DEFAULT, SAMPLE_SPEED, Orbits
 from wingbeat.results.record import at_station, beat_mean
 
-_ARM, _HAND = 0.25, 0.75
+# Stations of arm and hand, as fractions of the span.
+ARM, HAND = 0.25, 0.75
 # Middle of the pigeon's measured band, 5.5 to 7 Hz, and the 6 Hz that the paper gives for the bat.
 PIGEON_MEASURED, BAT_MEASURED = 6.25, 6.0
 
@@ -158,7 +159,7 @@ def smaller_alpha(station: float) -> FlightClaim:
         ]
         return sizes[0] - sizes[1], sizes[0] < sizes[1]
 
-    words = "1/4" if station == _ARM else "3/4"
+    words = "1/4" if station == ARM else "3/4"
     return FlightClaim(
         f"smaller-alpha-{words.replace('/', '-of-')}",
         "results, forces; discussion",
@@ -177,7 +178,7 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
         ratios = [
             np.ptp(station_force(evidence, "su-fan", axis, station))
             / np.ptp(station_force(evidence, "dickinson", axis, station))
-            for station in (_ARM, _HAND)
+            for station in (ARM, HAND)
         ]
         return float(max(ratios)), max(ratios) < 1
 
@@ -196,7 +197,7 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
 def hand_alpha_larger(evidence: Evidence) -> TestResult:
     """Return the least excess of the hand's mean size of alpha over the arm's, both models [deg]."""
     sizes = [
-        [np.degrees(np.abs(station_series(evidence, model, "alpha", s)).mean()) for s in (_ARM, _HAND)]
+        [np.degrees(np.abs(station_series(evidence, model, "alpha", s)).mean()) for s in (ARM, HAND)]
         for model in ("su-fan", "dickinson")
     ]
     excess = min(hand - arm for arm, hand in sizes)
@@ -205,7 +206,7 @@ def hand_alpha_larger(evidence: Evidence) -> TestResult:
 
 def _means(evidence: Evidence, axis: int) -> list[list[float]]:
     return [
-        [beat_mean(station_force(evidence, model, axis, station)) for station in (_ARM, _HAND)]
+        [beat_mean(station_force(evidence, model, axis, station)) for station in (ARM, HAND)]
         for model in ("su-fan", "dickinson")
     ]
 

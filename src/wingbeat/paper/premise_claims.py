@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wingbeat.aero import Dickinson, SuFan
-from wingbeat.paper.claim import NO_DATA, Claim, tested, untestable
+from wingbeat.paper.claim import Claim, tested, untestable
 from wingbeat.paper.experiment_claims import CHORD, REYNOLDS_FITTED, SPAN
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift
 
@@ -100,17 +100,17 @@ def premise_claims() -> list[Claim]:
             "comparable",
             "1",
             float(printed_lift(fit, alpha).max()),
-            NO_DATA,
+            "their data could not be had",
         ),
         untestable(
             "edge-vortex",
             "discussion, experiment",
             "a leading-edge vortex makes the lift past stall, grows to 40 deg and is shed beyond "
             "(ours: angle of the "
-            "formula's largest C_L; forces alone do not show a vortex)",
+            "formula's largest C_L)",
             40.0,
             "deg",
             float(alpha[printed_lift(fit, alpha).argmax()]),
-            NO_DATA,
+            "forces alone do not show a vortex",
         ),
     ]

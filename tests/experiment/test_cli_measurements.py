@@ -86,8 +86,8 @@ BAD_RUNS = {
     "radians": (GOOD.replace("alpha_deg", "alpha_deg [rad]"), ["alpha_deg = 'rad'", "convert the column to deg"]),
     "alpha": (GOOD.replace("alpha_deg", "alpha"), ["column 5 = 'alpha'", "radians times 57.29578 are degrees"]),
     "constant": (GOOD.replace("# density = 1000\n", ""), ["run.csv, density = '': is missing; add the line"]),
-    "speed": (GOOD.replace("speed = 0.5", "speed = 0"), ["run.csv, speed = 0.0: must be > 0 m/s"]),
-    "backwards": (GOOD.replace("speed = 0.5", "speed = -1"), ["run.csv, speed = -1.0: must be > 0 m/s"]),
+    "speed": (GOOD.replace("speed = 0.5", "speed = 0"), ["run.csv row 1, speed = 0.0: must be > 0 m/s"]),
+    "backwards": (GOOD.replace("speed = 0.5", "speed = -1"), ["run.csv row 1, speed = -1.0: must be > 0 m/s"]),
     "words": (GOOD.replace("speed = 0.5", "speed = 0.5 m/s"), ["row 1, speed = '0.5 m/s': must be one number"]),
     "tare": ("# tare_moment = 0.1\n" + GOOD, ["row 1, tare_moment = '0.1': must be two numbers, before and after"]),
     "cell": (
@@ -96,11 +96,16 @@ BAD_RUNS = {
     ),
     "nan": (GOOD.replace("1.03,0.2", "nan,0.2", 1), ["run.csv row 10, column normal_force = nan: must be finite"]),
     "blank": (GOOD.replace("1.03,0.2", ",0.2", 1), ["run.csv row 10, column normal_force = '': is empty"]),
+    "unsorted": (
+        GOOD.replace("\n0.2,", "\n0.05,", 1),
+        ["run.csv row 9, column time = 0.05: must be above the 0.1"],
+    ),
+    "tare value": ("# tare_moment = 0.1, nan\n" + GOOD, ["run.csv, tare", "finite"]),
     "ragged": (
         GOOD.replace("1.03,0.2", "1,03,0.2", 1),
         ["run.csv row 10", "has 6 cells where 5 columns are named"],
     ),
-    "short": (f"{HEAD}{COLUMNS}\n" + "0,1,0,0,5\n", ["must hold at least 32 samples"]),
+    "short": (f"{HEAD}{COLUMNS}\n0,1,0,0,5\n", ["run.csv row 6, column time", "at least 32 samples"]),
     "binary": ("\0\1\2", ["row 1, column time"]),
 }
 
@@ -181,9 +186,9 @@ def test_all_files_faults_come_at_once(here, capsys):
     Path("a.csv").write_text(GOOD.replace("speed = 0.5", "speed = 0"))
     Path("b.csv").write_text(GOOD.replace("1.03,0.2", "nan,0.2", 1))
     lines = refused(capsys, "reduce", "a.csv", "b.csv", "absent.csv", "-o", "c.csv")
-    assert [any(word in line for line in lines) for word in ("absent.csv", "a.csv, speed", "b.csv row 10")] == [
-        True
-    ] * 3
+    assert [
+        any(word in line for line in lines) for word in ("absent.csv", "a.csv row 1, speed", "b.csv row 10")
+    ] == [True] * 3
 
 
 def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):

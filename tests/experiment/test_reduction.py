@@ -10,8 +10,6 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.experiment import Campaign, LoadCellRun, load_measurements, reduce_run, reduce_runs, synthetic_runs
 from wingbeat.experiment.statistics import added_variance, standard_error
 
-RANDOM = np.random.default_rng(7)
-
 
 def run(alpha_deg=30.0, force=(1.0, 0.2, 0.01), seconds=30.0, rate=20.0, **changes):
     """Return a run of constant loads."""
@@ -69,7 +67,8 @@ def test_the_standard_error_knows_the_memory_of_a_record(memory):
     from scipy.signal import lfilter
 
     n, records = 4000, 400
-    kicks = RANDOM.normal(size=(records, n + 200)) * math.sqrt(1 - memory**2)
+    random = np.random.default_rng(7)
+    kicks = random.normal(size=(records, n + 200)) * math.sqrt(1 - memory**2)
     series = np.asarray(lfilter([1.0], [1.0, -memory], kicks))[:, 200:]
     told = standard_error(series)
     theory = math.sqrt((1 + memory) / (1 - memory) / n)
@@ -81,9 +80,10 @@ def test_the_standard_error_knows_the_memory_of_a_record(memory):
 def test_repeats_are_pooled_and_their_own_scatter_is_found():
     errors = np.full(300, 0.01)
     groups = np.repeat(np.arange(100), 3)
-    quiet = RANDOM.normal(size=300) * 0.01
+    random = np.random.default_rng(7)
+    quiet = random.normal(size=300) * 0.01
     assert added_variance(quiet, errors, groups) == 0.0
-    loud = quiet + RANDOM.normal(size=300) * 0.05
+    loud = quiet + random.normal(size=300) * 0.05
     assert added_variance(loud, errors, groups) == pytest.approx(0.05**2, rel=0.25)
     assert added_variance(quiet[:1], errors[:1], groups[:1]) == 0.0
 
@@ -110,7 +110,8 @@ def test_blockage_is_told_and_not_corrected():
 
 def test_a_window_that_still_moves_is_told():
     late = run(seconds=30.0)
-    noise = RANDOM.normal(size=len(late.time)) * 0.01
+    random = np.random.default_rng(7)
+    noise = random.normal(size=len(late.time)) * 0.01
     late = dataclasses.replace(late, normal_force=1.0 + 2 * np.exp(-late.time / 8) + noise)
     assert "C_L, C_D still moves within the window" in reduce_runs([late]).notes[0]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -143,7 +144,23 @@ def read_run(path: str | Path) -> LoadCellRun:
     series: dict[str, Any] = {name: numbers[:, k].copy() for name, k in place.items()}
     single: dict[str, Any] = {name: values[0] for name, values in constants.items() if name not in TARE_UNITS}
     tare = [constants.get(key, (0.0, 0.0)) for key in TARE_UNITS]
-    return LoadCellRun(sheet.file, **series, **single, tare=tare)
+    try:
+        return LoadCellRun(sheet.file, **series, **single, tare=tare)
+    except InvalidInputError as error:
+        placed = [dataclasses.replace(fault, where=_in_sheet(fault.where, sheet)) for fault in error.faults]
+        raise InvalidInputError(placed) from None
+
+
+def _in_sheet(where: str, sheet: Sheet) -> str:
+    """Return where in its file a fault of a run stands: that of a constant, of a sample, or of a whole column."""
+    name, _, index = where.removeprefix(f"{sheet.file}, ").removesuffix("]").partition("[")
+    for key, (row, _) in sheet.constants.items():
+        if split_unit(key).name == name:
+            return f"{sheet.file} row {row}, {name}"
+    if name not in COLUMN_UNITS:
+        return where
+    row = sheet.rows[int(index)][0] if index else sheet.header_row
+    return f"{sheet.file} row {row}, column {name}"
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:

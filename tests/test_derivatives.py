@@ -10,10 +10,10 @@ import wingbeat as wb
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import unpack
 from wingbeat.model import body_rates, motion_table
+from wingbeat.orbits.correction import correct
 from wingbeat.orbits.problem import FREE_NAMES
 from wingbeat.orbits.search import optimise
 from wingbeat.orbits.shooting import STEPS, flier
-from wingbeat.orbits.solve import correct
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.transcription import Transcription
 

@@ -61,7 +61,7 @@ def test_answers_that_lie_on_a_plane_are_foretold_exactly(pigeons):
     enough = places.shape[1] + 2
     for i in range(enough):
         assert answers.foretell(enough) is None
-        answers.add(i, 1.0 + places[i] @ slopes, None)
+        answers.add(i, 1.0 + places[i] @ slopes, (), None)
     unknowns, polish = answers.foretell(enough)
     assert polish is None
     np.testing.assert_allclose(unknowns, 1.0 + places[enough] @ slopes, rtol=1e-9)

@@ -10,9 +10,9 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits import solve as solving
+from wingbeat.orbits.correction import correct
 from wingbeat.orbits.problem import CLOSURE
 from wingbeat.orbits.search import optimise
-from wingbeat.orbits.solve import correct
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.results.record import beat_mean, finite_or_none

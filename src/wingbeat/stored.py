@@ -54,7 +54,8 @@ class StoredFunction:
         """Evaluate the function."""
         if any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args)):
             return self._inlined(*args, **static)
-        return self.bind(*args, **static)()
+        leaves, tree = jax.tree_util.tree_flatten(args)
+        return self._run(tree, (), (), [np.asarray(leaf, dtype=float) for leaf in leaves], static)
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function of the arguments that follow these, which are taken apart but once.
@@ -67,18 +68,28 @@ class StoredFunction:
         held = _moved(arrays, shapes)
 
         def call(*rest: Any) -> Any:
-            more = [np.asarray(a, dtype=float) for a in rest]
-            key = (tree, shapes, tuple(a.shape for a in more), *sorted(static.items()))
-            if key not in self._ready:
-                with self._lock:  # one thread loads, the others wait for it
-                    if key not in self._ready:
-                        self._ready[key] = self._load(tree, shapes, key[2], static)
-            program, out_tree, out_shapes = self._ready[key]
-            with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
-                found = np.asarray(program(*held, _packed(more)))
-            return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
+            return self._run(tree, shapes, held, [np.asarray(a, dtype=float) for a in rest], static)
 
         return call
+
+    def _run(
+        self,
+        tree: Any,
+        shapes: tuple[Any, ...],
+        held: tuple[Any, ...],
+        more: list[np.ndarray],
+        static: dict[str, Any],
+    ) -> Any:
+        """Evaluate the program for these shapes, of arrays held and more, in that order."""
+        key = (tree, shapes, tuple(a.shape for a in more), *sorted(static.items()))
+        if key not in self._ready:
+            with self._lock:  # one thread loads, the others wait for it
+                if key not in self._ready:
+                    self._ready[key] = self._load(tree, shapes, key[2], static)
+        program, out_tree, out_shapes = self._ready[key]
+        with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
+            found = np.asarray(program(*held, _packed(more)))
+        return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
     def _load(
         self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]
@@ -98,9 +109,10 @@ class StoredFunction:
 
         def flat(*values: Any) -> Any:
             *held, packed = values
-            first = jax.tree_util.tree_unflatten(tree, held)
+            arrays = [*held, *_unpacked(packed, rest)]
+            first = jax.tree_util.tree_unflatten(tree, arrays[: tree.num_leaves])
             leaves, out_tree = jax.tree_util.tree_flatten(
-                self._function(*first, *_unpacked(packed, rest), **static)
+                self._function(*first, *arrays[tree.num_leaves :], **static)
             )
             outcome.append((out_tree, tuple(leaf.shape for leaf in leaves)))
             return jnp.concatenate([leaf.ravel() for leaf in leaves])

@@ -98,7 +98,7 @@ def _solve_alike(
             best = cold if best is None else better_of(cold, best)
         assert best is not None
         if best.status is Status.CONVERGED:
-            answers.add(i, best.unknowns, polish)
+            answers.add(i, best.unknowns, best.active_bounds, polish)
         yield best
 
 

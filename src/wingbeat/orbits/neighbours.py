@@ -11,7 +11,9 @@ from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 
 # Problems that learn from one another: enough for good guesses, few enough to share a batch out over processes.
-TOGETHER = 128
+TOGETHER = 256
+# Answers nearer than this share of the farthest one asked weigh alike.
+_NEAR = 0.3
 # Relative differences between numbers that come from rounding.
 _ROUNDING = 1e-12
 
@@ -78,28 +80,46 @@ def _spread(places: np.ndarray, members: np.ndarray) -> np.ndarray:
 
 
 class Answers:
-    """Answers of a group's problems so far, and what they foretell of the next by a line through the nearest."""
+    """Answers of a group's problems so far, and what the nearest of them foretell of the next."""
 
     def __init__(self, problems: Sequence[OrbitProblem]) -> None:
         self._places = differences(problems)
         self._known: list[int] = []
         self._unknowns: list[np.ndarray] = []
+        self._active: list[tuple[str, ...]] = []
         self._polishes: list[Polish | None] = []
-        self._enough = self._places.shape[1] + 2
 
-    def add(self, index: int, unknowns: np.ndarray, polish: Polish | None) -> None:
-        """Remember the answer of a problem, and what corrected it if it was foretold."""
+    def add(self, index: int, unknowns: np.ndarray, active: tuple[str, ...], polish: Polish | None) -> None:
+        """Remember the answer of a problem, the bounds active at it, and what corrected it if it was foretold."""
         self._known.append(index)
         self._unknowns.append(unknowns)
+        self._active.append(active)
         self._polishes.append(polish)
 
     def foretell(self, index: int) -> tuple[np.ndarray, Polish | None] | None:
-        """Foretell unknowns by linear regression, and the nearest polish; None where too little is known."""
-        if len(self._known) < self._enough:
-            return None
+        """Foretell unknowns from the answers with the same bounds active, and the nearest polish.
+
+        None where too little is known, or where families meet: the nearest answers do not agree on their bounds.
+        """
         away = self._places[self._known] - self._places[index]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
-        nearest = order[: 2 * self._enough]
-        lines = np.column_stack([np.ones(nearest.size), away[nearest]])
-        unknowns = np.linalg.lstsq(lines, np.array(self._unknowns)[nearest])[0][0]
-        return unknowns, next((self._polishes[i] for i in order if self._polishes[i] is not None), None)
+        enough = away.shape[1] + 2
+        families = {self._active[i] for i in order[:enough]}
+        if order.size < enough or len(families) > 1:
+            return None
+        alike = np.array([i for i in order if self._active[i] in families])
+        unknowns = _regression(away[alike], np.array(self._unknowns)[alike])
+        return unknowns, next((self._polishes[i] for i in alike if self._polishes[i] is not None), None)
+
+
+def _regression(away: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the value at 0 of a parabola through values, nearest first, or of a line where they are too few."""
+    directions = away.shape[1]
+    columns = np.hstack([np.ones((len(away), 1)), away])
+    one, other = np.triu_indices(directions)
+    if len(away) >= 1.5 * (columns.shape[1] + one.size):
+        columns = np.hstack([columns, away[:, one] * away[:, other]])
+    count = 2 * max(columns.shape[1], directions + 2)
+    distance = np.linalg.norm(away[:count], axis=1)
+    weights = 1.0 / (distance + _NEAR * distance[-1])[:, None]
+    return np.linalg.lstsq(columns[:count] * weights, values[:count] * weights)[0][0]

@@ -19,6 +19,8 @@ _ITERATIONS = 10
 # the curvature is more than this share of what was thought.
 _ASIDE = 0.05
 _BENT = 0.1
+# Conditions smaller than this share of the largest say nothing new.
+_SAME_TWICE = 1e-13
 # Newton's method that leaves this far from closure has lost its way.
 _LOST = 5.0
 
@@ -116,10 +118,11 @@ class _Conditions:
 
     def __init__(self, jacobian: np.ndarray) -> None:
         rows = jacobian.shape[0]
-        whole, triangle = np.linalg.qr(jacobian.T, mode="complete")
-        self.null = whole[:, rows:]
-        # Conditions that say the same twice leave a triangle without an inverse.
-        self._inverse = whole[:, :rows] @ np.linalg.pinv(triangle[:rows]).T
+        left, sizes, right = np.linalg.svd(jacobian)
+        self.null = right[rows:].T
+        # Conditions that say the same twice have no size of their own.
+        told = sizes > _SAME_TWICE * sizes[0]
+        self._inverse = right[:rows][told].T @ (left[:, told] / sizes[told]).T
 
     def shortest(self, values: np.ndarray) -> np.ndarray:
         """Return the shortest step that meets the conditions."""

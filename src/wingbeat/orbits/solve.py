@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import functools
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.certify import certify
+from wingbeat.orbits.correction import SETTLED, Corrected, certified, correct, follow_to_certificate, size
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.search import (
-    OPTIMAL,
     Candidate,
     active_bounds,
-    optimality,
     optimise,
     refine,
     search,
@@ -31,104 +27,12 @@ from wingbeat.orbits.solution import SAME, Solution, Status
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 
-CERTIFIED = 1e-6
-_AIM = 1e-7
-_PITCH_EXCESS = 1e-6
-# Blocks of steps of the flight that gives the corrected closure its derivative, and how far from there, in the
-# optimiser's scale, that derivative will do.
-_FINE = 8
-_SETTLED = 2e-2
-_SETTLING = 4
-_CORRECTIONS = 12
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0
 MOST_STARTS = 50
 
 
 Progress = Callable[[int, int], None]
-
-
-@dataclass(frozen=True)
-class Corrected:
-    """A candidate brought to the certifier's closure, and what the certifier says of it."""
-
-    scaled: np.ndarray
-    wingbeat: Wingbeat
-    certificate: Certificate
-    miss: np.ndarray
-    programme: Transcription
-
-    @functools.cached_property
-    def optimality(self) -> float:
-        """Largest residual of the optimality conditions."""
-        return optimality(self.programme, self.scaled)
-
-    def is_orbit(self, closed: float = CERTIFIED) -> bool:
-        """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
-        return bool(
-            _size(self.miss) <= closed
-            and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
-            and self.optimality <= OPTIMAL
-        )
-
-
-def correct(problem: Transcription, scaled: np.ndarray) -> Corrected:
-    """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
-
-    The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
-    value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
-    """
-    problem = problem.anew()
-    return _corrected(problem, Polish(problem, scaled), scaled)
-
-
-def _corrected(problem: Transcription, polish: Polish, scaled: np.ndarray) -> Corrected:
-    for _ in range(_SETTLING):
-        problem.tilt_at(scaled, _FINE)
-        tilted, scaled = scaled, _settle(polish, scaled)
-        if np.abs(scaled - tilted).max() <= _SETTLED:
-            break
-    rough = _flown(problem, scaled, few=True)
-    if np.isfinite(rough.end).all():
-        problem.shift_at(scaled, rough)
-        scaled = _settle(polish, scaled)
-    best: Corrected | None = None
-    for _ in range(_CORRECTIONS):
-        here = _certified(problem, scaled)
-        if here.is_orbit(_AIM):
-            return here
-        if best is None or _size(here.miss) < _size(best.miss):
-            best = here
-        if not np.isfinite(here.miss).all():
-            break
-        problem.shift_at(scaled, here.certificate)
-        scaled = _settle(polish, scaled)
-    assert best is not None
-    return best
-
-
-def _settle(polish: Polish, scaled: np.ndarray) -> np.ndarray:
-    polished = polish.follow(scaled)
-    return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
-
-
-def _flown(problem: Transcription, scaled: np.ndarray, *, few: bool = False) -> Certificate:
-    physical = problem.physical(scaled)
-    begun = time.perf_counter()
-    certificate = certify(problem.model, problem.problem.wingbeat(physical), physical[:4], few=few)
-    problem.certify_seconds += time.perf_counter() - begun
-    return certificate
-
-
-def _certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
-    certificate, physical = _flown(problem, scaled), problem.physical(scaled)
-    wingbeat = problem.problem.wingbeat(physical)
-    miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
-    return Corrected(scaled, wingbeat, certificate, miss, problem)
-
-
-def _size(miss: np.ndarray) -> float:
-    return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
 
 
 def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
@@ -192,7 +96,7 @@ def find_orbit(
         nearest = min(found, key=lambda c: c.violation)
         # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
         at_bounds, _ = optimise(nearest.programme, nearest.scaled, iterations=5)
-        best = _certified(nearest.programme, at_bounds)
+        best = certified(nearest.programme, at_bounds)
         failure = _failure(found, best)
     seconds = time.perf_counter() - begun
     return _solution(best, len(found), len(_distinct(found)), seed, seconds, transcription.certify_seconds, failure)
@@ -217,10 +121,10 @@ def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tup
     if violation(transcription, scaled) > _NEXT_TO:
         return None
     polish = Polish(transcription, scaled, like)
-    nearer = polish.follow(scaled, still=_SETTLED)
+    nearer = polish.follow(scaled, still=SETTLED)
     if nearer is None:
         return None
-    corrected = _corrected(transcription, polish, nearer)
+    corrected = follow_to_certificate(transcription, polish, nearer)
     if not corrected.is_orbit():
         return None
     seconds = time.perf_counter() - begun
@@ -258,7 +162,7 @@ def _solution(
 ) -> Solution:
     status, message = failure or (
         Status.CONVERGED,
-        f"certified: re-flown, it closes to {_size(best.miss):.0e}",
+        f"certified: re-flown, it closes to {size(best.miss):.0e}",
     )
     return Solution(
         best.programme.problem,
@@ -308,10 +212,10 @@ def _searches(
 def _first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
     """Return the best candidate that the certifier closes, if any."""
     for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
-        certified = correct(candidate.programme, candidate.scaled)
-        problem.certify_seconds += certified.programme.certify_seconds
-        if certified.is_orbit():
-            return certified
+        corrected = correct(candidate.programme, candidate.scaled)
+        problem.certify_seconds += corrected.programme.certify_seconds
+        if corrected.is_orbit():
+            return corrected
     return None
 
 

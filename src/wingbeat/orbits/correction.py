@@ -1,0 +1,113 @@
+"""Defect correction: from the search's optimum of a slightly wrong flight to one that the certifier closes."""
+
+from __future__ import annotations
+
+import functools
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.kinematics import Wingbeat
+from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.polish import STILL, Polish
+from wingbeat.orbits.search import OPTIMAL, optimality, optimise
+from wingbeat.orbits.transcription import Transcription
+
+CERTIFIED = 1e-6
+# A miss this small is not corrected further: half of what certifies, for a margin.
+_AIM = 0.5 * CERTIFIED
+_PITCH_EXCESS = 1e-6
+# Blocks of steps of the flight that gives the corrected closure its derivative; how far from there, in the
+# optimiser's scale, that derivative will do; and how near to the optimum that is not yet the last is near enough.
+_FINE = 6
+SETTLED = 2e-2
+_SETTLING = 4
+_NEARLY = 1e-3
+_CORRECTIONS = 12
+
+
+@dataclass(frozen=True)
+class Corrected:
+    """A candidate brought to the certifier's closure, and what the certifier says of it."""
+
+    scaled: np.ndarray
+    wingbeat: Wingbeat
+    certificate: Certificate
+    miss: np.ndarray
+    programme: Transcription
+
+    @functools.cached_property
+    def optimality(self) -> float:
+        """Largest residual of the optimality conditions."""
+        return optimality(self.programme, self.scaled)
+
+    def is_orbit(self, closed: float = CERTIFIED) -> bool:
+        """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
+        return bool(
+            size(self.miss) <= closed
+            and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
+            and self.optimality <= OPTIMAL
+        )
+
+
+def correct(problem: Transcription, scaled: np.ndarray) -> Corrected:
+    """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
+
+    The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
+    value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
+    """
+    problem = problem.anew()
+    return follow_to_certificate(problem, Polish(problem, scaled), scaled)
+
+
+def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.ndarray) -> Corrected:
+    """Correct a candidate in a programme not corrected yet, as `correct` does, with a given polish."""
+    for _ in range(_SETTLING):
+        problem.tilt_at(scaled, _FINE)
+        tilted, scaled = scaled, _settle(polish, scaled, _NEARLY)
+        if np.abs(scaled - tilted).max() <= SETTLED:
+            break
+    rough = _flown(problem, scaled, rough=True)
+    if np.isfinite(rough.end).all():
+        problem.shift_at(scaled, rough)
+        scaled = _settle(polish, scaled)
+    best: Corrected | None = None
+    for _ in range(_CORRECTIONS):
+        here = certified(problem, scaled)
+        if here.is_orbit(_AIM):
+            return here
+        if best is None or size(here.miss) < size(best.miss):
+            best = here
+        if not np.isfinite(here.miss).all():
+            break
+        problem.shift_at(scaled, here.certificate)
+        scaled = _settle(polish, scaled)
+    assert best is not None
+    return best
+
+
+def _settle(polish: Polish, scaled: np.ndarray, still: float = STILL) -> np.ndarray:
+    polished = polish.follow(scaled, still)
+    return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
+
+
+def _flown(problem: Transcription, scaled: np.ndarray, *, rough: bool = False) -> Certificate:
+    physical = problem.physical(scaled)
+    begun = time.perf_counter()
+    certificate = certify(problem.model, problem.problem.wingbeat(physical), physical[:4], rough=rough)
+    problem.certify_seconds += time.perf_counter() - begun
+    return certificate
+
+
+def certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
+    """Fly unknowns by the certifier as they are."""
+    certificate, physical = _flown(problem, scaled), problem.physical(scaled)
+    wingbeat = problem.problem.wingbeat(physical)
+    miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
+    return Corrected(scaled, wingbeat, certificate, miss, problem)
+
+
+def size(miss: np.ndarray) -> float:
+    """Return the largest part of a miss, infinite where it is not a number."""
+    return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())

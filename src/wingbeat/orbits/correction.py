@@ -15,8 +15,7 @@ from wingbeat.orbits.search import OPTIMAL, optimality, optimise
 from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
-# A miss this small is not corrected further: half of what certifies, for a margin.
-_AIM = 0.5 * CERTIFIED
+_AIM = 1e-7
 _PITCH_EXCESS = 1e-6
 # Blocks of steps of the flight that gives the corrected closure its derivative; how far from there, in the
 # optimiser's scale, that derivative will do; and how near to the optimum that is not yet the last is near enough.

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from wingbeat.aero.blade_element import strip_forces
+from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.elementary import cos, sin
 from wingbeat.frames import Pair, from_world, to_world
 from wingbeat.jax64 import jnp
@@ -25,6 +25,23 @@ class BodyLoads(NamedTuple):
     moment: Any
 
 
+def strip_loads(kernel: Any, density: Any, motion: WingMotion, velocity: Pair, pitch_rate: Any) -> StripForces:
+    """Return the loads of the strips of one wing; `velocity` is that of the body in stroke axes.
+
+    The velocity that makes alpha is that of the quarter chord, wherever the force acts. Chord and normal are here
+    those that the strip has without pitch.
+    """
+    chord_speed = velocity[0] - pitch_rate * motion.above
+    normal_speed = (velocity[1] + pitch_rate * motion.ahead) * motion.flap_cosine + motion.flapping_speed
+    return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch)
+
+
+def strip_moments(kernel: Any, motion: WingMotion, strips: StripForces) -> Any:
+    """Return the moments about the quarter chords of loads at the centre of pressure, leading edge up [N m]."""
+    across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
+    return pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across
+
+
 def wing_loads(
     kernel: Any,
     density: Any,
@@ -33,21 +50,12 @@ def wing_loads(
     pitch_rate: Any,
     at_centre_of_pressure: bool,
 ) -> BodyLoads:
-    """Return the sum of the strips' loads over both wings, stroke axes; `velocity` is that of the body there.
-
-    The velocity that makes alpha is that of the quarter chord, wherever the force acts. Chord and normal are here
-    those that the strip has without pitch.
-    """
-    chord_speed = velocity[0] - pitch_rate * motion.above
-    normal_speed = (velocity[1] + pitch_rate * motion.ahead) * motion.flap_cosine + motion.flapping_speed
-    strips = strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch)
+    """Return the sum of the strips' loads over both wings, stroke axes; `velocity` is that of the body there."""
+    strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
     moment = motion.ahead * up - motion.above * forward
     if at_centre_of_pressure:
-        across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
-        moment = (
-            moment + pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across * motion.flap_cosine
-        )
+        moment = moment + strip_moments(kernel, motion, strips) * motion.flap_cosine
     forward, up, moment = (2.0 * over_strips(a) for a in (forward, up, moment))
     return BodyLoads((forward, up), moment)
 

@@ -41,7 +41,6 @@ class AirForces(NamedTuple):
 
     generalised: Any
     power: Any
-    power_in_body: Any
     strips: StripForces
     strip_force: Any
     strip_velocity: Any
@@ -94,7 +93,6 @@ def air_forces_on(
     return AirForces(
         generalised,
         generalised @ q_dot + sliding_power,
-        wings[3:] @ q_dot[3:] + sliding_power,
         forces,
         force,
         velocity,
@@ -176,8 +174,7 @@ def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time:
     Returns
     -------
     AirForces : ``generalised`` f_aero of shape (..., 5) [N, N m]; ``power``, that of the loads on everything that
-        moves through the air [W]; ``power_in_body``, that along the wings' velocities in body axes, which the
-        actuators must supply [W]; the strips of the left wing.
+        moves through the air [W]; the strips of the left wing.
     """
     return _over_axes(_air_forces, model, wingbeat, time, q, q_dot)
 

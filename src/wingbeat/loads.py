@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from wingbeat.five_coordinates import air_forces_on
+from wingbeat.hinges import hinge_loads, hinge_motion
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
 from wingbeat.model import FlightModel, State, body_rates, motion_table
 from wingbeat.stored import stored
-from wingbeat.wing_motion import strips_of, time_rates
+from wingbeat.wing_motion import strips_of
 from wingbeat.wing_points import point_motion
 
 
@@ -76,34 +77,25 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
 
 
 def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
-    flap, flap_rate, flap_acceleration = time_rates(lambda p: flap_angle(wingbeat, p), phase, wingbeat.frequency)
-    pitch, pitch_rate, pitch_acceleration = time_rates(
-        lambda p: pitch_angle(wingbeat, p), phase, wingbeat.frequency
-    )
+    flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
-    body = body_rates(model, motion_table(model, wingbeat, phase), pitch_state)[1:]
+    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
+    body = body_rates(model, motion, pitch_state)[1:]
+    hinges = hinge_loads(model, motion, moved, pitch_state, body)
     q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
-    q_dot = jnp.stack([state.u, state.w, state.pitch_rate, flap_rate, pitch_rate])
-    q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
+    q_dot = jnp.stack([state.u, state.w, state.pitch_rate, moved.flap_rate, moved.pitch_rate])
     time = phase / wingbeat.frequency
 
     points = point_motion(model, wingbeat, q, q_dot, time)
     air = air_forces_on(model, wingbeat, q, q_dot, time, points)
     strips = strips_of(model.vehicle.wing, model.strips)
     mass = strips.mass
-    # What every mass point must be pushed with, gravity included: d'Alembert in place of D, C, h and g.
-    partial = points.partial.mass
-    needed = partial @ q_acceleration + points.bias.mass + model.air.gravity * jnp.asarray([0.0, 0.0, 1.0])
-    tau = jnp.einsum("n,knai,kna->i", mass, partial[..., 3:], needed) - air.generalised[3:]
-    in_body = partial[..., 3:] @ q_dot[3:] + points.drift.mass
-    inertial_power = jnp.einsum("n,kna,kna->", mass, needed, in_body)
-
     whole = _whole_body(model, q, q_dot, points.place.mass, points.velocity.mass, mass)
     return Loads(
         flap=flap,
-        flap_rate=flap_rate,
+        flap_rate=moved.flap_rate,
         wing_pitch=pitch,
-        wing_pitch_rate=pitch_rate,
+        wing_pitch_rate=moved.pitch_rate,
         span_ratio=span_ratio(wingbeat, phase),
         fold=fold_angle(wingbeat, phase),
         acceleration=body,
@@ -116,10 +108,10 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         drag=air.strips.drag,
         strip_force=air.strip_force,
         air_force=air.generalised,
-        flap_torque=tau[0],
-        pitch_torque=tau[1],
-        hinge_power=tau @ q_dot[3:],
-        actuator_power=inertial_power - air.power_in_body,
+        flap_torque=hinges.flap_torque,
+        pitch_torque=hinges.pitch_torque,
+        hinge_power=hinges.hinge_power,
+        actuator_power=hinges.actuator_power,
         air_power=air.power,
         **whole,
     )

@@ -1,0 +1,155 @@
+"""What the hinges must give: torques and powers, from sums over the wing that depend on time alone.
+
+By d'Alembert the effort along a motion of the wing is ``sum m (r'' - g) . v - F . v``, v what that motion does to
+each point: for a hinge torque dr/d(angle), for the power of all actuators dr/dt in body axes. In stroke axes
+``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` with b the place of a point, so that all sums over mass
+points depend on time alone, as in `dynamics`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from wingbeat.dynamics import strip_loads, strip_moments
+from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
+from wingbeat.jax64 import jax, jnp
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
+from wingbeat.model import FlightModel
+from wingbeat.vehicle import Vehicle
+from wingbeat.wing_motion import (
+    Strips,
+    WingMotion,
+    WingShape,
+    beside,
+    dot,
+    over_strips,
+    shape_at,
+    strips_of,
+    time_rates,
+    turned,
+    wing_shape,
+)
+
+
+class Along(NamedTuple):
+    """What one motion of the wing moves, v being its velocity per unit of the motion, any trailing axes of times.
+
+    By strip: ``lever``, the quarter chord's velocity along the normal that the strip has without pitch, and
+    ``turning``, that of its pitch. Sums over the mass of both wings: ``first_moment`` of v, and of v times place
+    turned by a right angle (``swirl``), place (``spin``), rate turned (``coriolis``) and acceleration (``push``).
+    """
+
+    lever: Any
+    turning: Any
+    first_moment: Pair
+    swirl: Any
+    spin: Any
+    coriolis: Any
+    push: Any
+
+
+class HingeMotion(NamedTuple):
+    """Rates of flap and root pitch [rad/s], and what these two and the wing's whole motion move."""
+
+    flap_rate: Any
+    pitch_rate: Any
+    flap: Along
+    pitch: Along
+    whole: Along
+
+
+class HingeLoads(NamedTuple):
+    """Hinge torques [N m] and powers [W], both wings together."""
+
+    flap_torque: Any
+    pitch_torque: Any
+    hinge_power: Any
+    actuator_power: Any
+
+
+class _Chords(NamedTuple):
+    """Where the strips are: their shape, their mid-chords, and vectors to the leading edge."""
+
+    shape: WingShape
+    middle: Triple
+    fore: Triple
+
+
+def _chords(shape: WingShape, strips: Strips) -> _Chords:
+    quarter, fore = 0.25 * strips.chord, shape.chordwise
+    places = shape.ahead, shape.left, shape.above
+    x, y, z = (place - quarter * ahead for place, ahead in zip(places, fore, strict=True))
+    return _Chords(shape, (x, y, z), fore)
+
+
+def hinge_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> HingeMotion:
+    """Tabulate what the hinges move at the given phases."""
+    phase = jnp.asarray(phase, dtype=float)
+    strips = beside(strips_of(vehicle.wing, count), phase)
+
+    def by_time(at: Any) -> _Chords:
+        return _chords(shape_at(vehicle, wingbeat, strips, at), strips)
+
+    def by_angles(flap: Any, pitch: Any) -> _Chords:
+        return _chords(wing_shape(vehicle, wingbeat, strips, phase, flap, pitch), strips)
+
+    here, rates, pushes = time_rates(by_time, phase, wingbeat.frequency)
+    angles = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
+    one, none = jnp.ones_like(phase), jnp.zeros_like(phase)
+    flap, pitch = (jax.jvp(by_angles, angles, along)[1] for along in ((one, none), (none, one)))
+    _, flap_rate, _ = time_rates(lambda at: flap_angle(wingbeat, at), phase, wingbeat.frequency)
+    _, pitch_rate, _ = time_rates(lambda at: pitch_angle(wingbeat, at), phase, wingbeat.frequency)
+    moving = here, rates, pushes
+    return HingeMotion(flap_rate, pitch_rate, *(_along(moving, v, strips) for v in (flap, pitch, rates)))
+
+
+def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: Strips) -> Along:
+    here, rates, pushes = moving
+    # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
+    mass, spread = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
+
+    def total(a: Any) -> Any:
+        return over_strips(mass * a)
+
+    def in_plane(chords: _Chords) -> tuple[Pair, Pair]:
+        return (chords.middle[0], chords.middle[2]), (chords.fore[0], chords.fore[2])
+
+    def work(middle: Pair, fore: Pair) -> Any:
+        return total(dot(middle, of_middle) + spread * dot(fore, of_fore))
+
+    of_middle, of_fore = in_plane(velocity)
+    (place, fore), (speed, fore_speed) = in_plane(here), in_plane(rates)
+    return Along(
+        lever=velocity.shape.above * here.shape.flap_cosine - velocity.shape.left * here.shape.flap_sine,
+        turning=velocity.shape.pitch,
+        first_moment=(total(of_middle[0]), total(of_middle[1])),
+        swirl=work(turned(place), turned(fore)),
+        spin=work(place, fore),
+        coriolis=work(turned(speed), turned(fore_speed)),
+        push=total(dot(pushes.middle, velocity.middle) + spread * dot(pushes.fore, velocity.fore)),
+    )
+
+
+def hinge_loads(
+    model: FlightModel, motion: WingMotion, hinges: HingeMotion, pitch_state: Any, body_acceleration: Any
+) -> HingeLoads:
+    """Return torques and powers for (body_pitch, u, w, pitch_rate) and the body's (x'', z'', psi'')."""
+    body_pitch, u, w, pitch_rate = pitch_state
+    ax, az, pitch_acceleration = body_acceleration
+    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
+    moments = strip_moments(model.kernel, motion, strips) if model.at_centre_of_pressure else 0.0
+    felt = from_world(attitude, ax, az + model.air.gravity)
+
+    def effort(along: Along) -> Any:
+        inertial = (
+            dot(felt, along.first_moment)
+            + pitch_acceleration * along.swirl
+            - pitch_rate * pitch_rate * along.spin
+            + 2.0 * pitch_rate * along.coriolis
+            + along.push
+        )
+        return inertial - 2.0 * over_strips(strips.normal * along.lever + moments * along.turning)
+
+    flap, pitch = effort(hinges.flap), effort(hinges.pitch)
+    return HingeLoads(flap, pitch, flap * hinges.flap_rate + pitch * hinges.pitch_rate, effort(hinges.whole))

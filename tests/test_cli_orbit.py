@@ -18,7 +18,8 @@ from wingbeat.cli import main
 
 # The names of the record as it is documented.
 NAMES = {
-    "": "status message species vehicle aero air speed climb objective wingbeat initial_state active_bounds "
+    "": "status message species vehicle aero air speed climb objective objective_value "
+    "constraints wingbeat initial_state active_bounds "
     "closure optimality starts distinct_optima mean_power peak_power mean_positive_power mean_actuator_power "
     "peak_actuator_power cost_of_transport body_pitch_range strouhal reduced_frequency reynolds alpha_quarter_span "
     "alpha_three_quarter_span floquet_multipliers stable warnings solve_seconds version",
@@ -31,6 +32,7 @@ NAMES = {
     "fold_amplitude wrist",
     "initial_state": "x z body_pitch u w pitch_rate",
     "closure": "x z body_pitch u w pitch_rate",
+    "constraints": "",
 }
 TABLE = "# a plate\nalpha_deg,c_l,c_d\n" + "".join(
     f"{a},{1.2 * math.sin(math.radians(2 * a)):.6f},{1.3 - 1.2 * math.cos(math.radians(2 * a)):.6f}\n"

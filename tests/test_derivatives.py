@@ -116,7 +116,7 @@ def near(solved):
 
 
 @pytest.mark.parametrize("blocks", [1, 3])
-def test_end_and_pitch_of_a_period(solved, blocks):
+def test_end_and_path_of_a_period(solved, blocks):
     problem = solved.problem
     fly = flier(solved.model, solved.problem.species.wingbeat, problem.free)
     for point in near(solved):
@@ -124,18 +124,19 @@ def test_end_and_pitch_of_a_period(solved, blocks):
 
         def flown(values):
             period = fly(values[4:], values[:4], blocks)
-            return np.concatenate([period.end, period.pitch])
+            return np.concatenate([period.end, period.path.ravel()])
 
         # So small a step that few strips cross the joins of a blend, where only two derivatives go on.
         wanted = differences(flown, point, 2e-6)
         assert miss(found.end_jacobian, wanted[:6]) <= TOLERANCE
-        assert found.pitch_jacobian.shape == (blocks * STEPS + 1, point.size)
+        assert found.path_jacobian.shape == (blocks * STEPS + 1, 4, point.size)
         # Over the largest derivative on the whole path: at phase 0 most of them are zero.
-        gap = np.abs(found.pitch_jacobian - wanted[6:]).max()
-        assert gap <= TOLERANCE * np.abs(found.pitch_jacobian).max()
+        components = wanted[6:].reshape(-1, 4, point.size).swapaxes(0, 1)
+        for one, other in zip(found.path_jacobian.swapaxes(0, 1), components, strict=True):
+            assert np.abs(one - other).max() <= TOLERANCE * np.abs(one).max()
 
 
-def test_closure_pitch_margin_and_objective_of_the_programme(solved):
+def test_closure_margins_and_objective_of_the_programme(solved):
     programme = Transcription(solved.problem)
     point = programme.scaled(near(solved)[1])
 
@@ -143,7 +144,7 @@ def test_closure_pitch_margin_and_objective_of_the_programme(solved):
         assert miss(exact, differences(function, point, 1e-5)) <= TOLERANCE
 
     compare(programme.closure_jacobian(point), programme.closure)
-    compare(programme.pitch_margin_jacobian(point), programme.pitch_margin)
+    compare(programme.margins_jacobian(point), programme.margins)
     gradient = programme.objective_gradient(point)
     compare(gradient[None], lambda x: np.array([programme.objective(x)]))
 

@@ -20,6 +20,7 @@ from wingbeat.results.record import beat_mean, finite_or_none
 # The orbit record of the specification: names, and those of its parts.
 RECORD = {
     *("status", "message", "species", "vehicle", "aero", "air", "speed", "climb", "objective", "wingbeat"),
+    *("objective_value", "constraints"),
     *("initial_state", "active_bounds", "closure", "optimality", "starts", "distinct_optima", "mean_power"),
     *("peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power", "cost_of_transport"),
     *("body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "alpha_quarter_span"),
@@ -212,7 +213,8 @@ def test_an_orbit_that_cannot_be_is_infeasible_and_says_what_fails(monkeypatch):
 
 def failure_message(**misses):
     miss = np.array([misses.get(name, 0.0) for name in CLOSURE])
-    return solving._failure([], solving.Corrected(None, None, None, miss, None))[1]
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
+    return solving._failure([], miss, problem)[1]
 
 
 @pytest.mark.parametrize(

@@ -26,8 +26,12 @@ if TYPE_CHECKING:
     from wingbeat.model import FlightModel as FlightModel
     from wingbeat.model import State as State
     from wingbeat.model import flight_model as flight_model
-    from wingbeat.orbits.objectives import Frequency as Frequency
+    from wingbeat.orbits.beat import Beat as Beat
     from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
+    from wingbeat.orbits.quantities import Constraint as Constraint
+    from wingbeat.orbits.quantities import Frequency as Frequency
+    from wingbeat.orbits.quantities import PowerCost as PowerCost
+    from wingbeat.orbits.quantities import Quantity as Quantity
     from wingbeat.orbits.solution import Status as Status
     from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
@@ -46,14 +50,18 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Air": "vehicle",
+    "Beat": "orbits.beat",
     "Body": "vehicle",
+    "Constraint": "orbits.quantities",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "model",
-    "Frequency": "orbits.objectives",
+    "Frequency": "orbits.quantities",
     "InvalidInputError": "errors",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem",
+    "PowerCost": "orbits.quantities",
+    "Quantity": "orbits.quantities",
     "Species": "species",
     "State": "model",
     "Status": "orbits.solution",

@@ -49,6 +49,21 @@ def orbit(
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
     strips: Strips = 10,
+    minimise: Annotated[
+        str,
+        Parameter(
+            help="What to make least: frequency, power, positive-power, peak-power, cost-of-transport, "
+            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ..."
+        ),
+    ] = "frequency",
+    subject_to: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Limits to keep: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
+        ),
+    ] = None,
     starts: Annotated[Whole, Parameter(help="Number of searches; more find better optima.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
@@ -61,12 +76,13 @@ def orbit(
     ] = None,
     plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
 ) -> int:
-    """Find the wingbeat of least frequency that flies level at a speed, and certify it.
+    """Find the wingbeat of least frequency, or power, that flies at a speed, and certify it.
 
     Exit code 0: certified. 3: nothing certified, the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
-    wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc
+    wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc;
+    wingbeat orbit bat --speed 8 --minimise positive-power --subject-to 'peak_power<=60'
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
@@ -104,7 +120,15 @@ def orbit(
             faults.raise_if_any()
             bounds = {"flap_amplitude": (least, math.radians(flap_amplitude_max))}
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
-        problem = OrbitProblem(animal, speed=speed, climb=climb, aero=loads, bounds=bounds)
+        problem = OrbitProblem(
+            animal,
+            speed=speed,
+            climb=climb,
+            aero=loads,
+            bounds=bounds,
+            minimise=minimise,
+            subject_to=subject_to or (),
+        )
     check_outputs(output, plot)
     found = _solve(problem, starts, seed)
     if output:

@@ -158,6 +158,10 @@ def _powers(record: dict[str, Any]) -> Rows:
 def _certificate(record: dict[str, Any]) -> Rows:
     closure = record.get("closure") or {}
     rows = []
+    if record.get("objective_value") is not None:
+        rows.append(("made least", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
+    for constraint, value in (record.get("constraints") or {}).items():
+        rows.append((f"kept to {constraint}", _number(value, "", 1.0)))
     if closure:
         units = {"x": "m", "z": "m", "body_pitch": "rad", "u": "m/s", "w": "m/s", "pitch_rate": "rad/s"}
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))

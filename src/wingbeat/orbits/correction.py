@@ -16,7 +16,7 @@ from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
 _AIM = 1e-7
-_PITCH_EXCESS = 1e-6
+_EXCESS = 1e-6
 # Blocks of steps of the flight that gives the corrected closure its derivative; how far from there, in the
 # optimiser's scale, that derivative will do; and how near to the optimum that is not yet the last is near enough.
 _FINE = 6
@@ -45,7 +45,7 @@ class Corrected:
         """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
         return bool(
             size(self.miss) <= closed
-            and self.programme.margins(self.certificate.pitch).min() >= -_PITCH_EXCESS
+            and self.programme.certified_margins(self.scaled, self.certificate).min() >= -_EXCESS
             and self.optimality <= OPTIMAL
         )
 
@@ -67,7 +67,7 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
         tilted, scaled = scaled, _settle(polish, scaled, _NEARLY)
         if np.abs(scaled - tilted).max() <= SETTLED:
             break
-    rough = _flown(problem, scaled, rough=True)
+    rough = _flown(problem, scaled, rough=problem.asked is None)
     if np.isfinite(rough.end).all():
         problem.shift_at(scaled, rough)
         scaled = _settle(polish, scaled)

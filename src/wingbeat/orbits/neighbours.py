@@ -28,7 +28,13 @@ def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
     for i, problem in enumerate(problems):
         leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
         shapes = tuple(np.shape(leaf) for leaf in leaves)
-        names = problem.species.name, problem.aero.coefficients.name, *problem.free, repr(problem.minimise)
+        names = (
+            problem.species.name,
+            problem.aero.coefficients.name,
+            *problem.free,
+            repr(problem.minimise),
+            repr(problem.subject_to),
+        )
         kinds.setdefault((names, tree, shapes), []).append(i)
     groups = []
     for members in kinds.values():

@@ -35,7 +35,7 @@ class Polish:
         self.problem = problem
         reach = AT_BOUND * (problem.upper - problem.lower)
         self.free = (scaled - problem.lower > reach) & (problem.upper - scaled > reach)
-        self.on_path = problem.pitch_margin(scaled) <= AT_BOUND
+        self.on_path = problem.margins(scaled) <= AT_BOUND
         _, jacobian = self._rows(scaled)
         # Fewer unknowns than conditions cannot meet them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1]
@@ -55,8 +55,8 @@ class Polish:
     def _rows(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the values that must vanish and their derivative by the unknowns that are not at a bound."""
         problem = self.problem
-        values = np.concatenate([problem.closure(scaled), problem.pitch_margin(scaled)[self.on_path]])
-        by_path = problem.pitch_margin_jacobian(scaled)[self.on_path]
+        values = np.concatenate([problem.closure(scaled), problem.margins(scaled)[self.on_path]])
+        by_path = problem.margins_jacobian(scaled)[self.on_path]
         return values, np.concatenate([problem.closure_jacobian(scaled), by_path])[:, self.free]
 
     def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray, conditions: _Conditions) -> np.ndarray:
@@ -102,7 +102,7 @@ class Polish:
                 return None
             if np.abs(step).max() <= still:
                 # A bound on the path that was not met before may be broken now, which these conditions do not see.
-                return scaled if problem.pitch_margin(scaled).min() >= -AT_BOUND else None
+                return scaled if problem.margins(scaled).min() >= -AT_BOUND else None
         return None
 
     def _learn(self, sliding: np.ndarray, change: np.ndarray) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,7 +15,8 @@ from wingbeat.aero import BladeElement, SuFan
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, flight_model
-from wingbeat.orbits.objectives import Frequency, Objective
+from wingbeat.orbits.quantities import Constraint, Frequency, Quantity, named_objective, parse_constraint
+from wingbeat.orbits.readings import check_quantities
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
 
@@ -57,6 +58,9 @@ class OrbitProblem:
         replaces the species' bounds of the same names.
     minimise : the objective, `Frequency()` as in the paper.
     air : replaces the species' air.
+    subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``.
+
+    `minimise` may also be a `Quantity`, or the name of one: ``"mean_positive_power"``.
 
     Raises
     ------
@@ -73,8 +77,9 @@ class OrbitProblem:
     aero: Any = field(default_factory=SuFan)
     free: tuple[str, ...] = ()
     bounds: Bounds = field(default_factory=dict)
-    minimise: Objective = field(default_factory=Frequency)
+    minimise: Any = field(default_factory=Frequency)
     air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
+    subject_to: Sequence[Any] = ()
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -84,10 +89,11 @@ class OrbitProblem:
         faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
-        if not all(hasattr(self.minimise, name) for name in ("value", "gradient", "needs", "scale")):
-            faults.add("minimise", self.minimise, "is not an objective", "use Frequency()")
+        self._check_asked(faults)
         faults.raise_if_any()
         aero = self.aero if isinstance(self.aero, BladeElement) else BladeElement(self.aero)
+        faults.faults.extend(check_quantities(self._quantities(), aero.strips))
+        faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
         object.__setattr__(self, "bounds", dict(self.bounds or {}))
@@ -96,6 +102,41 @@ class OrbitProblem:
         self._check_free(faults, free, bounds)
         object.__setattr__(self, "free", free)
         object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, "body_pitch")})
+
+    def _check_asked(self, faults: FaultList) -> None:
+        """Turn names and texts into objective and constraints."""
+
+        def understood(meaning: Callable[[str], Any], given: Any) -> Any:
+            try:
+                return meaning(given) if isinstance(given, str) else given
+            except InvalidInputError as error:
+                faults.faults.extend(error.faults)
+                return None
+
+        minimise = understood(named_objective, self.minimise)
+        texts = [self.subject_to] if isinstance(self.subject_to, str | Constraint) else self.subject_to
+        constraints = [understood(parse_constraint, text) for text in texts]
+        if faults.faults:
+            return
+        if not isinstance(minimise, Frequency | Quantity):
+            faults.add("minimise", minimise, "is not an objective", "use Frequency() or a Quantity")
+        for i, constraint in enumerate(constraints):
+            if not isinstance(constraint, Constraint):
+                faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
+        object.__setattr__(self, "minimise", minimise)
+        object.__setattr__(self, "subject_to", tuple(constraints))
+        if not faults.faults and self.speed == 0 and "cost_of_transport" in {q.name for q in self._quantities()}:
+            faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
+
+    def _quantities(self) -> list[Quantity]:
+        """Return what is read off the beat."""
+        objective = [self.minimise] if isinstance(self.minimise, Quantity) else []
+        return [*objective, *(constraint.quantity for constraint in self.subject_to)]
+
+    @property
+    def reads_beat(self) -> bool:
+        """Whether objective or constraints are read off the beat, not off the unknowns."""
+        return bool(self._quantities())
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:
@@ -107,10 +148,8 @@ class OrbitProblem:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
-        for name in self.minimise.needs:
-            if name not in free:
-                fix = f"add {name} to free"
-                faults.add("free", free, f"leaves {self.minimise.name} nothing to change", fix)
+        if isinstance(self.minimise, Frequency) and "frequency" not in free:
+            faults.add("free", free, "leaves frequency nothing to change", "add frequency to free")
         for name, pair in self.bounds.items():
             if name != "body_pitch" and name not in free:
                 faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")

@@ -71,14 +71,14 @@ def _candidate(problem: Transcription, scaled: np.ndarray, closed: bool, optimal
 
 def violation(problem: Transcription, scaled: np.ndarray) -> float:
     """Return the largest violation of closure and path bound, in the optimiser's scale."""
-    pitch = np.maximum(-problem.pitch_margin(scaled), 0.0)
+    pitch = np.maximum(-problem.margins(scaled), 0.0)
     return float(max(np.abs(problem.closure(scaled)).max(), pitch.max()))
 
 
 def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
     """Say whether closure and path bound hold to `CLOSED` in the user's units."""
     miss = np.abs(problem.closure(scaled) * CLOSURE_SCALE).max()
-    return bool(miss <= CLOSED and problem.pitch_margin(scaled).min() >= -CLOSED)
+    return bool(miss <= CLOSED and problem.margins(scaled).min() >= -CLOSED)
 
 
 def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
@@ -86,11 +86,11 @@ def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
     inside = 1e-6 * (problem.upper - problem.lower)
 
     def misses(x: np.ndarray) -> np.ndarray:
-        return np.concatenate([problem.closure(x), np.minimum(problem.pitch_margin(x), 0.0)])
+        return np.concatenate([problem.closure(x), np.minimum(problem.margins(x), 0.0)])
 
     def jacobian(x: np.ndarray) -> np.ndarray:
-        broken = problem.pitch_margin(x)[:, None] < 0
-        return np.concatenate([problem.closure_jacobian(x), broken * problem.pitch_margin_jacobian(x)])
+        broken = problem.margins(x)[:, None] < 0
+        return np.concatenate([problem.closure_jacobian(x), broken * problem.margins_jacobian(x)])
 
     # Flights that run off overflow in what it squares; such a lead is given up by its violation.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -118,7 +118,7 @@ def optimise(
         bounds=list(zip(problem.lower, problem.upper, strict=True)),
         constraints=[
             {"type": "eq", "fun": problem.closure, "jac": problem.closure_jacobian},
-            {"type": "ineq", "fun": problem.pitch_margin, "jac": problem.pitch_margin_jacobian},
+            {"type": "ineq", "fun": problem.margins, "jac": problem.margins_jacobian},
         ],
         method="SLSQP",
         options={"maxiter": iterations, "ftol": tolerance},
@@ -130,11 +130,14 @@ def active_bounds(problem: Transcription, scaled: np.ndarray) -> tuple[str, ...]
     """Return the names of the unknowns at a bound; ``body_pitch`` stands for the whole path."""
     names = [
         name
-        for name, x, lower, upper in zip(problem.unknowns.names, scaled, problem.lower, problem.upper, strict=True)
+        for name, x, lower, upper in zip(problem.unknowns.names, scaled, problem.lower, problem.upper, strict=False)
         if name != "body_pitch" and min(x - lower, upper - x) <= AT_BOUND * (upper - lower)
     ]
-    if problem.pitch_margin(scaled).min() <= AT_BOUND:
+    margins = problem.margins(scaled)
+    if margins[:2].min() <= AT_BOUND:
         names.append("body_pitch")
+    if problem.asked is not None:
+        names += problem.asked.active_constraints(margins[2:])
     return tuple(names)
 
 
@@ -152,8 +155,8 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
             if away <= reach[i]:
                 columns.append(direction)
                 signs.append((0.0, np.inf))
-    rows = problem.pitch_margin_jacobian(scaled)
-    for margin, row in zip(problem.pitch_margin(scaled), rows, strict=True):
+    rows = problem.margins_jacobian(scaled)
+    for margin, row in zip(problem.margins(scaled), rows, strict=True):
         if margin <= AT_BOUND:
             columns.append(row)
             signs.append((0.0, np.inf))

@@ -25,13 +25,14 @@ STEPS = 32
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
-    Where it ends, shape (6,), and body pitch after each step, from the start on; their Jacobians' columns are last.
+    Where it ends, shape (6,), and the pitch state after each step, from the start on, shape (K, 4); of their
+    Jacobians the columns are last.
     """
 
     end: Any
-    pitch: Any
+    path: Any
     end_jacobian: Any
-    pitch_jacobian: Any
+    path_jacobian: Any
 
 
 def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[tuple[Any, Any], WingMotion]:
@@ -152,9 +153,9 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     place = place.at[4:].add(jnp.sum(place_map[4:], axis=-1))
     return Flown(
         jnp.concatenate([step * jnp.sum(mean_speed, axis=-1), flight.last]),
-        jnp.append(states[0, 0], flight.last[0]),
+        jnp.concatenate([states[:, 0].T, flight.last[None]]),
         jnp.concatenate([place, last], axis=1).T,
-        jnp.concatenate([path[:, :, 0], last[None, :, 0]]),
+        jnp.concatenate([path, last[None]]).transpose(0, 2, 1),
     )
 
 
@@ -196,8 +197,8 @@ def _then(before: Flown, part: Flown) -> Flown:
     chained = before.end_jacobian[2:]
 
     def from_start(jacobian: Any) -> np.ndarray:
-        whole = np.asarray(jacobian)[:, :4] @ chained
-        whole[:, 4:] += np.asarray(jacobian)[:, 4:]
+        whole = np.asarray(jacobian)[..., :4] @ chained
+        whole[..., 4:] += np.asarray(jacobian)[..., 4:]
         return whole
 
     end, end_jacobian = np.array(part.end), from_start(part.end_jacobian)
@@ -205,7 +206,7 @@ def _then(before: Flown, part: Flown) -> Flown:
     end_jacobian[:2] += before.end_jacobian[:2]
     return Flown(
         end,
-        np.concatenate([before.pitch, np.asarray(part.pitch)[1:]]),
+        np.concatenate([before.path, np.asarray(part.path)[1:]]),
         end_jacobian,
-        np.concatenate([before.pitch_jacobian, from_start(part.pitch_jacobian)[1:]]),
+        np.concatenate([before.path_jacobian, from_start(part.path_jacobian)[1:]]),
     )

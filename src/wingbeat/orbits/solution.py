@@ -10,8 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
+from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.stability import floquet_multipliers
 
 # Optima nearer to one another than this, in the optimiser's scale, are one.
@@ -50,11 +52,20 @@ class Solution:
         free = [getattr(self.wingbeat, name) for name in self.problem.free]
         return np.concatenate([self.certificate.states[0, 2:], free])
 
-    @property
+    @functools.cached_property
     def objective(self) -> float:
         """What was made least."""
-        problem = self.problem
-        return problem.minimise.value(problem.unknowns().names, self.unknowns)
+        minimise = self.problem.minimise
+        if isinstance(minimise, Quantity):
+            return self.value_of(minimise)
+        return minimise.value(self.problem.unknowns().names, self.unknowns)
+
+    def value_of(self, quantity: Quantity) -> float:
+        """Return a quantity of the certified beat, of a series its largest value."""
+        problem, certificate = self.problem, self.certificate
+        velocity = problem.speed, problem.climb
+        beat = flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
+        return float(np.max(quantity.of(beat)))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:

@@ -97,7 +97,7 @@ def find_orbit(
         # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
         at_bounds, _ = optimise(nearest.programme, nearest.scaled, iterations=5)
         best = certified(nearest.programme, at_bounds)
-        failure = _failure(found, best)
+        failure = _failure(found, best.miss, problem)
     seconds = time.perf_counter() - begun
     return _solution(best, len(found), len(_distinct(found)), seed, seconds, transcription.certify_seconds, failure)
 
@@ -229,9 +229,9 @@ def _distinct(found: list[Candidate]) -> list[np.ndarray]:
     return optima
 
 
-def _failure(found: list[Candidate], nearest: Corrected) -> tuple[Status, str]:
+def _failure(found: list[Candidate], miss: np.ndarray, problem: OrbitProblem) -> tuple[Status, str]:
     """Return status and advice for a search without a certified orbit."""
-    worst = CLOSURE[int(np.argmax(np.abs(np.nan_to_num(nearest.miss, nan=np.inf)) / CLOSURE_SCALE))]
+    worst = CLOSURE[int(np.argmax(np.abs(np.nan_to_num(miss, nan=np.inf)) / CLOSURE_SCALE))]
     if any(c.closed for c in found):
         return (
             Status.NOT_CONVERGED,
@@ -246,9 +246,10 @@ def _failure(found: list[Candidate], nearest: Corrected) -> tuple[Status, str]:
         "w": "the vertical speed does not return: lift does not balance weight",
         "pitch_rate": "the pitch rate does not return: the pitching moment is not trimmed",
     }[worst]
+    relax = "".join(f"relax {c}, " for c in problem.subject_to)
     return (
         Status.INFEASIBLE,
         f"no orbit within the bounds in {len(found)} searches; at the nearest one {balance} (it misses by "
-        f"{abs(float(nearest.miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, "
-        "pitch or frequency, change the speed, or lighten the vehicle",
+        f"{abs(float(miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, "
+        f"pitch or frequency, {relax}change the speed, or lighten the vehicle",
     )

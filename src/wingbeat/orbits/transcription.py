@@ -7,8 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wingbeat.orbits.asked import AT_BOUND as AT_BOUND
+from wingbeat.orbits.asked import Asked
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
+from wingbeat.orbits.quantities import Frequency
 from wingbeat.orbits.shooting import Flown, flier
 
 _LOST = 1e3
@@ -16,8 +19,8 @@ _LOST = 1e3
 _WILD = 1e12
 # Flights remembered: that of the point at hand, and of the points that a difference or a line search started from.
 _KEPT = 4
-# An unknown this near to a bound, as a share of its range, is at the bound; body pitch likewise, in rad.
-AT_BOUND = 1e-6
+# Bounds of the level under which a series' peaks are brought, in the objective's scale.
+_LEVELS = 1e6
 
 
 class Point(NamedTuple):
@@ -27,31 +30,41 @@ class Point(NamedTuple):
     closure_jacobian: np.ndarray
     pitch: np.ndarray
     pitch_jacobian: np.ndarray
+    rows: np.ndarray
+    rows_jacobian: np.ndarray
 
 
 class Transcription:
-    """Closure, path bound and objective of a problem as functions of scaled unknowns, each flight flown once.
+    """Closure, margins and objective of a problem as functions of scaled unknowns, each flight flown once.
 
-    `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds.
+    A series' largest value is made least by one more unknown: a level, the last, that none of its peaks may pass.
+    `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds;
+    likewise what is read off the beat.
     """
 
     def __init__(self, problem: OrbitProblem) -> None:
         self.problem = problem
         self.model = problem.model
         self.unknowns: Unknowns = problem.unknowns()
-        self.lower = self.unknowns.lower / self.unknowns.scale
-        self.upper = self.unknowns.upper / self.unknowns.scale
-        self._closure_scale = self.unknowns.scale / CLOSURE_SCALE[:, None]
+        self.asked = Asked(problem) if problem.reads_beat else None
+        self.has_level = self.asked is not None and self.asked.has_peaks_to_lower
+        scale = np.append(self.unknowns.scale, [1.0] * self.has_level)
+        self._all_scale = scale
+        self.lower = np.append(self.unknowns.lower, [-_LEVELS] * self.has_level) / scale
+        self.upper = np.append(self.unknowns.upper, [_LEVELS] * self.has_level) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
         self.fly = flier(self.model, problem.species.wingbeat, problem.free)
         self._points: dict[bytes, Point] = {}
         self._uncorrect()
 
     def _uncorrect(self) -> None:
+        count = 0 if self.asked is None else self.asked.count
         self._shift = np.zeros(6)
         self._tilt = np.zeros((6, self.lower.size))
         self._anchor = np.zeros(self.lower.size)
         self._pitch_shift = np.zeros(2)
+        self._rows_shift = np.zeros(count)
+        self._rows_tilt = np.zeros((count, self.lower.size))
         self.certify_seconds = 0.0
 
     def anew(self) -> Transcription:
@@ -63,14 +76,25 @@ class Transcription:
 
     def physical(self, scaled: np.ndarray) -> np.ndarray:
         """Return the unknowns in SI, within their bounds."""
-        return np.minimum(np.maximum(scaled * self.unknowns.scale, self.unknowns.lower), self.unknowns.upper)
+        unknowns = scaled[: self.unknowns.lower.size] * self.unknowns.scale
+        return np.minimum(np.maximum(unknowns, self.unknowns.lower), self.unknowns.upper)
 
     def scaled(self, unknowns: np.ndarray) -> np.ndarray:
         """Return unknowns in the optimiser's scale, within their bounds."""
-        return np.minimum(np.maximum(unknowns / self.unknowns.scale, self.lower), self.upper)
+        if not self.has_level:
+            return np.minimum(np.maximum(unknowns / self._all_scale, self.lower), self.upper)
+        scaled = np.append(unknowns, 0.0) / self._all_scale
+        scaled = np.minimum(np.maximum(scaled, self.lower), self.upper)
+        scaled[-1] = self._rows(scaled)[: self._lowered].max()
+        return scaled
+
+    @property
+    def _lowered(self) -> int:
+        """How many of the rows are the objective's."""
+        return 0 if self.asked is None else self.asked.objective_rows
 
     def _at(self, scaled: np.ndarray) -> Point:
-        key = scaled.tobytes()
+        key = scaled[: self.unknowns.lower.size].tobytes()
         if key not in self._points:
             unknowns = self.physical(scaled)
             if len(self._points) == _KEPT:
@@ -82,12 +106,19 @@ class Transcription:
         problem, scale = self.problem, self.unknowns.scale
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE
-        jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) * self._closure_scale
-        point = Point(closure, jacobian, flown.pitch, flown.pitch_jacobian * scale)
-        # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-        if abs(sum(float(a.sum()) for a in point)) < _WILD:
-            return point
-        return Point(*(np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in point))
+        jacobian = problem.closure_jacobian(flown.end_jacobian, frequency) * scale / CLOSURE_SCALE[:, None]
+        pitch, pitch_jacobian = flown.path[:, 0], flown.path_jacobian[:, 0] * scale
+        tame = abs(closure.sum()) + abs(jacobian.sum()) + abs(pitch.sum()) + abs(pitch_jacobian.sum()) < _WILD
+        rows, rows_jacobian = np.zeros(0), np.zeros((0, scale.size))
+        if self.asked is not None:
+            rows, rows_jacobian = self.asked.read(unknowns, flown) if tame else self.asked.lost
+            tame = tame and abs(rows.sum()) + abs(rows_jacobian.sum()) < _WILD
+            rows_jacobian = rows_jacobian * scale
+        point = Point(closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian)
+        if not tame:
+            # A flight that tumbles off to infinity must still be a number for the line search to back away from.
+            point = Point(*(np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in point))
+        return point if not self.has_level else _with_level(point)
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""
@@ -97,42 +128,98 @@ class Transcription:
         """Return its derivative, shape (6, n)."""
         return self._at(scaled).closure_jacobian + self._tilt
 
-    def pitch_margin(self, scaled: np.ndarray) -> np.ndarray:
-        """Return how far body pitch stays above its lower and below its upper bound on the path [rad]."""
-        return self.margins(self._at(scaled).pitch) - self._pitch_shift
+    def _rows(self, scaled: np.ndarray) -> np.ndarray:
+        return self._at(scaled).rows - self._rows_shift + self._rows_tilt @ (scaled - self._anchor)
 
-    def margins(self, pitch: np.ndarray) -> np.ndarray:
+    def margins(self, scaled: np.ndarray) -> np.ndarray:
+        """Return how far all that must not be passed is from it; negative where it is passed.
+
+        First body pitch on the path above its lower and below its upper bound [rad], then the constraints' rows in
+        their scale, then the level above each peak that is to be lowered.
+        """
+        pitch = self.pitch_margins(self._at(scaled).pitch) - self._pitch_shift
+        if self.asked is None:
+            return pitch
+        rows = self._rows(scaled)
+        return np.concatenate([pitch, self.asked.limits - rows[self._lowered :], self._peaks_below(scaled, rows)])
+
+    def _peaks_below(self, scaled: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        return scaled[-1] - rows[: self._lowered] if self.has_level else np.zeros(0)
+
+    def pitch_margins(self, pitch: np.ndarray) -> np.ndarray:
         """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
         return np.array([pitch.min() - self.pitch_bounds[0], self.pitch_bounds[1] - pitch.max()])
 
-    def pitch_margin_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative, shape (2, n)."""
+    def margins_jacobian(self, scaled: np.ndarray) -> np.ndarray:
+        """Return their derivative, shape (margins, n)."""
         point = self._at(scaled)
-        return np.stack([point.pitch_jacobian[point.pitch.argmin()], -point.pitch_jacobian[point.pitch.argmax()]])
+        pitch = np.stack([point.pitch_jacobian[point.pitch.argmin()], -point.pitch_jacobian[point.pitch.argmax()]])
+        if self.asked is None:
+            return pitch
+        rows = point.rows_jacobian + self._rows_tilt
+        level = np.zeros_like(rows[: self._lowered if self.has_level else 0])
+        if self.has_level:
+            level[:, -1] = 1.0
+            level -= rows[: self._lowered]
+        return np.concatenate([pitch, -rows[self._lowered :], level])
 
     def tilt_at(self, scaled: np.ndarray, blocks: int) -> None:
-        """Take closure, its derivative and the path bound's value from a flight of more blocks at this point."""
+        """Take closure, rows, their derivatives and the path bound's value from a flight of more blocks here."""
         here, unknowns = self._at(scaled), self.physical(scaled)
         fine = self._scaled(self.fly(unknowns[4:], unknowns[:4], blocks), unknowns)
         self._tilt = fine.closure_jacobian - here.closure_jacobian
         self._anchor = scaled.copy()
         self._shift = here.closure - fine.closure
-        self._pitch_shift = self.margins(here.pitch) - self.margins(fine.pitch)
+        self._pitch_shift = self.pitch_margins(here.pitch) - self.pitch_margins(fine.pitch)
+        self._rows_tilt = fine.rows_jacobian - here.rows_jacobian
+        self._rows_shift = here.rows - fine.rows
 
     def shift_at(self, scaled: np.ndarray, certificate: Certificate) -> None:
-        """Take the values of closure and path that the certifier finds at this point."""
+        """Take the values of closure, path and rows that the certifier finds at this point."""
         unknowns = self.physical(scaled)
         miss = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         self._shift = self._shift + self.closure(scaled) - miss
-        self._pitch_shift = self.margins(self._at(scaled).pitch) - self.margins(certificate.pitch)
+        self._pitch_shift = self.pitch_margins(self._at(scaled).pitch) - self.pitch_margins(certificate.pitch)
+        if self.asked is not None:
+            self._rows_shift = (
+                self._rows_shift + self._rows(scaled) - self.asked.read_certified(unknowns, certificate)
+            )
+
+    def certified_margins(self, scaled: np.ndarray, certificate: Certificate) -> np.ndarray:
+        """Return the margins of body pitch and constraints that the certifier finds."""
+        pitch = self.pitch_margins(certificate.pitch)
+        if self.asked is None:
+            return pitch
+        rows = self.asked.read_certified(self.physical(scaled), certificate)
+        return np.concatenate([pitch, self.asked.limits - rows[self._lowered :]])
 
     def objective(self, scaled: np.ndarray) -> float:
         """Return the objective over its scale."""
+        if self.has_level:
+            return float(scaled[-1])
+        if self._lowered:
+            return float(self._rows(scaled)[0])
         minimise = self.problem.minimise
+        assert isinstance(minimise, Frequency)
         return minimise.value(self.unknowns.names, self.physical(scaled)) / minimise.scale
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
         """Return its derivative, shape (n,)."""
+        if self.has_level:
+            return np.eye(1, scaled.size, scaled.size - 1)[0]
+        if self._lowered:
+            return self._at(scaled).rows_jacobian[0] + self._rows_tilt[0]
         minimise = self.problem.minimise
+        assert isinstance(minimise, Frequency)
         gradient = minimise.gradient(self.unknowns.names, self.physical(scaled))
         return gradient * self.unknowns.scale / minimise.scale
+
+
+def _with_level(point: Point) -> Point:
+    """Return the point with one more unknown, which nothing that was flown hangs on."""
+    wider = {
+        name: np.concatenate([value, np.zeros((len(value), 1))], axis=1)
+        for name, value in point._asdict().items()
+        if name.endswith("jacobian")
+    }
+    return point._replace(**wider)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 from wingbeat.aero import (
@@ -14,13 +15,16 @@ from wingbeat.aero import (
     TableCoefficients,
     load_coefficients,
 )
+from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.objectives import Frequency
 from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import Constraint, Frequency, Quantity, named_objective, named_quantity
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
+# Before the name of a function of the user's.
+_OWN = "the user's own"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
 
@@ -55,7 +59,10 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
         "climb": problem.climb,
         "free": problem.free,
         "bounds": problem.bounds,
-        "objective": problem.minimise.name,
+        "objective": _asked_for(problem.minimise),
+        "constraints": [
+            {"quantity": _asked_for(c.quantity), "limit": c.limit, "at_most": c.at_most} for c in problem.subject_to
+        ],
         "starts": starts,
         "seed": seed,
     }
@@ -95,7 +102,11 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         aero=BladeElement(_coefficients(aero), aero["strips"], aero["force_point"]),
         free=tuple(inputs["free"]),
         bounds=_pairs(inputs["bounds"]),
-        minimise=_objective(inputs["objective"]),
+        minimise=_brought_back(named_objective, inputs["objective"]),
+        subject_to=[
+            Constraint(_brought_back(named_quantity, c["quantity"]), c["limit"], c["at_most"])
+            for c in inputs["constraints"]
+        ],
         air=air,
     )
 
@@ -133,7 +144,19 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
     return {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
 
 
-def _objective(name: str) -> Frequency:
-    if name != Frequency().name:
-        raise ValueError(f"unknown objective {name!r}")
-    return Frequency()
+def _asked_for(quantity: Frequency | Quantity) -> str:
+    """Return the name that brings a quantity back, or one that never will: a user's function is in no file."""
+    try:
+        known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
+    except InvalidInputError:
+        known = False
+    return quantity.name if known else f"{_OWN} {quantity.name}"
+
+
+def _brought_back(find: Callable[[str], Any], name: str) -> Any:
+    if name.startswith(_OWN):
+        raise ValueError(f"{name!r} is not in the file; set the problem up with it anew")
+    try:
+        return find(name)
+    except InvalidInputError as error:
+        raise ValueError(f"unknown objective or quantity {name!r}") from error

@@ -1,0 +1,61 @@
+"""What a problem asks of the beat besides closing: its objective and constraints, read off flights."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wingbeat.orbits.beat import beat_reader, flown_beat
+from wingbeat.orbits.certify import Certificate
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import Quantity
+from wingbeat.orbits.readings import PARTS, Readings
+
+# A margin this small, in its scale, is none.
+AT_BOUND = 1e-6
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.shooting import Flown
+
+
+class Asked:
+    """The rows of objective and constraints of a problem, over their scales, and the constraints' limits."""
+
+    def __init__(self, problem: OrbitProblem) -> None:
+        self._problem = problem
+        self._velocity = problem.speed, problem.climb
+        objective = [problem.minimise] if isinstance(problem.minimise, Quantity) else []
+        self._readings = Readings(objective, problem.subject_to, problem.aero.strips)
+        self._reader = beat_reader(problem.model, problem.species.wingbeat, problem.free, self._velocity)
+        self.objective_rows = self._readings.counts[0] if objective else 0
+        self.has_peaks_to_lower = self.objective_rows == PARTS
+        self.count = sum(self._readings.counts)
+        self.limits = self._readings.limits
+
+    @property
+    def lost(self) -> tuple[np.ndarray, np.ndarray]:
+        """Rows and derivatives where there is no flight to read them off: not-a-number."""
+        return np.full(self.count, np.nan), np.zeros((self.count, 4 + len(self._problem.free)))
+
+    def read(self, unknowns: np.ndarray, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
+        """Return the rows of a flight, and their derivatives by the unknowns."""
+        beat, changes = self._reader(unknowns[4:], flown)
+        return self._readings.of(beat), self._readings.changes_of(beat, changes)
+
+    def read_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
+        """Return the rows of what the certifier flew."""
+        wingbeat = self._problem.wingbeat(unknowns)
+        beat = flown_beat(
+            self._problem.model, wingbeat, certificate.phase, certificate.states[:, 2:], self._velocity
+        )
+        return self._readings.of(beat)
+
+    def active_constraints(self, margins: np.ndarray) -> list[str]:
+        """Return the constraints that are at their limits, given the margins of their rows."""
+        active, end = [], 0
+        for constraint, count in zip(self._problem.subject_to, self._readings.constraint_counts, strict=True):
+            begin, end = end, end + count
+            if margins[begin:end].min() <= AT_BOUND:
+                active.append(str(constraint))
+        return active

@@ -1,0 +1,177 @@
+"""One beat as a time series, with its exact derivatives along the unknowns: what quantities are read off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.dynamics import strip_loads
+from wingbeat.frames import from_world, stroke_pitch
+from wingbeat.hinges import hinge_loads, hinge_motion
+from wingbeat.jax64 import jax, jnp
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
+from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.orbits.shooting import STEPS, Flown
+from wingbeat.stored import stored
+
+
+class Beat(NamedTuple):
+    """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), names as in a dataset.
+
+    ``alpha``, ``lift`` and ``drag`` are those of the strips of one wing, shape (K, strips). Torques and powers are
+    of both wings together. ``frequency`` [Hz], ``speed`` and ``climb`` [m/s] and ``weight`` [N] are numbers.
+    """
+
+    phase: Any
+    time: Any
+    body_pitch: Any
+    u: Any
+    w: Any
+    pitch_rate: Any
+    u_rate: Any
+    w_rate: Any
+    pitch_acceleration: Any
+    flap: Any
+    flap_rate: Any
+    wing_pitch: Any
+    wing_pitch_rate: Any
+    flap_torque: Any
+    pitch_torque: Any
+    hinge_power: Any
+    actuator_power: Any
+    alpha: Any
+    lift: Any
+    drag: Any
+    frequency: Any
+    speed: Any
+    climb: Any
+    weight: Any
+
+    def mean(self, values: Any) -> Any:
+        """Return the mean of a series over the beat, by the trapezoidal rule."""
+        return jnp.mean(0.5 * (values[:-1] + values[1:]))
+
+    def mean_positive(self, values: Any) -> Any:
+        """Return the mean of the positive part of a series, which runs straight between its samples.
+
+        Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero.
+        """
+        before, after = values[:-1], values[1:]
+        crosses = before * after < 0.0
+        part = jnp.maximum(before, after) ** 2 / jnp.where(crosses, jnp.abs(before - after), 1.0)
+        whole = jnp.maximum(before, 0.0) + jnp.maximum(after, 0.0)
+        return 0.5 * jnp.mean(jnp.where(crosses, part, whole))
+
+
+# Numbers of a beat that are no series.
+_NUMBERS = ("frequency", "speed", "climb", "weight")
+
+
+def _series(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_velocity: Any) -> Beat:
+    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
+    body = body_rates(model, motion, path)[1:]
+    body_pitch, u, w, pitch_rate = path
+    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
+    hinges = hinge_loads(model, motion, moved, path, body)
+    return Beat(
+        phase=phase,
+        time=phase / wingbeat.frequency,
+        body_pitch=body_pitch,
+        u=u,
+        w=w,
+        pitch_rate=pitch_rate,
+        u_rate=body[0],
+        w_rate=body[1],
+        pitch_acceleration=body[2],
+        flap=flap_angle(wingbeat, phase),
+        flap_rate=moved.flap_rate,
+        wing_pitch=pitch_angle(wingbeat, phase),
+        wing_pitch_rate=moved.pitch_rate,
+        flap_torque=hinges.flap_torque,
+        pitch_torque=hinges.pitch_torque,
+        hinge_power=hinges.hinge_power,
+        actuator_power=hinges.actuator_power,
+        alpha=strips.alpha.T,
+        lift=strips.lift.T,
+        drag=strips.drag.T,
+        frequency=jnp.asarray(wingbeat.frequency, dtype=float),
+        speed=mean_velocity[0],
+        climb=mean_velocity[1],
+        weight=model.vehicle.mass * model.air.gravity,
+    )
+
+
+@stored(static=("free",))
+def _part(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    values: Any,
+    path: Any,
+    tangents: Any,
+    ends: Any,
+    mean_velocity: Any,
+    *,
+    free: tuple[str, ...],
+) -> tuple[Beat, Beat]:
+    """Return the beat between two phases, and its derivatives: directions are the first axis."""
+    phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
+
+    def series(at: Any, along: Any) -> Beat:
+        return _series(model, unpack(free, wingbeat, at), along, phase, mean_velocity)
+
+    found, change = jax.linearize(series, values, path)
+    directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
+    return found, jax.vmap(change)(directions, tangents)
+
+
+def beat_reader(
+    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], mean_velocity: tuple[float, float]
+) -> Callable[[np.ndarray, Flown], tuple[Beat, Beat]]:
+    """Return the beat, and its derivatives along the unknowns (first axis), as a function of a flight.
+
+    The function takes the values of the parameters named in `free`, and what `flier` made of them.
+    """
+    part = _part.bind(model, wingbeat, free=free)
+    velocity = np.array(mean_velocity)
+
+    def read(values: np.ndarray, flown: Flown) -> tuple[Beat, Beat]:
+        count = (len(flown.path) - 1) // STEPS
+        pieces = []
+        for i in range(count):
+            here = slice(i * STEPS, (i + 1) * STEPS + 1)
+            tangents = flown.path_jacobian[here].transpose(2, 1, 0)
+            pieces.append(part(values, flown.path[here].T, tangents, np.array([i, i + 1]) / count, velocity))
+        if count == 1:
+            return pieces[0]
+        beats, changes = zip(*pieces, strict=True)
+        return _joined(beats, 0), _joined(changes, 1)
+
+    return read
+
+
+def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
+    """Return one beat of its parts along the axis of phases; where two meet they say the same."""
+
+    def join(name: str) -> Any:
+        parts = [np.asarray(getattr(piece, name)) for piece in pieces]
+        if name in _NUMBERS:
+            return parts[0]
+        after = [part.take(range(1, part.shape[axis]), axis) for part in parts[1:]]
+        return np.concatenate([parts[0], *after], axis)
+
+    return Beat(*(join(name) for name in Beat._fields))
+
+
+@stored
+def _flown(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_velocity: Any) -> Beat:
+    return _series(model, wingbeat, path, phase, mean_velocity)
+
+
+def flown_beat(
+    model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, path: np.ndarray, mean_velocity: tuple[float, float]
+) -> Beat:
+    """Return the beat of states that were flown, (body_pitch, u, w, pitch_rate) of shape (K, 4)."""
+    return _flown(model, wingbeat, path.T, phase, np.array(mean_velocity))

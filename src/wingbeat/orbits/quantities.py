@@ -1,0 +1,255 @@
+"""Quantities of a beat that can be made least or kept within limits, and the limits."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.jax64 import jnp
+from wingbeat.orbits.beat import Beat
+
+
+@dataclass(frozen=True)
+class Frequency:
+    """The wingbeat frequency, which Su et al. 2023 (doi 10.48550/arXiv.2302.09602) make least.
+
+    >>> Frequency().value(("body_pitch", "frequency"), [0.1, 6.0])
+    6.0
+    """
+
+    name: str = "frequency"
+    unit: str = "Hz"
+    scale: float = 3.0
+
+    def value(self, names: tuple[str, ...], unknowns: Any) -> float:
+        """Return the frequency [Hz]."""
+        return float(unknowns[names.index("frequency")])
+
+    def gradient(self, names: tuple[str, ...], unknowns: Any) -> Any:
+        """Return the unit vector of the frequency."""
+        return np.eye(len(names))[names.index("frequency")]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number read off one beat, or a series along it of which the largest value counts.
+
+    Parameters
+    ----------
+    name : what it is called in records and messages.
+    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array along the phases.
+    unit : of the value.
+    scale : a difference that matters, so that the optimiser sees numbers near one.
+
+    Raises
+    ------
+    InvalidInputError : an empty name, a function that cannot be called, a scale that is not positive.
+
+    >>> lift = Quantity("mean_lift", lambda beat: beat.mean(beat.lift.sum(axis=1)), unit="N")
+    >>> lift.name
+    'mean_lift'
+    """
+
+    name: str
+    of: Callable[[Beat], Any]
+    unit: str = "1"
+    scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not isinstance(self.name, str) or not self.name.strip():
+            faults.add("quantity.name", self.name, "must be a name", "such as mean_lift")
+        if not callable(self.of):
+            faults.add("quantity.of", self.of, "is not a function", "give a function of a Beat")
+        faults.number("quantity.scale", self.scale, above=0, fix="a difference that matters")
+        faults.raise_if_any()
+
+
+@dataclass(frozen=True)
+class _Series:
+    """A series of the beat itself."""
+
+    name: str
+
+    def __call__(self, beat: Beat) -> Any:
+        return getattr(beat, self.name)
+
+
+@dataclass(frozen=True)
+class _Size(_Series):
+    """The size of a series, whatever its sign."""
+
+    def __call__(self, beat: Beat) -> Any:
+        return jnp.abs(getattr(beat, self.name))
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """The mean of a power, of which the negative part gives back a share."""
+
+    power: str
+    returned: float
+
+    def __call__(self, beat: Beat) -> Any:
+        power = getattr(beat, self.power)
+        positive = beat.mean_positive(power)
+        return positive - self.returned * (positive - beat.mean(power))
+
+
+def PowerCost(returned: float = 0.0) -> Quantity:
+    """Return the mean hinge power of which negative work gives back a share only.
+
+    Parameters
+    ----------
+    returned : 0, negative work is free but lost; 1, it is stored and returned in full, which is the mean power;
+        between, partly; -1, braking costs as much as driving.
+
+    Raises
+    ------
+    InvalidInputError : not a number from -1 to 1.
+
+    >>> PowerCost(0.3).name
+    'power_cost(0.3)'
+    """
+    faults = FaultList()
+    faults.number("returned", returned, at_least=-1, at_most=1, fix="0: negative work is lost; 1: it is returned")
+    faults.raise_if_any()
+    return Quantity(f"power_cost({returned:g})", _Cost("hinge_power", returned), "W")
+
+
+def _cost_of_transport(beat: Beat) -> Any:
+    return beat.mean_positive(beat.hinge_power) / (beat.weight * beat.speed)
+
+
+def _pitch_range(beat: Beat) -> Any:
+    return jnp.max(beat.body_pitch) - jnp.min(beat.body_pitch)
+
+
+def _roughness(beat: Beat) -> Any:
+    return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
+
+
+QUANTITIES = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity("frequency", _Series("frequency"), "Hz", 3.0),
+        Quantity("mean_power", _Cost("hinge_power", 1.0), "W"),
+        Quantity("mean_positive_power", _Cost("hinge_power", 0.0), "W"),
+        Quantity("peak_power", _Series("hinge_power"), "W", 5.0),
+        Quantity("mean_actuator_power", _Cost("actuator_power", 1.0), "W"),
+        Quantity("peak_actuator_power", _Series("actuator_power"), "W", 5.0),
+        Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
+        Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
+        Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
+        Quantity("body_pitch_range", _pitch_range, "rad", 0.1),
+        Quantity("roughness", _roughness, "m s-2", 5.0),
+    )
+}
+
+
+# What the command line calls for short.
+_SHORT = {"power": "mean_power", "positive_power": "mean_positive_power"}
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """A quantity kept at most, or at least, at a limit.
+
+    Parameters
+    ----------
+    quantity : a `Quantity`, or the name of one.
+    limit : in the quantity's unit.
+    at_most : whether the limit is the largest value allowed; else the smallest. Of a series every value counts.
+
+    Raises
+    ------
+    InvalidInputError : an unknown quantity, a limit that is not finite.
+    """
+
+    quantity: Quantity
+    limit: float
+    at_most: bool = True
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if isinstance(self.quantity, str):
+            object.__setattr__(self, "quantity", named_quantity(self.quantity))
+        if not isinstance(self.quantity, Quantity):
+            faults.add("constraint.quantity", self.quantity, "is not a Quantity", "give one, or its name")
+        faults.number("constraint.limit", self.limit)
+        faults.raise_if_any()
+
+    def __str__(self) -> str:
+        return f"{self.quantity.name}{'<=' if self.at_most else '>='}{self.limit:g}"
+
+
+_POWER_COST = re.compile(r"power_cost\((-?[\d.]+)\)")
+
+
+def named_quantity(name: str) -> Quantity:
+    """Return the quantity of a name.
+
+    Raises
+    ------
+    InvalidInputError : there is none.
+    """
+    if found := _POWER_COST.fullmatch(str(name)):
+        return PowerCost(float(found[1]))
+    if name not in QUANTITIES:
+        faults = FaultList()
+        close = difflib.get_close_matches(str(name), QUANTITIES, n=1)
+        fix = f"did you mean {close[0]}?" if close else f"there are {', '.join(QUANTITIES)}, power_cost(0.5)"
+        faults.add("quantity", name, "is not one that wingbeat knows", fix)
+        faults.raise_if_any()
+    return QUANTITIES[name]
+
+
+def named_objective(name: str) -> Frequency | Quantity:
+    """Return the objective of a name, which may be written with hyphens, as on the command line.
+
+    Raises
+    ------
+    InvalidInputError : there is none.
+    """
+    name = str(name).replace("-", "_")
+    return Frequency() if name == "frequency" else named_quantity(_SHORT.get(name, name))
+
+
+_EXPRESSION = re.compile(r"\s*([\w().]+)\s*(<=|>=)\s*([-+.\deE]+)\s*(deg)?\s*")
+
+
+def parse_constraint(text: str) -> Constraint:
+    """Return the constraint that a text such as ``peak_power<=30`` or ``body_pitch_range <= 10 deg`` says.
+
+    Raises
+    ------
+    InvalidInputError : not of that form, an unknown quantity, a limit that is no number, degrees of no angle.
+
+    >>> str(parse_constraint("peak_power <= 30"))
+    'peak_power<=30'
+    """
+    faults = FaultList()
+    found = _EXPRESSION.fullmatch(str(text))
+    if found is None:
+        fix = "for example peak_power<=30 or 'body_pitch_range <= 10 deg'"
+        faults.add("constraint", text, "must be a quantity, <= or >=, and a number", fix)
+        faults.raise_if_any()
+    assert found is not None
+    name, sign, number, degrees = found.groups()
+    quantity = named_quantity(name)
+    try:
+        limit = float(number)
+    except ValueError:
+        faults.add("constraint", text, f"has no number but {number!r} for a limit")
+        limit = 0.0
+    if degrees and quantity.unit != "rad":
+        faults.add("constraint", text, f"has degrees for {name}, which is in {quantity.unit}", "leave out deg")
+    faults.raise_if_any()
+    return Constraint(quantity, math.radians(limit) if degrees else limit, sign == "<=")

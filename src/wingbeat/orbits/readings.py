@@ -1,0 +1,116 @@
+"""What a problem asks of the beat, read off flights: values with derivatives, in the optimiser's scale.
+
+A quantity that is a number has one row. One that is a series has a row for the largest value in each quarter of the
+beat: a path seldom has two peaks in one quarter, and a search that saw the largest only would go to and fro between
+peaks of equal height.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.jax64 import jax, jnp
+from wingbeat.orbits.beat import Beat
+from wingbeat.orbits.quantities import Constraint, Quantity
+
+PARTS = 4
+# Of a beat that is only looked at for its shapes.
+_SAMPLES = 1 + 2 * PARTS
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+    return tuple(_of_one(jnp.asarray(function(beat), dtype=float)) for function in functions)
+
+
+def _of_one(value: Any) -> Any:
+    if value.ndim == 0:
+        return value[None]
+    part = (value.shape[0] - 1) // PARTS
+    return jnp.stack([jnp.max(value[i * part : (i + 1) * part + 1]) for i in range(PARTS)])
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _change_of_rows(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any, ...]:
+    return jax.vmap(lambda change: jax.jvp(lambda b: _rows(functions, b), (beat,), (change,))[1])(changes)
+
+
+@dataclass(frozen=True)
+class _Negated:
+    """A quantity with its sign turned, so that at least becomes at most."""
+
+    of: Callable[[Beat], Any]
+
+    def __call__(self, beat: Beat) -> Any:
+        return -self.of(beat)
+
+
+class Readings:
+    """The rows of several quantities, one after the other, each over its scale."""
+
+    def __init__(self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int) -> None:
+        turned = [c.quantity.of if c.at_most else _Negated(c.quantity.of) for c in constraints]
+        self._functions = tuple([q.of for q in quantities] + turned)
+        everything = [*quantities, *(c.quantity for c in constraints)]
+        self._names = [q.name for q in everything]
+        self.counts = [PARTS if is_series(q, strips) else 1 for q in everything]
+        self._scale = np.repeat([q.scale for q in everything], self.counts)
+        limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
+        self.constraint_counts = self.counts[len(quantities) :]
+        self.limits = np.repeat(limits, self.constraint_counts)
+
+    def of(self, beat: Beat) -> np.ndarray:
+        """Return the rows.
+
+        Raises
+        ------
+        InvalidInputError : a quantity gives what is no number where the beat is finite.
+        """
+        rows = [np.asarray(a) for a in _rows(self._functions, beat)]
+        for name, row in zip(self._names, rows, strict=True):
+            if not np.isfinite(row).all() and all(np.isfinite(a).all() for a in beat):
+                fix = "its function must be finite for every flight"
+                raise InvalidInputError([Fault(f"quantity {name}", float(row[0]), "is not finite", fix)])
+        return np.concatenate(rows) / self._scale
+
+    def changes_of(self, beat: Beat, changes: Beat) -> np.ndarray:
+        """Return the derivatives of the rows, shape (rows, directions)."""
+        found = _change_of_rows(self._functions, beat, changes)
+        return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
+
+
+def is_series(quantity: Quantity, strips: int) -> bool:
+    """Say whether a quantity is a series along the beat, not one number."""
+    return len(jax.eval_shape(quantity.of, _any_beat(strips)).shape) == 1
+
+
+def _any_beat(strips: int) -> Beat:
+    by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
+    number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
+    shapes = {"alpha": by_strip, "lift": by_strip, "drag": by_strip}
+    shapes |= dict.fromkeys(("frequency", "speed", "climb", "weight"), number)
+    return Beat(*(shapes.get(name, series) for name in Beat._fields))
+
+
+def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]:
+    """Return what is wrong with the quantities' functions: they fail, or give neither a number nor a series."""
+    beat = _any_beat(strips)
+    faults = []
+    for quantity in quantities:
+        where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python: see Beat for what it is given"
+        try:
+            found = jax.eval_shape(quantity.of, beat)
+        except Exception as error:  # whatever a user's function raises
+            reason = f"fails: {type(error).__name__}: {error}".split("\n")[0]
+            faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))
+            continue
+        if getattr(found, "shape", None) not in ((), (_SAMPLES,)):
+            rule = "must give a number or one value for each phase"
+            faults.append(Fault(where, getattr(found, "shape", type(found).__name__), rule, fix))
+    return faults

@@ -189,6 +189,38 @@ def test_what_is_no_objective_is_refused_all_at_once():
             dataclasses.replace(QUANTITIES["mean_power"], **fields)
 
 
+def test_a_measured_frequency_and_amplitude_are_held_and_the_rest_found():
+    held = wb.OrbitProblem(
+        PIGEON, speed=SPEED, minimise="mean_positive_power", subject_to=["frequency=14", "flap_amplitude = 50 deg"]
+    )
+    assert held.free == tuple(name for name in PIGEON.free if name not in ("frequency", "flap_amplitude"))
+    orbit = wb.solve_orbit(held, starts=2)
+    assert orbit.status is wb.Status.CONVERGED
+    assert orbit.wingbeat.frequency == 14.0
+    assert orbit.wingbeat.flap_amplitude == np.radians(50)
+    again = orbit.problem
+    assert (again.free, again.species.wingbeat) == (held.free, held.species.wingbeat)
+    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise="mean_positive_power"), 2)
+    assert orbit.record()["objective_value"] > free.objective
+
+
+def test_bounds_of_the_wingbeat_are_limits_too():
+    problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=["flap_amplitude<=50 deg", "pitch_mean >= 0"])
+    assert problem.bounds["flap_amplitude"] == (PIGEON.bounds["flap_amplitude"][0], np.radians(50))
+    assert problem.bounds["pitch_mean"] == (0.0, PIGEON.bounds["pitch_mean"][1])
+    assert problem.subject_to == ()
+    with pytest.raises(wb.InvalidInputError, match="minimise something else"):
+        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="frequency=6")
+    with pytest.raises(wb.InvalidInputError, match=r"wingbeat\.frequency = -6"):
+        wb.OrbitProblem(PIGEON, speed=SPEED, minimise="power", subject_to="frequency=-6")
+    with pytest.raises(wb.InvalidInputError, match="leaves nothing free"):
+        wb.OrbitProblem(PIGEON, SPEED, minimise="power", free=("flap_mean",), subject_to="flap_mean=0")
+    with pytest.raises(wb.InvalidInputError, match="is not a Species"):
+        wb.OrbitProblem("pigeon", SPEED, subject_to="flap_mean=0")
+    with pytest.raises(wb.InvalidInputError, match="twist_ratio"):
+        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="twist_ratio<=2")
+
+
 def test_degrees_and_short_names():
     constraint = parse_constraint("body_pitch_range >= 10 deg")
     assert constraint.limit == pytest.approx(np.radians(10))

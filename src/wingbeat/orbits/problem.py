@@ -15,7 +15,15 @@ from wingbeat.aero import BladeElement, SuFan
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, flight_model
-from wingbeat.orbits.quantities import Constraint, Frequency, Quantity, named_objective, parse_constraint
+from wingbeat.orbits.quantities import (
+    Constraint,
+    Frequency,
+    Quantity,
+    WingbeatLimit,
+    named_objective,
+    parse_constraint,
+    parse_wingbeat_limit,
+)
 from wingbeat.orbits.readings import check_quantities
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
@@ -58,7 +66,8 @@ class OrbitProblem:
         replaces the species' bounds of the same names.
     minimise : the objective, `Frequency()` as in the paper.
     air : replaces the species' air.
-    subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``.
+    subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
+        wingbeat parameter holds it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
 
     `minimise` may also be a `Quantity`, or the name of one: ``"mean_positive_power"``.
 
@@ -89,6 +98,7 @@ class OrbitProblem:
         faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
+        faults.raise_if_any()
         self._check_asked(faults)
         faults.raise_if_any()
         aero = self.aero if isinstance(self.aero, BladeElement) else BladeElement(self.aero)
@@ -115,7 +125,18 @@ class OrbitProblem:
 
         minimise = understood(named_objective, self.minimise)
         texts = [self.subject_to] if isinstance(self.subject_to, str | Constraint) else self.subject_to
-        constraints = [understood(parse_constraint, text) for text in texts]
+        constraints = []
+        for text in texts:
+            limit = parse_wingbeat_limit(text)
+            if limit is None:
+                constraints.append(understood(parse_constraint, text))
+                continue
+            try:
+                self._limit_wingbeat(limit)
+            except InvalidInputError as error:
+                faults.faults.extend(error.faults)
+            if limit.sign == "=" and not self.free:
+                faults.add("subject_to", text, "leaves nothing free", "hold fewer parameters of the wingbeat")
         if faults.faults:
             return
         if not isinstance(minimise, Frequency | Quantity):
@@ -127,6 +148,19 @@ class OrbitProblem:
         object.__setattr__(self, "subject_to", tuple(constraints))
         if not faults.faults and self.speed == 0 and "cost_of_transport" in {q.name for q in self._quantities()}:
             faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
+
+    def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
+        """Hold a parameter at a value, or tighten its bounds."""
+        species, name = self.species, limit.name
+        if limit.sign == "=":
+            wingbeat = dataclasses.replace(species.wingbeat, **{name: limit.value})
+            object.__setattr__(self, "species", dataclasses.replace(species, wingbeat=wingbeat))
+            object.__setattr__(self, "free", tuple(n for n in self.free or species.free if n != name))
+            return
+        bounds = dict(self.bounds or {})
+        lower, upper = bounds.get(name) or species.bounds.get(name) or (-np.inf, np.inf)
+        bounds[name] = (lower, limit.value) if limit.sign == "<=" else (limit.value, upper)
+        object.__setattr__(self, "bounds", bounds)
 
     def _quantities(self) -> list[Quantity]:
         """Return what is read off the beat."""
@@ -149,7 +183,7 @@ class OrbitProblem:
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if isinstance(self.minimise, Frequency) and "frequency" not in free:
-            faults.add("free", free, "leaves frequency nothing to change", "add frequency to free")
+            faults.add("free", free, "leaves frequency nothing to change", "minimise something else")
         for name, pair in self.bounds.items():
             if name != "body_pitch" and name not in free:
                 faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")

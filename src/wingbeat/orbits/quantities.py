@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -253,3 +253,33 @@ def parse_constraint(text: str) -> Constraint:
         faults.add("constraint", text, f"has degrees for {name}, which is in {quantity.unit}", "leave out deg")
     faults.raise_if_any()
     return Constraint(quantity, math.radians(limit) if degrees else limit, sign == "<=")
+
+
+class WingbeatLimit(NamedTuple):
+    """A wingbeat parameter that is held (``=``), or kept at most or at least at a value."""
+
+    name: str
+    sign: str
+    value: float
+
+
+_ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude")
+_PARAMETERS = (*_ANGLES, "frequency", "span_retraction", "twist_ratio")
+_LIMIT = re.compile(r"\s*(\w+)\s*(<=|>=|=)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(deg)?\s*")
+
+
+def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
+    """Return what a text says of a wingbeat parameter, None if it is not about one.
+
+    A limit of the frequency that does not hold it is a constraint like any other.
+
+    >>> parse_wingbeat_limit("frequency = 6").value
+    6.0
+    """
+    found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
+    if found is None or found[1] not in _PARAMETERS or (found[4] and found[1] not in _ANGLES):
+        return None
+    if found[1] == "frequency" and found[2] != "=":
+        return None
+    value = float(found[3])
+    return WingbeatLimit(found[1], found[2], math.radians(value) if found[4] else value)

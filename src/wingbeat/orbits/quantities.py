@@ -128,8 +128,8 @@ def _cost_of_transport(beat: Beat) -> Any:
     return beat.mean_positive(beat.hinge_power) / (beat.weight * beat.speed)
 
 
-def _pitch_range(beat: Beat) -> Any:
-    return jnp.max(beat.body_pitch) - jnp.min(beat.body_pitch)
+def _above_least_pitch(beat: Beat) -> Any:
+    return beat.body_pitch - jnp.min(beat.body_pitch)
 
 
 def _roughness(beat: Beat) -> Any:
@@ -148,7 +148,7 @@ QUANTITIES = {
         Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
         Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
         Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
-        Quantity("body_pitch_range", _pitch_range, "rad", 0.1),
+        Quantity("body_pitch_range", _above_least_pitch, "rad", 0.1),
         Quantity("roughness", _roughness, "m s-2", 5.0),
     )
 }

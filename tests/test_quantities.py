@@ -118,6 +118,18 @@ def test_a_constraint_that_binds_is_met_and_named(text):
     assert record["objective_value"] > free.objective
 
 
+def test_at_least_means_every_moment_of_a_series():
+    nose_up = wb.Constraint(
+        wb.Quantity("body_pitch", lambda beat: beat.body_pitch, "rad", 0.1), 0.25, at_most=False
+    )
+    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
+    assert free.value_of(nose_up.quantity, least=True) < 0.2
+    orbit = wb.solve_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[nose_up]), starts=2)
+    assert orbit.status is wb.Status.CONVERGED
+    assert orbit.dataset["body_pitch"].values.min() == pytest.approx(0.25, abs=1e-6)
+    assert orbit.record()["constraints"] == {"body_pitch>=0.25": orbit.dataset["body_pitch"].values.min()}
+
+
 def test_a_constraint_out_of_reach_is_infeasible_and_named():
     problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="mean_positive_power<=5")
     found = find_orbit(problem, 1, most_starts=2)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from wingbeat.orbits.beat import beat_reader, flown_beat
@@ -11,12 +9,10 @@ from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.readings import PARTS, Readings
+from wingbeat.orbits.shooting import Flown
 
-# A margin this small, in its scale, is none.
+# An unknown this near to a bound, as a share of its range, is at the bound; margins likewise, in their own scale.
 AT_BOUND = 1e-6
-
-if TYPE_CHECKING:
-    from wingbeat.orbits.shooting import Flown
 
 
 class Asked:

@@ -60,12 +60,13 @@ class Solution:
             return self.value_of(minimise)
         return minimise.value(self.problem.unknowns().names, self.unknowns)
 
-    def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified beat, of a series its largest value."""
+    def value_of(self, quantity: Quantity, *, least: bool = False) -> float:
+        """Return a quantity of the certified beat, of a series its largest or least value."""
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
         beat = flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
-        return float(np.max(quantity.of(beat)))
+        value = quantity.of(beat)
+        return float(np.min(value) if least else np.max(value))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:

@@ -42,7 +42,7 @@ class Corrected:
         return optimality(self.programme, self.scaled)
 
     def is_orbit(self, closed: float = CERTIFIED) -> bool:
-        """Whether it closes, keeps body pitch in bounds along the path, and is an optimum."""
+        """Whether it closes, keeps to its limits along the path, and is an optimum."""
         return bool(
             size(self.miss) <= closed
             and self.programme.certified_margins(self.scaled, self.certificate).min() >= -_EXCESS

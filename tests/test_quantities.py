@@ -83,7 +83,7 @@ def least():
     return {name: find_orbit(wb.OrbitProblem(BAT, speed=SPEED, minimise=name), 9) for name in QUANTITIES}
 
 
-# The least range of body pitch has several extremes of equal height, and which of its optima can be certified is chance.
+# The least range of body pitch has several extremes of equal height; which of its optima is certified is chance.
 @pytest.mark.parametrize("name", [name for name in QUANTITIES if name != "body_pitch_range"])
 def test_nothing_else_has_less_of_it(least, name):
     best = least[name]

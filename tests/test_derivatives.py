@@ -118,9 +118,11 @@ def near(solved):
 @pytest.mark.parametrize("blocks", [1, 3])
 def test_end_and_path_of_a_period(solved, blocks):
     problem = solved.problem
-    fly = flier(solved.model, solved.problem.species.wingbeat, problem.free)
+    fly = flier(solved.model, solved.problem.species.wingbeat, problem.free, whole_path=True)
+    pitch_alone = flier(solved.model, solved.problem.species.wingbeat, problem.free)
     for point in near(solved):
         found = fly(point[4:], point[:4], blocks)
+        np.testing.assert_allclose(pitch_alone(point[4:], point[:4], blocks).path, found.path[:, :1], rtol=1e-12)
 
         def flown(values):
             period = fly(values[4:], values[:4], blocks)

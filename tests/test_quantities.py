@@ -119,16 +119,21 @@ def test_a_constraint_that_binds_is_met_and_named(text):
     assert record["objective_value"] > free.objective
 
 
-def test_at_least_means_every_moment_of_a_series():
-    nose_up = wb.Constraint(
-        wb.Quantity("body_pitch", lambda beat: beat.body_pitch, "rad", 0.1), 0.25, at_most=False
-    )
+def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_least():
     free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
-    assert free.value_of(nose_up.quantity, least=True) < 0.2
-    orbit = wb.solve_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[nose_up]), starts=2)
+    torque = QUANTITIES["peak_flap_torque"]
+    limit = 1.1 * free.value_of(torque)
+    strong = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(torque, limit, False)]), 2)
+    assert strong.status is wb.Status.CONVERGED
+    assert strong.value_of(torque) >= limit * (1 - 1e-6)
+    nose_down = wb.Quantity("nose_down", lambda beat: -beat.body_pitch, "rad", 0.1)
+    assert free.value_of(nose_down) > -0.2
+    orbit = wb.solve_orbit(
+        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(nose_down, -0.25)]), starts=2
+    )
     assert orbit.status is wb.Status.CONVERGED
     assert orbit.dataset["body_pitch"].values.min() == pytest.approx(0.25, abs=1e-6)
-    assert orbit.record()["constraints"] == {"body_pitch>=0.25": orbit.dataset["body_pitch"].values.min()}
+    assert orbit.record()["constraints"] == {"nose_down<=-0.25": -orbit.dataset["body_pitch"].values.min()}
 
 
 def test_a_constraint_out_of_reach_is_infeasible_and_named():
@@ -175,7 +180,10 @@ def test_a_function_that_gives_no_number_is_named():
     [
         ("peak_power<30", "must be a quantity"),
         ("peek_power<=30", "did you mean peak_power"),
-        ("peak_power<=3e", "no number"),
+        ("peak_power<=3e", "must be a quantity"),
+        ("peak_power<=1.2.3", "must be a quantity"),
+        ("frequency=1.2.3", "must be a quantity"),
+        ("power_cost(1.2.3)<=3", "not one that wingbeat knows"),
         ("peak_power<=30 deg", "which is in W"),
         ("<=30", "must be a quantity"),
     ],

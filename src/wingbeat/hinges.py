@@ -37,6 +37,7 @@ class Along(NamedTuple):
     By strip: ``lever``, the quarter chord's velocity along the normal that the strip has without pitch, and
     ``turning``, that of its pitch. Sums over the mass of both wings: ``first_moment`` of v, and of v times place
     turned by a right angle (``swirl``), place (``spin``), rate turned (``coriolis``) and acceleration (``push``).
+    SI units; v is in m/rad for a hinge, in m/s for the whole motion.
     """
 
     lever: Any
@@ -133,7 +134,14 @@ def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: 
 def hinge_loads(
     model: FlightModel, motion: WingMotion, hinges: HingeMotion, pitch_state: Any, body_acceleration: Any
 ) -> HingeLoads:
-    """Return torques and powers for (body_pitch, u, w, pitch_rate) and the body's (x'', z'', psi'')."""
+    """Return torques and powers of a flight.
+
+    Parameters
+    ----------
+    model, motion, hinges : the flight model and its tables at the same phases.
+    pitch_state : (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
+    body_acceleration : (x'', z'', psi'') [m/s2, m/s2, rad/s2].
+    """
     body_pitch, u, w, pitch_rate = pitch_state
     ax, az, pitch_acceleration = body_acceleration
     attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)

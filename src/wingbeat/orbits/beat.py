@@ -18,10 +18,11 @@ from wingbeat.stored import stored
 
 
 class Beat(NamedTuple):
-    """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), names as in a dataset.
+    """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), SI and radians.
 
-    ``alpha``, ``lift`` and ``drag`` are those of the strips of one wing, shape (K, strips). Torques and powers are
-    of both wings together. ``frequency`` [Hz], ``speed`` and ``climb`` [m/s] and ``weight`` [N] are numbers.
+    Names and units are those of a dataset. ``alpha``, ``lift`` and ``drag`` are those of the strips of one wing,
+    shape (K, strips). Torques and powers are of both wings together. ``frequency`` [Hz], ``speed`` and ``climb``
+    [m/s] and ``weight`` [N] are numbers.
     """
 
     phase: Any

@@ -166,7 +166,8 @@ class Constraint:
     ----------
     quantity : a `Quantity`, or the name of one.
     limit : in the quantity's unit.
-    at_most : whether the limit is the largest value allowed; else the smallest. Of a series every value counts.
+    at_most : whether the limit is the largest value allowed; else the smallest. Of a series the largest value
+        counts, so that at most means at every moment, and at least means at some moment.
 
     Raises
     ------
@@ -190,7 +191,8 @@ class Constraint:
         return f"{self.quantity.name}{'<=' if self.at_most else '>='}{self.limit:g}"
 
 
-_POWER_COST = re.compile(r"power_cost\((-?[\d.]+)\)")
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_POWER_COST = re.compile(rf"power_cost\(({_NUMBER})\)")
 
 
 def named_quantity(name: str) -> Quantity:
@@ -222,7 +224,7 @@ def named_objective(name: str) -> Frequency | Quantity:
     return Frequency() if name == "frequency" else named_quantity(_SHORT.get(name, name))
 
 
-_EXPRESSION = re.compile(r"\s*([\w().]+)\s*(<=|>=)\s*([-+.\deE]+)\s*(deg)?\s*")
+_EXPRESSION = re.compile(rf"\s*([\w().+-]+)\s*(<=|>=)\s*({_NUMBER})\s*(deg)?\s*")
 
 
 def parse_constraint(text: str) -> Constraint:
@@ -230,7 +232,7 @@ def parse_constraint(text: str) -> Constraint:
 
     Raises
     ------
-    InvalidInputError : not of that form, an unknown quantity, a limit that is no number, degrees of no angle.
+    InvalidInputError : not of that form, an unknown quantity, degrees of no angle.
 
     >>> str(parse_constraint("peak_power <= 30"))
     'peak_power<=30'
@@ -244,19 +246,15 @@ def parse_constraint(text: str) -> Constraint:
     assert found is not None
     name, sign, number, degrees = found.groups()
     quantity = named_quantity(name)
-    try:
-        limit = float(number)
-    except ValueError:
-        faults.add("constraint", text, f"has no number but {number!r} for a limit")
-        limit = 0.0
     if degrees and quantity.unit != "rad":
         faults.add("constraint", text, f"has degrees for {name}, which is in {quantity.unit}", "leave out deg")
     faults.raise_if_any()
-    return Constraint(quantity, math.radians(limit) if degrees else limit, sign == "<=")
+    limit = math.radians(float(number)) if degrees else float(number)
+    return Constraint(quantity, limit, sign == "<=")
 
 
 class WingbeatLimit(NamedTuple):
-    """A wingbeat parameter that is held (``=``), or kept at most or at least at a value."""
+    """A wingbeat parameter that is held (``=``), or kept at most or at least at a value, SI and radians."""
 
     name: str
     sign: str
@@ -265,7 +263,7 @@ class WingbeatLimit(NamedTuple):
 
 _ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude")
 _PARAMETERS = (*_ANGLES, "frequency", "span_retraction", "twist_ratio")
-_LIMIT = re.compile(r"\s*(\w+)\s*(<=|>=|=)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(deg)?\s*")
+_LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({_NUMBER})\s*(deg)?\s*")
 
 
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:

@@ -42,24 +42,24 @@ def _change_of_rows(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tu
 
 
 @dataclass(frozen=True)
-class _Negated:
-    """A quantity with its sign turned, so that at least becomes at most."""
+class _Lacking:
+    """A quantity with its sign turned, so that at least becomes at most; of a series the largest value counts."""
 
     of: Callable[[Beat], Any]
 
     def __call__(self, beat: Beat) -> Any:
-        return -self.of(beat)
+        return -jnp.max(self.of(beat))
 
 
 class Readings:
     """The rows of several quantities, one after the other, each over its scale."""
 
     def __init__(self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int) -> None:
-        turned = [c.quantity.of if c.at_most else _Negated(c.quantity.of) for c in constraints]
-        self._functions = tuple([q.of for q in quantities] + turned)
+        kept = [c.quantity.of if c.at_most else _Lacking(c.quantity.of) for c in constraints]
+        self._functions = tuple([q.of for q in quantities] + kept)
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        self.counts = [PARTS if is_series(q, strips) else 1 for q in everything]
+        self.counts = [_row_count(function, strips) for function in self._functions]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
         limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
         self.constraint_counts = self.counts[len(quantities) :]
@@ -85,9 +85,8 @@ class Readings:
         return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
 
 
-def is_series(quantity: Quantity, strips: int) -> bool:
-    """Say whether a quantity is a series along the beat, not one number."""
-    return len(jax.eval_shape(quantity.of, _any_beat(strips)).shape) == 1
+def _row_count(function: Callable[[Beat], Any], strips: int) -> int:
+    return PARTS if jax.eval_shape(function, _any_beat(strips)).shape else 1
 
 
 def _any_beat(strips: int) -> Beat:

@@ -25,8 +25,8 @@ STEPS = 32
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
-    Where it ends, shape (6,), and the pitch state after each step, from the start on, shape (K, 4); of their
-    Jacobians the columns are last.
+    Where it ends, shape (6,), and body pitch or the whole pitch state after each step, from the start on, shape
+    (K, components); of their Jacobians the columns are last.
     """
 
     end: Any
@@ -127,7 +127,7 @@ def _through(by_state: Any, tangents: Any) -> Any:
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
 
-def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any) -> Flown:
+def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any, components: int) -> Flown:
     """Compose the tangents of all stages into those of the steps, and these into those of the period.
 
     Directions are the first axis, components the next, steps the last.
@@ -153,15 +153,23 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     place = place.at[4:].add(jnp.sum(place_map[4:], axis=-1))
     return Flown(
         jnp.concatenate([step * jnp.sum(mean_speed, axis=-1), flight.last]),
-        jnp.concatenate([states[:, 0].T, flight.last[None]]),
+        jnp.concatenate([states[:components, 0].T, flight.last[None, :components]]),
         jnp.concatenate([place, last], axis=1).T,
-        jnp.concatenate([path, last[None]]).transpose(0, 2, 1),
+        jnp.concatenate([path[:, :, :components], last[None, :, :components]]).transpose(0, 2, 1),
     )
 
 
-@stored(static=("free",))
+@stored(static=("free", "components"))
 def fly_part(
-    model: FlightModel, wingbeat: Wingbeat, values: Any, start: Any, first: Any, last: Any, *, free: tuple[str, ...]
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    values: Any,
+    start: Any,
+    first: Any,
+    last: Any,
+    *,
+    free: tuple[str, ...],
+    components: int,
 ) -> Flown:
     """Fly `STEPS` steps from one phase to another, free parameters now at `values`, and differentiate."""
 
@@ -173,15 +181,18 @@ def fly_part(
     table, tangents = settled((table, tangents))
     flight = _march(model, table, like, step, start)
     by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
-    return _chain(flight, by_state, by_free, step, step_tangent)
+    return _chain(flight, by_state, by_free, step, step_tangent, components)
 
 
-def flier(model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...]) -> Callable[..., Flown]:
+def flier(
+    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False
+) -> Callable[..., Flown]:
     """Return the flight of one period as a function of free parameters, pitch state at x = z = 0, and blocks.
 
-    It flies `blocks` times `STEPS` steps and differentiates them.
+    It flies `blocks` times `STEPS` steps and differentiates them. The path it returns is that of body pitch, or
+    the whole pitch state's: to hand over its derivatives where nobody reads them would cost a batch a tenth.
     """
-    part = fly_part.bind(model, wingbeat, free=free)
+    part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1)
 
     def fly(values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Flown:
         flown = Flown(*(np.asarray(a) for a in part(values, start, 0.0, 1.0 / blocks)))

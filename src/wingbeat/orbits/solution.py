@@ -60,13 +60,12 @@ class Solution:
             return self.value_of(minimise)
         return minimise.value(self.problem.unknowns().names, self.unknowns)
 
-    def value_of(self, quantity: Quantity, *, least: bool = False) -> float:
-        """Return a quantity of the certified beat, of a series its largest or least value."""
+    def value_of(self, quantity: Quantity) -> float:
+        """Return a quantity of the certified beat in its unit, of a series its largest value."""
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
         beat = flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
-        value = quantity.of(beat)
-        return float(np.min(value) if least else np.max(value))
+        return float(np.max(quantity.of(beat)))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:

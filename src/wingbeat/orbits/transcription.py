@@ -53,7 +53,7 @@ class Transcription:
         self.lower = np.append(self.unknowns.lower, [-_LEVELS] * self.has_level) / scale
         self.upper = np.append(self.unknowns.upper, [_LEVELS] * self.has_level) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
-        self.fly = flier(self.model, problem.species.wingbeat, problem.free)
+        self.fly = flier(self.model, problem.species.wingbeat, problem.free, whole_path=problem.reads_beat)
         self._points: dict[bytes, Point] = {}
         self._uncorrect()
 

@@ -52,7 +52,7 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "climb": float(problem.climb),
         "objective": problem.minimise.name,
         "objective_value": solution.objective,
-        "constraints": {str(c): solution.value_of(c.quantity, least=not c.at_most) for c in problem.subject_to},
+        "constraints": {str(c): solution.value_of(c.quantity) for c in problem.subject_to},
         "wingbeat": dict(vars(wingbeat)),
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import solve_orbit as solve_orbit
     from wingbeat.results.orbit import solve_orbits as solve_orbits
     from wingbeat.results.orbit import solve_series as solve_series
+    from wingbeat.results.sensitivities import sensitivities as sensitivities
+    from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
     from wingbeat.species import Species as Species
     from wingbeat.species import load_species as load_species
     from wingbeat.species import species_names as species_names
@@ -76,12 +78,14 @@ _HOME = {
     "generalised_torques": "five_coordinates",
     "load_orbit": "results.orbit",
     "load_species": "species",
+    "sensitivities": "results.sensitivities",
     "simulate": "results.flight",
     "simulate_torque_driven": "flights",
     "solve_orbit": "results.orbit",
     "solve_orbits": "results.orbit",
     "solve_series": "results.orbit",
     "species_names": "species",
+    "uncertainty_by_samples": "results.sensitivities",
 }
 _MODULES = ("aero", "experiment", "plots")
 

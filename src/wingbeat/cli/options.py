@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter, Token
 
 from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.files import writing
 from wingbeat.species import Species, load_species, parse_setting
@@ -69,6 +70,11 @@ def species_with(name: str, settings: list[str] | None) -> Species:
 def aero_with(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
     """Return the air loads that the options ask for."""
     return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point)
+
+
+def fit_of(aero: str) -> FittedModel | None:
+    """Return the fit, with its covariance, where ``--aero`` names the file of one."""
+    return read_model(aero) if aero.lower().endswith(".toml") else None
 
 
 def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:

@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
     AeroName,
     BlendWidth,
@@ -22,6 +23,7 @@ from wingbeat.cli.options import (
     Whole,
     aero_with,
     check_outputs,
+    fit_of,
     given_beside,
     species_with,
     unpacking,
@@ -31,9 +33,10 @@ from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.sensitivities import sensitivities as differentiate
 
 FIGURES = (".png", ".pdf", ".svg")
-_BESIDE_FROM = ("from_", "json", "output", "plot")
+_BESIDE_FROM = ("from_", "json", "output", "plot", "sensitivities", "tornado")
 
 
 def orbit(
@@ -75,6 +78,12 @@ def orbit(
         Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
     ] = None,
     plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
+    sensitivities: Annotated[
+        bool, Parameter(negative="", help="Say what the answer hangs on, what bounds cost, and how sure it is.")
+    ] = False,
+    tornado: Annotated[
+        Path | None, Parameter(help="Draw what every plausible range can change: .png, .pdf or .svg.")
+    ] = None,
 ) -> int:
     """Find the wingbeat of least frequency, or power, that flies at a speed, and certify it.
 
@@ -86,10 +95,13 @@ def orbit(
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
-    if plot is not None and plot.suffix.lower() not in FIGURES:
-        faults.add("--plot", str(plot), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
-    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
-        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    for option, figure in (("--plot", plot), ("--tornado", tornado)):
+        if figure is not None and figure.suffix.lower() not in FIGURES:
+            faults.add(option, str(figure), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
+        if figure and output and os.path.realpath(figure) == os.path.realpath(output):
+            faults.add(option, str(figure), "is the file of --output too", "give each its own")
+    if plot and tornado and os.path.realpath(plot) == os.path.realpath(tornado):
+        faults.add("--tornado", str(tornado), "is the file of --plot too", "give each its own")
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if from_ is None and species is None:
@@ -129,7 +141,7 @@ def orbit(
             minimise=minimise,
             subject_to=subject_to or (),
         )
-    check_outputs(output, plot)
+    check_outputs(output, plot, tornado)
     found = _solve(problem, starts, seed)
     if output:
         found.save(output)
@@ -138,11 +150,24 @@ def orbit(
 
         save_figure(wingbeat_page(found.dataset), plot)
     record = found.record()
+    certified = record["status"] == "converged"
+    influence, bars = None, []
+    if certified and (sensitivities or tornado):
+        influence = differentiate(found)
+        bars = [influence.error_bar(name, fit_of(aero)) for name in influence.values]
+    if influence and tornado:
+        from wingbeat.plots import save_figure, tornado_page
+
+        save_figure(tornado_page(influence), tornado)
+    if influence and sensitivities:
+        record |= {"sensitivities": influence.table(), "error_bars": [bar._asdict() for bar in bars]}
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))
     else:
         print_orbit(record, Console())
-    return EXIT_GOOD if record["status"] == "converged" else EXIT_NOT_CERTIFIED
+        if influence and sensitivities:
+            print_influence(influence, bars, Console())
+    return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
 
 
 def _solve(problem: OrbitProblem, starts: int, seed: int) -> Orbit:

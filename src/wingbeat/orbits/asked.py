@@ -47,11 +47,12 @@ class Asked:
         )
         return self._readings.of(beat)
 
+    def active_rows(self, active: np.ndarray) -> list[int]:
+        """Return which constraints have an active row, given which of the margins after body pitch are active."""
+        ends = np.cumsum(self._readings.constraint_counts)
+        starts = ends - self._readings.constraint_counts
+        return [i for i, (begin, end) in enumerate(zip(starts, ends, strict=True)) if active[begin:end].any()]
+
     def active_constraints(self, margins: np.ndarray) -> list[str]:
         """Return the constraints that are at their limits, given the margins of their rows."""
-        active, end = [], 0
-        for constraint, count in zip(self._problem.subject_to, self._readings.constraint_counts, strict=True):
-            begin, end = end, end + count
-            if margins[begin:end].min() <= AT_BOUND:
-                active.append(str(constraint))
-        return active
+        return [str(self._problem.subject_to[i]) for i in self.active_rows(margins <= AT_BOUND)]

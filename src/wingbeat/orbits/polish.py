@@ -44,7 +44,7 @@ class Polish:
         if like is not None and like.fits and self._has_the_active_of(like):
             self.along, self.curvature = like.along, like.curvature
         else:
-            conditions = _Conditions(jacobian)
+            conditions = Conditions(jacobian)
             self.along = conditions.null
             self.curvature = self._curvature(scaled, jacobian, conditions)
             self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
@@ -53,13 +53,10 @@ class Polish:
         return np.array_equal(self.free, other.free) and np.array_equal(self.on_path, other.on_path)
 
     def _rows(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the values that must vanish and their derivative by the unknowns that are not at a bound."""
-        problem = self.problem
-        values = np.concatenate([problem.closure(scaled), problem.margins(scaled)[self.on_path]])
-        by_path = problem.margins_jacobian(scaled)[self.on_path]
-        return values, np.concatenate([problem.closure_jacobian(scaled), by_path])[:, self.free]
+        values, jacobian = self.problem.conditions(scaled, self.on_path)
+        return values, jacobian[:, self.free]
 
-    def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray, conditions: _Conditions) -> np.ndarray:
+    def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray, conditions: Conditions) -> np.ndarray:
         """Return the Lagrangian's second derivative along the null space, by differences of its gradient."""
         gradient = self.problem.objective_gradient(scaled)[self.free]
         multipliers = conditions.multipliers(gradient)
@@ -84,7 +81,7 @@ class Polish:
             if not np.isfinite(values).all() or np.abs(values).max() > _LOST:
                 return None
             gradient = problem.objective_gradient(scaled)[self.free]
-            conditions = _Conditions(jacobian)
+            conditions = Conditions(jacobian)
             if before is not None:
                 along, sliding, gradient_before, jacobian_before = before
                 turned = (jacobian - jacobian_before).T @ conditions.multipliers(gradient)
@@ -113,7 +110,7 @@ class Polish:
             self.curvature = self.curvature - np.outer(told, told) / (sliding @ told) + by_step
 
 
-class _Conditions:
+class Conditions:
     """Linear conditions ``jacobian @ step = values``, taken apart once: what they leave free, and what they fix."""
 
     def __init__(self, jacobian: np.ndarray) -> None:

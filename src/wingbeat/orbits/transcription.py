@@ -40,12 +40,19 @@ class Transcription:
     A series' largest value is made least by one more unknown: a level, the last, that none of its peaks may pass.
     `tilt_at` gives the closure the derivative of a finer flight, `shift_at` the value that the certifier finds;
     likewise what is read off the beat.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    blocks : how many times `STEPS` steps a flight has.
+    unknowns : replace the problem's own bounds and scales, for a point just outside of them.
     """
 
-    def __init__(self, problem: OrbitProblem) -> None:
+    def __init__(self, problem: OrbitProblem, blocks: int = 1, unknowns: Unknowns | None = None) -> None:
         self.problem = problem
         self.model = problem.model
-        self.unknowns: Unknowns = problem.unknowns()
+        self.unknowns: Unknowns = unknowns or problem.unknowns()
+        self._blocks = blocks
         self.asked = Asked(problem) if problem.reads_beat else None
         self.has_level = self.asked is not None and self.asked.has_peaks_to_lower
         scale = np.append(self.unknowns.scale, [1.0] * self.has_level)
@@ -99,7 +106,7 @@ class Transcription:
             unknowns = self.physical(scaled)
             if len(self._points) == _KEPT:
                 del self._points[next(iter(self._points))]
-            self._points[key] = self._scaled(self.fly(unknowns[4:], unknowns[:4]), unknowns)
+            self._points[key] = self._scaled(self.fly(unknowns[4:], unknowns[:4], self._blocks), unknowns)
         return self._points[key]
 
     def _scaled(self, flown: Flown, unknowns: np.ndarray) -> Point:
@@ -162,6 +169,12 @@ class Transcription:
             level[:, -1] = 1.0
             level -= rows[: self._lowered]
         return np.concatenate([pitch, -rows[self._lowered :], level])
+
+    def conditions(self, scaled: np.ndarray, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return what must vanish, closure and those margins that are active, and the derivative."""
+        values = np.concatenate([self.closure(scaled), self.margins(scaled)[active]])
+        by_margins = self.margins_jacobian(scaled)[active]
+        return values, np.concatenate([self.closure_jacobian(scaled), by_margins])
 
     def tilt_at(self, scaled: np.ndarray, blocks: int) -> None:
         """Take closure, rows, their derivatives and the path bound's value from a flight of more blocks here."""

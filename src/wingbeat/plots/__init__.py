@@ -5,5 +5,6 @@ from wingbeat.plots.page import wingbeat_page as wingbeat_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
+from wingbeat.plots.tornado import tornado_page as tornado_page
 
-__all__ = ["FIGURE_SUFFIXES", "check_figure_name", "fit_page", "save_figure", "wingbeat_page"]
+__all__ = ["FIGURE_SUFFIXES", "check_figure_name", "fit_page", "save_figure", "tornado_page", "wingbeat_page"]

@@ -21,6 +21,7 @@ from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Constraint, Frequency, Quantity, named_objective, named_quantity
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
+from wingbeat.species_schema import Number
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
 # Before the name of a function of the user's.
@@ -50,6 +51,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
             "guessed_bounds": sorted(species.guessed_bounds),
             "body_pitch_bounds": species.body_pitch_bounds,
             "warnings": species.warnings,
+            "numbers": species.numbers,
         },
         "vehicle": vehicle_record(problem),
         "stock_wingbeat": dict(vars(species.wingbeat)),
@@ -91,7 +93,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         guessed_bounds=frozenset(known["guessed_bounds"]),
         body_pitch_bounds=(known["body_pitch_bounds"][0], known["body_pitch_bounds"][1]),
         reasons={},
-        numbers={},
+        numbers={path: _number(*number) for path, number in known["numbers"].items()},
         alternatives={},
         warnings=tuple(known["warnings"]),
     )
@@ -109,6 +111,11 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         ],
         air=air,
     )
+
+
+def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:
+    whole = tuple(value) if isinstance(value, list) else value
+    return Number(whole, unit, source, None if plausible is None else (plausible[0], plausible[1]))
 
 
 def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:

@@ -1,0 +1,97 @@
+"""``wingbeat uncertainty``: error bars of an orbit, to first order and by solving it for drawn parameters."""
+
+from __future__ import annotations
+
+import json as json_format
+import os
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+from rich.console import Console
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.influence import in_words
+from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whole, aero_with, fit_of, species_with
+from wingbeat.cli.progress import progress_bar
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solution import Status
+from wingbeat.results.orbit import solve_orbit
+from wingbeat.results.sensitivities import Comparison, sensitivities, uncertainty_by_samples
+
+
+def uncertainty(
+    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    *,
+    speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
+    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    aero: AeroName = "su-fan",
+    extension: Extension = "mirrored",
+    blend_width_deg: BlendWidth = 1.0,
+    minimise: Annotated[str, Parameter(help="What to make least, as in `wingbeat orbit`.")] = "frequency",
+    samples: Annotated[Whole, Parameter(help="Number of orbits solved for drawn parameters.")] = 2000,
+    share: Annotated[float, Parameter(help="Share of every plausible range to draw from, about the value.")] = 1.0,
+    seed: Annotated[Whole, Parameter(help="Seed of the draws.")] = 0,
+    set_: Settings = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
+) -> int:
+    """Say how sure frequency and power of an orbit are, and whether the first order can be trusted.
+
+    Every number of the species file is drawn from its plausible range, all of it as likely, coefficients from the
+    covariance of their fit if `--aero` is one. Draws stay in the orbit's family.
+
+    Exit code 0: certified. 3: there is no orbit to begin with.
+
+    Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
+    """
+    problem = OrbitProblem(
+        species_with(species, set_),
+        speed=speed,
+        climb=climb,
+        aero=aero_with(aero, extension, blend_width_deg, 10, "quarter-chord"),
+        minimise=minimise,
+    )
+    orbit = solve_orbit(problem, seed=seed)
+    if orbit.status is not Status.CONVERGED:
+        Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
+        return EXIT_NOT_CERTIFIED
+    with progress_bar(f"{samples} draws") as progress:
+        found = uncertainty_by_samples(
+            sensitivities(orbit),
+            samples=samples,
+            seed=seed,
+            fit=fit_of(aero),
+            share=share,
+            processes=_processes(samples),
+            progress=progress,
+        )
+    if json:
+        plain = {name: _plain(one) for name, one in found.items()}
+        print(json_format.dumps(plain, indent=2, allow_nan=False))
+    else:
+        for one in found.values():
+            _print(one, Console())
+    return EXIT_GOOD
+
+
+def _processes(samples: int) -> int:
+    """Return how many processes are worth their start, each of which takes as long as some hundred draws."""
+    return max(1, min(os.cpu_count() or 1, samples // 200))
+
+
+def _plain(one: Comparison) -> dict[str, Any]:
+    return one._asdict() | {"first_order": one.first_order._asdict()}
+
+
+def _print(one: Comparison, console: Console) -> None:
+    bar = one.first_order
+    unit = "" if bar.unit == "1" else f" {bar.unit}"
+    name = bar.quantity.replace("_", " ")
+    rows = (
+        (f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),
+        ("  mean of the spreads", f"{bar.value + bar.shift:.4g}{unit}"),
+        (f"{name}, {one.certified} of {one.drawn} draws fly", f"{one.mean:.4g} +- {one.deviation:.2g}{unit}"),
+        ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
+        ("  variance that the first order foretells", f"{max(one.explained, 0.0):.1%}"),
+    )
+    for label, value in rows:
+        console.print(f"{label:48s}{value}", markup=False, highlight=False, soft_wrap=True)

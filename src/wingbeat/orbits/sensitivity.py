@@ -1,0 +1,208 @@
+"""How an optimum moves when a number it hangs on is changed: the implicit function theorem at its conditions.
+
+At an optimum closure and active limits vanish, ``c(x, p) = 0``, and so does the Lagrangian's gradient along what
+they leave free. The objective changes by ``dJ/dp - multipliers . dc/dp``: how the optimum moves does not enter (the
+envelope theorem). Derivatives by the unknowns are the flight's own, exact; those by p are central differences of
+these exact numbers, so that whatever can be set can be asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.kinematics import unpack
+from wingbeat.orbits.beat import flown_beat
+from wingbeat.orbits.certify import certify
+from wingbeat.orbits.parameters import SIDES, Parameter, bound_of, limit_of
+from wingbeat.orbits.polish import Conditions, Polish
+from wingbeat.orbits.problem import PITCH_STATE, OrbitProblem, Unknowns
+from wingbeat.orbits.quantities import Quantity
+from wingbeat.orbits.transcription import Transcription
+
+# Blocks of steps of a flight that is right to some 1e-5.
+_FINE = 6
+# Step of differences, as a share of a parameter's size; it also bounds how far the unknowns go, in their scale.
+_STEP = 1e-4
+# The optimum is followed to this, so that what should vanish does.
+_STILL = 1e-9
+# Room outside of the bounds, in the unknowns' scale, for steps across them.
+_ROOM = 1.0
+# Weights of values at multiples of a step in a derivative: to both sides, or where a number can go one way only.
+_CENTRAL = ((-1, -0.5), (1, 0.5))
+_UPWARDS = ((0, -1.5), (1, 2.0), (2, -0.5))
+_DOWNWARDS = tuple((-at, -weight) for at, weight in _UPWARDS)
+
+
+class Sensitivity(NamedTuple):
+    """Derivatives by one parameter, per its unit: of the objective, of other quantities, and of the unknowns."""
+
+    parameter: Parameter
+    objective: float
+    quantities: dict[str, float]
+    wingbeat: dict[str, float]
+    initial_state: dict[str, float]
+
+
+class Optimum:
+    """An optimum taken apart: what is free, what binds, at which price.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    unknowns : the pitch state at phase 0 and the free parameters of its certified orbit.
+
+    Raises
+    ------
+    InvalidInputError : more binds there than there is to choose, or the objective has no curvature to hold it.
+    """
+
+    def __init__(self, problem: OrbitProblem, unknowns: np.ndarray) -> None:
+        self.problem = problem
+        fine = Transcription(problem, _FINE)
+        guess = fine.scaled(unknowns)
+        # What binds is what the certifier finds at its limit; its slopes are those of one kind of flight.
+        corrected = fine.anew()
+        corrected.shift_at(guess, certify(problem.model, problem.wingbeat(unknowns), unknowns[:4]))
+        polish = Polish(corrected, guess)
+        polish.problem = fine
+        found = polish.follow(guess, _STILL)
+        if found is None:
+            rule = "is not held by its conditions: its derivatives do not exist, or hang on the way one goes"
+            fix = "ask at a neighbouring speed, or free more of the wingbeat"
+            raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
+        self._at, self._free, self._on_path = found, polish.free, polish.on_path
+        self._at_lower = found - fine.lower < fine.upper - found
+        own = fine.unknowns
+        room = _ROOM * own.scale
+        self._unknowns = Unknowns(own.names, own.lower - room, own.upper + room, own.scale)
+        self._here = self._programme(problem)
+        self._conditions = Conditions(self._rows(self._here, found)[1])
+        gradient = self._here.objective_gradient(found)[self._free]
+        self._multipliers = self._conditions.multipliers(gradient)
+        null = self._conditions.null
+        bent = [self._along(self._lagrangian_gradient, self._of_free(direction)) for direction in null.T]
+        self._curvature = np.reshape(bent, (-1, self._free.sum())) @ null
+
+    @property
+    def unknowns(self) -> np.ndarray:
+        """The optimum's pitch state at phase 0 and free parameters."""
+        return self._at[: self.scale.size] * self.scale
+
+    @property
+    def scale(self) -> np.ndarray:
+        """Differences of the unknowns that matter."""
+        return self._unknowns.scale
+
+    @property
+    def objective(self) -> float:
+        """What was made least."""
+        return self._here.objective(self._at) * self.problem.minimise.scale
+
+    def active(self) -> list[Parameter]:
+        """Return the bounds and limits that hold the optimum, whose derivatives are their prices."""
+        problem, names = self.problem, self._unknowns.names
+        found = [
+            bound_of(problem, name, SIDES[int(not at_lower)])
+            for name, free, at_lower in zip(names, self._free, self._at_lower, strict=False)
+            if not free and name in problem.free
+        ]
+        found += [
+            bound_of(problem, PITCH_STATE[0], side) for side, on in zip(SIDES, self._on_path, strict=False) if on
+        ]
+        if self._here.asked is not None:
+            active = self._here.asked.active_rows(self._on_path[2:])
+            found += [limit_of(problem, i) for i in active]
+        return found
+
+    def values(self, quantities: Sequence[Quantity]) -> np.ndarray:
+        """Return quantities at the optimum; of a series the largest value."""
+        return self._read(self._here, self._at, quantities)
+
+    def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
+        """Return the derivatives by one parameter.
+
+        Parameters
+        ----------
+        parameter : one of `parameters_of` the problem, or of those that are `active`.
+        quantities : what else to differentiate; of a series the largest value.
+        """
+        size, scale = parameter.size, self._unknowns.scale
+        moved = np.zeros(self._at.size)
+        moves: Parameter | None = parameter
+        if parameter.place[0] == "bounds" and parameter.place[1] in self.problem.free:
+            index = self._unknowns.names.index(str(parameter.place[1]))
+            moved[index], moves = size / scale[index], None
+        missed = self._along(lambda programme, x: self._rows(programme, x)[0], moved, moves)
+        gained = self._along(lambda programme, x: np.array([programme.objective(x)]), moved, moves)[0]
+        objective = (gained - self._multipliers @ missed) * self.problem.minimise.scale
+        moved = moved + self._of_free(self._conditions.shortest(-missed))
+        turned = self._along(self._lagrangian_gradient, moved, moves)
+        null = self._conditions.null
+        moved = moved + self._of_free(null @ np.linalg.solve(self._curvature, -null.T @ turned))
+        changes = moved[: scale.size] * scale / size
+        read = self._along(lambda programme, x: self._read(programme, x, quantities), moved, moves) / size
+        return Sensitivity(
+            parameter,
+            float(objective / size),
+            dict(zip((q.name for q in quantities), read.tolist(), strict=True)),
+            dict(zip(self.problem.free, changes[4:].tolist(), strict=True)),
+            dict(zip(PITCH_STATE, changes[:4].tolist(), strict=True)),
+        )
+
+    def _programme(self, problem: OrbitProblem) -> Transcription:
+        return Transcription(problem, _FINE, self._unknowns)
+
+    def _rows(self, programme: Transcription, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values, jacobian = programme.conditions(scaled, self._on_path)
+        return values, jacobian[:, self._free]
+
+    def _of_free(self, free: np.ndarray) -> np.ndarray:
+        """Return a direction of all unknowns from one of the free ones."""
+        whole = np.zeros(self._at.size)
+        whole[self._free] = free
+        return whole
+
+    def _lagrangian_gradient(self, programme: Transcription, scaled: np.ndarray) -> np.ndarray:
+        gradient = programme.objective_gradient(scaled)[self._free]
+        return gradient - self._rows(programme, scaled)[1].T @ self._multipliers
+
+    def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
+        """Return quantities of the beat, flown by the certifier."""
+        if not quantities:
+            return np.zeros(0)
+        problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
+        # Not by the constructor: just outside of a bound there may be no such wingbeat, but there are its slopes.
+        wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
+        flown = certify(problem.model, wingbeat, unknowns[:4])
+        velocity = problem.speed, problem.climb
+        beat = flown_beat(problem.model, wingbeat, flown.phase, flown.states[:, 2:], velocity)
+        return np.array([float(np.max(quantity.of(beat))) for quantity in quantities])
+
+    def _along(
+        self,
+        function: Callable[[Transcription, np.ndarray], np.ndarray],
+        direction: np.ndarray,
+        parameter: Parameter | None = None,
+    ) -> np.ndarray:
+        """Return the derivative of a function while the unknowns go a direction and a parameter its size."""
+        step = _STEP / max(1.0, float(np.abs(direction).max()))
+        nodes = self._nodes(parameter, step)
+        values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]
+        return np.sum(values, axis=0) / step
+
+    def _nodes(self, parameter: Parameter | None, step: float) -> list[tuple[int, float, Transcription]]:
+        """Return multiples of a step, their weights in a derivative, and the problem with the parameter there."""
+        if parameter is None:
+            return [(at, weight, self._here) for at, weight in _CENTRAL]
+        for weights in (_CENTRAL, _UPWARDS, _DOWNWARDS):
+            try:
+                values = [parameter.value + at * step * parameter.size for at, _ in weights]
+                problems = [parameter.changed(self.problem, value) for value in values]
+            except InvalidInputError:
+                continue
+            return [(at, weight, self._programme(p)) for (at, weight), p in zip(weights, problems, strict=True)]
+        raise InvalidInputError([Fault(parameter.path, parameter.value, "can be moved neither way")])

@@ -1,0 +1,251 @@
+"""What an orbit hangs on most, what its bounds cost, and how sure its numbers are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.aero.model_file import FittedModel
+from wingbeat.errors import Fault, FaultList, InvalidInputError
+from wingbeat.orbits.parameters import Parameter, parameters_of
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import Quantity, named_quantity
+from wingbeat.orbits.sensitivity import Optimum, Sensitivity
+from wingbeat.orbits.solution import Status
+from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.uncertainty import ErrorBar, Samples, Spread, first_order, sample_orbits, uniform_spread
+from wingbeat.results.orbit import Orbit
+
+QUANTITIES = ("frequency", "mean_positive_power")
+
+
+class Sensitivities:
+    """Derivatives of an optimum by every number it hangs on; made by `sensitivities`.
+
+    `slopes` holds those by parameters, `prices` those by the bounds and limits that bind; `values` the quantities
+    at the optimum.
+    """
+
+    def __init__(
+        self,
+        problem: OrbitProblem,
+        unknowns: np.ndarray,
+        quantities: Sequence[Quantity],
+        values: Sequence[float],
+        slopes: Sequence[Sensitivity],
+        prices: Sequence[Sensitivity],
+    ) -> None:
+        self.problem = problem
+        self.unknowns = unknowns
+        self.values = dict(zip((q.name for q in quantities), values, strict=True))
+        self.units = {q.name: q.unit for q in quantities}
+        self.slopes = list(slopes)
+        self.prices = list(prices)
+
+    def __repr__(self) -> str:
+        what, count = self.problem.species.name, len(self.slopes)
+        return (
+            f"<Sensitivities {what} at {self.problem.speed:g} m/s: {count} parameters, {len(self.prices)} bounds>"
+        )
+
+    def ranked(self, quantity: str = QUANTITIES[0]) -> list[Sensitivity]:
+        """Return the sensitivities by parameters, those that can change a quantity most first.
+
+        What counts is the change over the plausible range, or where there is none, that of one percent.
+        """
+        self._check(quantity)
+        return sorted(self.slopes, key=lambda s: -max(abs(end) for end in self.swing(s, quantity)))
+
+    def swing(self, slope: Sensitivity, quantity: str) -> tuple[float, float]:
+        """Return the change of a quantity to the low and the high end of a parameter's plausible range.
+
+        Where there is no range, to one percent less and more.
+        """
+        parameter = slope.parameter
+        ends = parameter.plausible or (
+            parameter.value - 0.01 * parameter.size,
+            parameter.value + 0.01 * parameter.size,
+        )
+        low, high = (slope.quantities[quantity] * (end - parameter.value) for end in ends)
+        return low, high
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
+        return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
+
+    def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[Spread]:
+        """Return what is not known: every plausible range, all of it as likely, and a fit's covariance.
+
+        Parameters
+        ----------
+        fit : the fit that the coefficients are of, from `read_model`; without it they count as exact.
+        share : draws every range in about its value, and the covariance likewise.
+
+        Raises
+        ------
+        InvalidInputError : a fit of other coefficients, a share that is not in (0, 1].
+        """
+        faults = FaultList()
+        faults.number("share", share, above=0, at_most=1)
+        faults.raise_if_any()
+        parameters = [slope.parameter for slope in self.slopes]
+        found = [uniform_spread(p, share) for p in parameters if p.plausible is not None]
+        return found if fit is None else found + _of_fit(self.problem, parameters, fit, share)
+
+    def error_bar(self, quantity: str, fit: FittedModel | None = None, share: float = 1.0) -> ErrorBar:
+        """Return a quantity with its standard deviation to first order, and what it is due to.
+
+        Parameters
+        ----------
+        quantity : name of one that was differentiated.
+        fit, share : as in `spreads`.
+
+        Raises
+        ------
+        InvalidInputError : a quantity that was not differentiated; what `spreads` refuses.
+        """
+        self._check(quantity)
+        spreads = self.spreads(fit, share)
+        return first_order(self.slopes, spreads, quantity, self.units[quantity], self.values[quantity])
+
+    def _check(self, quantity: str) -> None:
+        faults = FaultList()
+        faults.choice("quantity", quantity, tuple(self.values))
+        faults.raise_if_any()
+
+
+def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES) -> Sensitivities:
+    """Differentiate an orbit by every number it hangs on, and price the bounds and limits that bind.
+
+    The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
+    other quantities follow from the conditions of the optimum (implicit function theorem; Fiacco 1983, Introduction
+    to Sensitivity and Stability Analysis in Nonlinear Programming).
+
+    Parameters
+    ----------
+    orbit : certified, of `solve_orbit` or `load_orbit`.
+    quantities : what to differentiate besides objective and wingbeat, quantities or their names.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified, an unknown quantity, an optimum without derivatives.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> found = wb.sensitivities(wb.solve_orbit(wb.OrbitProblem(pigeon, speed=10.0), starts=1))
+    >>> [price.parameter.path for price in found.prices]
+    ['bounds.flap_amplitude.upper']
+    """
+    if orbit.status is not Status.CONVERGED:
+        rule, fix = "is not certified, so it has no sensitivities", orbit.message
+        raise InvalidInputError([Fault("orbit", orbit.status.value, rule, fix)])
+    known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
+    problem = orbit.problem
+    free = [getattr(orbit.wingbeat, name) for name in problem.free]
+    unknowns = np.array([*orbit.initial_state[2:], *free])
+    optimum = Optimum(problem, unknowns)
+    slopes = [optimum.by(parameter, known) for parameter in parameters_of(problem)]
+    prices = [optimum.by(parameter, known) for parameter in optimum.active()]
+    return Sensitivities(problem, unknowns, known, optimum.values(known).tolist(), slopes, prices)
+
+
+def _plain(slope: Sensitivity) -> dict[str, Any]:
+    parameter = slope.parameter
+    return {
+        "parameter": parameter.path,
+        "unit": parameter.unit,
+        "value": parameter.value,
+        "plausible": None if parameter.plausible is None else list(parameter.plausible),
+        "objective": slope.objective,
+        "quantities": slope.quantities,
+        "wingbeat": slope.wingbeat,
+        "initial_state": slope.initial_state,
+    }
+
+
+def _of_fit(problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float) -> list[Spread]:
+    """Return the spreads of a fit's terms, one for each curve, for their errors go together."""
+    by_path = {p.path: p for p in parameters}
+    coefficients, found = problem.aero.coefficients, []
+    for name in ("lift", "drag", "centre"):
+        curve = getattr(fit, name)
+        paths = [] if curve is None else [f"aero.{name}.{term}" for term in curve.free]
+        if curve is None or not paths or not any(path in by_path for path in paths):
+            continue
+        if getattr(coefficients, f"{name}_terms", None) != curve.terms:
+            rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that was flown"
+            raise InvalidInputError([Fault("fit", fit.name, rule, fix)])
+        members = tuple(by_path[path] for path in paths)
+        found.append(Spread(f"aero.{name}", members, share**2 * np.asarray(curve.covariance)))
+    return found
+
+
+class Comparison(NamedTuple):
+    """A quantity's spread to first order and by samples; `standard_error` is that of the samples' deviation.
+
+    `explained` is the share of the samples' variance that the first order foretells draw by draw.
+    """
+
+    first_order: ErrorBar
+    mean: float
+    deviation: float
+    standard_error: float
+    explained: float
+    certified: int
+    drawn: int
+
+
+def uncertainty_by_samples(
+    found: Sensitivities,
+    quantities: Sequence[str] = QUANTITIES,
+    samples: int = 2000,
+    seed: int = 0,
+    fit: FittedModel | None = None,
+    share: float = 1.0,
+    processes: int = 1,
+    progress: Progress | None = None,
+) -> dict[str, Comparison]:
+    """Solve the orbit for parameters drawn from their spreads, and set the outcome beside the first order.
+
+    Parameters
+    ----------
+    found : the sensitivities of the orbit.
+    quantities : names of those that were differentiated.
+    samples : how many draws.
+    seed : of the draws.
+    fit, share : as in `Sensitivities.spreads`.
+    processes, progress : as in `solve_orbits`.
+
+    Raises
+    ------
+    InvalidInputError : samples not a whole number from 10 to 100000; what `Sensitivities.error_bar` refuses.
+    """
+    faults = FaultList()
+    if isinstance(samples, bool) or not isinstance(samples, int) or not 10 <= samples <= 100_000:
+        faults.add("samples", samples, "must be a whole number from 10 to 100000")
+    faults.raise_if_any()
+    bars = [found.error_bar(name, fit, share) for name in quantities]
+    spreads = found.spreads(fit, share)
+    read = [named_quantity(name) for name in quantities]
+    drawn = sample_orbits(
+        found.problem, found.unknowns, found.slopes, spreads, read, samples, seed, processes, progress
+    )
+    slopes = {s.parameter.path: s for s in found.slopes}
+    return {bar.quantity: _compared(bar, drawn, i, slopes) for i, bar in enumerate(bars)}
+
+
+def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:
+    values = drawn.quantities[drawn.certified, column]
+    foretold = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
+    centred = values - values.mean()
+    deviation = float(values.std(ddof=1))
+    # The error of a deviation from n draws, by their fourth moment.
+    kurtosis = float(np.mean(centred**4)) / deviation**4
+    error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
+    left = values - bar.value - foretold
+    explained = 1.0 - float(np.var(left) / np.var(values))
+    return Comparison(
+        bar, float(values.mean()), deviation, float(error), explained, len(values), len(drawn.certified)
+    )

@@ -43,7 +43,10 @@ if TYPE_CHECKING:
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
     from wingbeat.species import Species as Species
+    from wingbeat.species import bat as bat
+    from wingbeat.species import bird as bird
     from wingbeat.species import load_species as load_species
+    from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
     from wingbeat.vehicle import Air as Air
     from wingbeat.vehicle import Body as Body
@@ -72,6 +75,8 @@ _HOME = {
     "Wingbeat": "kinematics",
     "WingbeatError": "errors",
     "air_forces": "five_coordinates",
+    "bat": "species",
+    "bird": "species",
     "equations_of_motion": "five_coordinates",
     "flight_loads": "loads",
     "flight_model": "model",
@@ -79,6 +84,7 @@ _HOME = {
     "load_orbit": "results.orbit",
     "load_species": "species",
     "sensitivities": "results.sensitivities",
+    "robot": "species",
     "simulate": "results.flight",
     "simulate_torque_driven": "flights",
     "solve_orbit": "results.orbit",

@@ -1,5 +1,6 @@
 """Species: what flies and how it beats its wings by default, with the source of every number."""
 
+from wingbeat.species.animals import bat, bird, robot
 from wingbeat.species.loading import load_species
 from wingbeat.species.record import Species
 from wingbeat.species.settings import parse_setting
@@ -10,9 +11,12 @@ __all__ = [
     "Bound",
     "Number",
     "Species",
+    "bat",
+    "bird",
     "json_schema",
     "load_species",
     "parse_setting",
+    "robot",
     "species_names",
     "template",
 ]

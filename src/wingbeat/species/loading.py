@@ -15,13 +15,14 @@ from wingbeat.species_schema import (
     KEYS,
     Bound,
     Number,
+    SpeciesText,
     packaged_text,
     read_species_text,
     species_names,
     suggest,
 )
 
-__all__ = ["load_species"]
+__all__ = ["load_species", "species_of"]
 
 # Nose straight up or down: where a file sets no limit, no more than this can be flight.
 _BODY_PITCH = Bound((-math.pi / 2, math.pi / 2), "no limit given: nose straight down to straight up", True)
@@ -58,7 +59,16 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
 
 def _build(text: str, label: str, name: str) -> Species:
     faults = FaultList()
-    content = read_species_text(text, label, name, faults)
+    return species_of(read_species_text(text, label, name, faults), faults)
+
+
+def species_of(content: SpeciesText, faults: FaultList) -> Species:
+    """Return the species that a text describes.
+
+    Raises
+    ------
+    InvalidInputError : the faults noted before, and everything else that is wrong with it.
+    """
     numbers: dict[str, Number] = dict(content.numbers)
     if WHOLE in numbers:
         derive_body(numbers, content.numbers, faults)

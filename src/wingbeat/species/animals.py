@@ -1,0 +1,190 @@
+"""A bird, a bat or a robot in two lines: from mass, wing span and wing area, the rest from published laws."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from wingbeat.errors import FaultList
+from wingbeat.species.deriving import BAT, BIRD, ROBOT, Kind, derive
+from wingbeat.species.loading import species_of
+from wingbeat.species.record import Species
+from wingbeat.species.settings import plain
+from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, suggest, to_si
+
+__all__ = ["bat", "bird", "robot"]
+
+# What may be given beside mass, span and area: every number of a species file by its own name.
+_MEASURED = {
+    "wing_mass" if path == "vehicle.wing.mass" else path.rpartition(".")[2]: (path, key)
+    for key in KEYS
+    if key.path not in ("vehicle.mass", "vehicle.body.mass")
+    for path in key.spellings
+}
+_NEEDED_BY_LAWS = ("wing_mass", "semi_span", "frequency", "density", "gravity")
+# Shorter than its chord no span is; a hundred chords are a slip of units.
+_MOST_CHORDS = 100.0
+
+
+def bird(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    name: str = "bird",
+    common_name: str = "",
+    scientific_name: str = "",
+    **measured: Any,
+) -> Species:
+    """Return a bird from its mass, wing span and wing area.
+
+    The rest follows from published scaling laws. Each such number's source says ``derived``, the law and where it
+    was read; its plausible range is the spread of animals around the law.
+
+    Parameters
+    ----------
+    mass : of the whole bird [kg].
+    wing_span : tip to tip [m].
+    wing_area : both wings and the body between them [m2].
+    name, common_name, scientific_name : what it is called.
+    measured : any number of a species file by its own name, in place of what the laws give: ``wing_mass``,
+        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density`` and so on.
+
+    Raises
+    ------
+    InvalidInputError : not positive, not finite, an area larger than the square of the span, an unknown name; all
+        faults at once.
+
+    >>> import wingbeat as wb
+    >>> crow = wb.bird(mass=0.3, wing_span=0.62, wing_area=0.06)
+    >>> crow.numbers["vehicle.wing.mass"].source[:34]
+    'derived: one wing 0.0706 m^1.098 ('
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(BIRD, size, (name, common_name, scientific_name), measured)
+
+
+def bat(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    name: str = "bat",
+    common_name: str = "",
+    scientific_name: str = "",
+    **measured: Any,
+) -> Species:
+    """Return a bat from its mass [kg], wing span [m] and wing area [m2], as `bird` does, with twist and fold.
+
+    No law of bats' wing mass was found: 7 % of the whole for each is a guess, and its source says so.
+
+    Raises
+    ------
+    InvalidInputError : as in `bird`.
+
+    >>> import wingbeat as wb
+    >>> wb.bat(mass=0.028, wing_span=0.362, wing_area=0.0163).wingbeat.twist_ratio
+    1.6
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(BAT, size, (name, common_name, scientific_name), measured)
+
+
+def robot(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    frequency_range: tuple[float, float] | None = None,
+    name: str = "robot",
+    common_name: str = "",
+    scientific_name: str = "",
+    **measured: Any,
+) -> Species:
+    """Return a flapping robot from its mass [kg], wing span [m] and wing area [m2], as `bird`, with rigid wings.
+
+    No law of robots was found: masses and inertias are those of one robot by isometry, the stock frequency is that
+    of a bird of this size. Give what you know of yours.
+
+    Parameters
+    ----------
+    mass, wing_span, wing_area, name, common_name, scientific_name, measured : as in `bird`.
+    frequency_range : lowest and highest wingbeat frequency that its motor gives [Hz]; if not given a wide guess,
+        and an orbit that leans on it says so.
+
+    Raises
+    ------
+    InvalidInputError : as in `bird`, and a frequency range that is none.
+
+    >>> import wingbeat as wb
+    >>> wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055, frequency_range=(1, 5)).bounds["frequency"]
+    (1.0, 5.0)
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(ROBOT, size, (name, common_name, scientific_name), measured, frequency_range)
+
+
+def _species(
+    kind: Kind,
+    size: dict[str, Any],
+    names: tuple[Any, Any, Any],
+    measured: Mapping[str, Any],
+    frequency_range: Any = None,
+) -> Species:
+    faults = FaultList()
+    for where, text in zip(("name", "common_name", "scientific_name"), names, strict=True):
+        if (
+            not isinstance(text, str)
+            or not (text.isprintable() and text.strip() == text)
+            or (where == "name" and not text)
+        ):
+            faults.add(where, shown(text), "must be a text on one line", "for example 'jackdaw'")
+    content = SpeciesText(*names)
+    _check_size(size, faults)
+    for name, value in measured.items():
+        _put(content.numbers, name, plain(value), faults)
+    limits = _checked_range(frequency_range, faults)
+    faults.raise_if_any()
+    mass, span, area = (float(value) for value in size.values())
+    derive(kind, content, mass, span, area, limits)
+    content.numbers.written["vehicle.mass"] = "mass", size["mass"]
+    return species_of(content, faults)
+
+
+def _check_size(size: dict[str, Any], faults: FaultList) -> None:
+    mass, span, area = size.values()
+    faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the mass of the whole in kg")
+    good = faults.number("wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give it tip to tip in m")
+    if not faults.number("wing_area", area, above=0, unit="m2", fix="give that of both wings in m2") or not good:
+        return
+    if area > span * span:
+        faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "m and m2?")
+    elif area * _MOST_CHORDS < span * span:
+        faults.add("wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "m and m2?")
+
+
+def _put(numbers: Numbers, name: str, value: Any, faults: FaultList) -> None:
+    """Add a measured number, or note why it cannot be one."""
+    if name not in _MEASURED:
+        faults.add(spoken(name), shown(value), "is not a number of a species", suggest(name, _MEASURED))
+        return
+    path, key = _MEASURED[name]
+    if not check_value(key, name, value, faults):
+        return
+    if key.path in numbers:
+        faults.add(name, shown(value), f"is given as {numbers.written[key.path][0]} too", "keep one of the two")
+    elif name not in _NEEDED_BY_LAWS or faults.number(name, value, above=0, unit=key.unit):
+        numbers.put(key, Number(to_si(value, path), key.unit, "given"), name, value)
+
+
+def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None:
+    if limits is None:
+        return None
+    where = "frequency_range"
+    if not isinstance(limits, tuple | list) or len(limits) != 2:
+        faults.add(where, shown(limits), "must be (lowest, highest)", "in Hz")
+    elif all([faults.number(where, value, above=0, unit="Hz") for value in limits]):
+        if limits[0] < limits[1]:
+            return float(limits[0]), float(limits[1])
+        faults.add(where, limits, "leaves no room between its ends", "write (lowest, highest)")
+    return None

@@ -1,0 +1,206 @@
+"""What nobody measured of an animal: numbers, bounds and alternatives from its mass, wing span and wing area."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat.species import scaling
+from wingbeat.species.building import default_of
+from wingbeat.species.scaling import Law
+from wingbeat.species_schema import KEYS, Alternative, Bound, Number, Numbers, SpeciesText
+from wingbeat.vehicle import Air
+
+_UNITS = {key.path: key.unit for key in KEYS}
+_SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
+_WIDE = 1 / 8, 4.0  # times the stock frequency: the bounds of a search, 1 to 30 Hz for a pigeon
+_SU_FAN = "Su et al., arXiv 2302.09602"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """The laws of birds, bats or robots, and their guesses where there is none."""
+
+    wing_length: Law
+    wing_mass: Law
+    pitch_inertia: Law
+    flap_inertia: Law | None
+    aspect_ratios: tuple[tuple[float, float], str]
+    recovery: dict[str, float]
+    recovery_source: str
+
+
+BIRD = Kind(
+    scaling.BIRD_SEMI_SPAN,
+    scaling.BIRD_WING_MASS,
+    scaling.BIRD_PITCH_INERTIA,
+    scaling.BIRD_FLAP_INERTIA,
+    scaling.BIRD_ASPECT_RATIO,
+    {"span_retraction": 0.3, "twist_ratio": 1.0, "fold_amplitude": 0.0},
+    f"guess: as the pigeon of {_SU_FAN}, who give no retraction",
+)
+BAT = Kind(
+    scaling.HALF_SPAN,
+    scaling.BAT_WING_MASS,
+    scaling.BAT_PITCH_INERTIA,
+    scaling.BAT_FLAP_INERTIA,
+    scaling.BAT_ASPECT_RATIO,
+    {"span_retraction": 0.0, "twist_ratio": 1.6, "fold_amplitude": math.radians(10)},
+    f"guess: as the bat of {_SU_FAN}",
+)
+ROBOT = Kind(
+    scaling.HALF_SPAN,
+    scaling.ROBOT_WING_MASS,
+    scaling.ROBOT_PITCH_INERTIA,
+    None,
+    scaling.ROBOT_ASPECT_RATIO,
+    {"span_retraction": 0.0, "twist_ratio": 1.0, "fold_amplitude": 0.0},
+    "guess: rigid wings",
+)
+
+
+def derive(
+    kind: Kind, content: SpeciesText, mass: float, span: float, area: float, frequencies: tuple[float, float] | None
+) -> None:
+    """Fill in what `content` does not give.
+
+    Parameters
+    ----------
+    kind : whose laws.
+    content : holds what was measured, by path.
+    mass, span, area : of the whole animal [kg], tip to tip [m], of both wings [m2].
+    frequencies : bounds of the wingbeat frequency [Hz]; wide ones around the stock frequency where None.
+    """
+    found = _vehicle(kind, content.numbers, mass, span, area) | _air()
+    air = [content.numbers.get(path, found[path]).value for path in ("air.density", "air.gravity")]
+    found |= _wingbeat(kind, mass, span, area, *air)
+    for path, number in found.items():
+        content.numbers.setdefault(path, number)
+    content.free, content.body_pitch = _bounds(content.numbers["wingbeat.frequency"], frequencies)
+    content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
+    content.alternatives = _alternatives(kind, mass)
+
+
+def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) -> dict[str, Number]:
+    length = given.get("vehicle.wing.semi_span", kind.wing_length.number(span))
+    wing_mass = given.get("vehicle.wing.mass", kind.wing_mass.number(mass))
+    drag = scaling.BODY_DRAG_AREA.number(mass)
+    drag_source = f"{_SU_FAN}, have no body drag; top of the range {drag.source}"
+    if kind.flap_inertia is None:
+        exponent = scaling.ROBOT_MASS_EXPONENT.number()
+    else:
+        exponent = scaling.mass_exponent(kind.flap_inertia, _single(wing_mass), _single(length))
+    vertical = "guess: near vertical is the best in cruise (Parslew 2015, J R Soc Interface 12:20140953, on birds)"
+    return {
+        "vehicle.mass": _whole(kind, mass, span),
+        "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
+        "vehicle.body.drag_area": Number(0.0, "m2", drag_source, (0.0, _range(drag)[1])),
+        "vehicle.wing.semi_span": length,
+        "vehicle.wing.chord": _chord(kind, span, area),
+        "vehicle.wing.mass": wing_mass,
+        "vehicle.wing.mass_exponent": exponent,
+        "vehicle.wing.shoulder": Number(
+            (0.0, 0.0, 0.0), "m", "guess: at the body's centre of mass", (-0.02 * span, 0.07 * span)
+        ),
+        "vehicle.wing.stroke_plane_angle": _guess("vehicle.wing.stroke_plane_angle", None, 45, 110, vertical),
+    }
+
+
+def _whole(kind: Kind, mass: float, span: float) -> Number:
+    if kind is not BIRD:
+        return Number(mass, "kg", "given")
+    usual = scaling.BIRD_MASS.number(span)
+    scatter = scaling.BIRD_MASS.scatter
+    return Number(mass, "kg", f"given; range: birds of this span, {scatter}", usual.range)
+
+
+def _chord(kind: Kind, span: float, area: float) -> Number:
+    chord = scaling.MEAN_CHORD.number(span, area)
+    (low, high), whose = kind.aspect_ratios
+    ratio = span * span / area
+    if low <= ratio <= high:
+        return chord
+    odd = f"; range: aspect ratio {low:g} to {high:g}, {whose}"
+    return chord._replace(source=chord.source + odd, range=(span / high, span / low))
+
+
+def _air() -> dict[str, Number]:
+    standard, limits = Air(), {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
+    source = "guess: standard air at sea level"
+    return {
+        f"air.{name}": Number(value, _UNITS[f"air.{name}"], source, limits[name])
+        for name, value in dataclasses.asdict(standard).items()
+    }
+
+
+def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, gravity: Any) -> dict[str, Number]:
+    if kind is BAT:
+        frequency = scaling.BAT_FREQUENCY.number(mass, _SPEED)
+        amplitude = scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
+    else:
+        law = scaling.BIRD_FREQUENCY if kind is BIRD else scaling.ROBOT_FREQUENCY
+        frequency = law.number(mass, span, area, density, gravity)
+        amplitude = scaling.BIRD_FLAP_AMPLITUDE.number(span)
+        if kind is ROBOT:
+            amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
+    ranges = {"span_retraction": (0.0, 0.5), "twist_ratio": (1.0, 2.0), "fold_amplitude": (0.0, math.radians(30))}
+    found = {
+        f"wingbeat.{name}": Number(value, _UNITS[f"wingbeat.{name}"], kind.recovery_source, ranges[name])
+        for name, value in kind.recovery.items()
+    }
+    return found | {
+        "wingbeat.frequency": frequency,
+        "wingbeat.flap_mean": _guess("wingbeat.flap_mean", 0, -30, 30),
+        "wingbeat.flap_amplitude": amplitude,
+        "wingbeat.pitch_mean": _guess("wingbeat.pitch_mean", 8, -30, 40),
+        "wingbeat.pitch_amplitude": _guess("wingbeat.pitch_amplitude", 15, 0, 60),
+        "wingbeat.wrist": Number(0.5, "1", "guess: half the span; without a fold it has no effect", (0.3, 0.7)),
+    }
+
+
+def _guess(path: str, degrees: float | None, low: float, high: float, source: str = "first guess") -> Number:
+    value = default_of(path) if degrees is None else math.radians(degrees)
+    return Number(value, "rad", source, (math.radians(low), math.radians(high)))
+
+
+def _bounds(stock: Number, given: tuple[float, float] | None) -> tuple[dict[str, Bound], Bound]:
+    """Return the bounds of what an orbit may choose, and of the body's pitch."""
+    low, high = (factor * _single(stock) for factor in _WIDE)
+    frequency = Bound((low, high), "guess: an eighth to four times the stock frequency", True)
+    if given is not None:
+        frequency = Bound(given, "given")
+
+    def angles(low: float, high: float, reason: str) -> Bound:
+        return Bound((math.radians(low), math.radians(high)), reason, True)
+
+    reach = "the shoulder's reach, a guess"
+    free = {
+        "frequency": frequency,
+        "flap_mean": angles(-30, 30, reach),
+        "flap_amplitude": angles(5, 70, "guess: wide around what animals show"),
+        "pitch_mean": angles(-30, 40, reach),
+        "pitch_amplitude": angles(0, 60, reach),
+    }
+    return free, angles(-60, 60, "steeper is a manoeuvre, not forward flight")
+
+
+def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:
+    drag, rigid = Numbers(), Numbers()
+    drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)
+    found = {"body-drag": Alternative("the drag of the body, which Su et al. leave out; the law of birds", drag)}
+    if kind is BIRD:
+        rigid["wingbeat.span_retraction"] = Number(0.0, "1", "guess: the lower end of its range")
+        found["rigid-span"] = Alternative("a wing that keeps its span: how much hangs on the guess", rigid)
+    return found
+
+
+def _single(number: Number) -> float:
+    assert not isinstance(number.value, tuple), "of the numbers here the chord alone may be a list"
+    return number.value
+
+
+def _range(number: Number) -> tuple[float, float]:
+    assert number.range is not None, "every law has a spread"
+    return number.range

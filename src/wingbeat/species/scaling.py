@@ -1,0 +1,289 @@
+"""Published laws that give a flying animal's numbers from its mass, wing span and wing area, each written once.
+
+Where no law was found the single animal or robot that was measured is scaled by isometry, and the source says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from wingbeat.species_schema import Number
+
+__all__ = ["Law", "exponent_of_inertia", "mass_exponent"]
+
+RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, doi 10.1242/jeb.198.8.1655, table 3"
+PENNYCUICK = "Pennycuick 1996, J Exp Biol 199:1613, doi 10.1242/jeb.199.7.1613"
+BULLEN = "Bullen and McKenzie 2002, J Exp Biol 205:2615, doi 10.1242/jeb.205.17.2615"
+HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, data of the R package AvInertia"
+FLAPPER = "parameters of the Flapper Nimble+ in federicoangioni/flapper-dynamic-model, how found not stated"
+
+
+@dataclass(frozen=True)
+class Law:
+    """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
+
+    Parameters
+    ----------
+    unit : of the number.
+    formula : as it is printed, for the reader of a source.
+    function : the formula.
+    source : where it was read.
+    spread : factors between which measured values lie, of the value that the law gives.
+    scatter : where the spread comes from.
+
+    >>> number = BIRD_WING_MASS.number(0.316)
+    >>> f"{number.value:.4f} {number.unit}"
+    '0.0199 kg'
+    """
+
+    unit: str
+    formula: str
+    function: Callable[..., float]
+    source: str
+    spread: tuple[float, float]
+    scatter: str
+
+    def __call__(self, *values: float) -> float:
+        """Return what the law gives."""
+        return self.function(*values)
+
+    def number(self, *values: float) -> Number:
+        """Return what the law gives, marked as derived, with its spread as the plausible range."""
+        value, (low, high) = self(*values), self.spread
+        source = f"derived: {self.formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
+        return Number(value, self.unit, source, (low * value, high * value))
+
+
+# --- lengths ---
+
+BIRD_MASS = Law(
+    "kg",
+    "(b / 1.137)^(1/0.396)",
+    lambda span: (span / 1.137) ** (1 / 0.396),
+    "fitted to a table of mass, span and area compiled from 27 studies, BirdWingData_tidy_ver2.1",
+    (0.36, 2.9),
+    "95 % of 613 bird species in that table",
+)
+BIRD_SEMI_SPAN = Law(
+    "m",
+    "0.464 of the span",
+    lambda span: 0.464 * span,
+    f"wing length 0.528 m^0.396 ({RAYNER}) over span 1.137 m^0.396 of the birds of BirdWingData_tidy_ver2.1",
+    (0.95, 1.08),
+    f"0.45 of the span of one dissected pigeon ({HARVEY}) to half the span",
+)
+HALF_SPAN = Law(
+    "m",
+    "half the span",
+    lambda span: 0.5 * span,
+    "no law found: as Su et al., arXiv 2302.09602, take it for their bat",
+    (0.9, 1.0),
+    "guess: the body between the wings is left out",
+)
+MEAN_CHORD = Law(
+    "m",
+    "wing area over span",
+    lambda span, area: area / span,
+    "its definition",
+    (0.85, 1.1),
+    "guess: some count the body between the wings to the area and some do not",
+)
+
+# Span over mean chord, whole table or guess.
+BIRD_ASPECT_RATIO = (3.6, 16.6), "all of 613 bird species in BirdWingData_tidy_ver2.1"
+BAT_ASPECT_RATIO = (4.0, 12.0), "a guess around the 6 of the bat in the box and the 7 to 9 of 24 noctules"
+ROBOT_ASPECT_RATIO = (2.5, 10.0), "a guess around the 3.4 to 7.0 of four robots"
+
+# --- masses and moments of inertia ---
+
+BIRD_WING_MASS = Law(
+    "kg",
+    "one wing 0.0706 m^1.098",
+    lambda mass: 0.0706 * mass**1.098,
+    RAYNER,
+    (0.6, 1.6),
+    f"guess: r2 is 0.972 in log-log, and one dissected pigeon lies at 1.5 ({HARVEY})",
+)
+BAT_WING_MASS = Law(
+    "kg",
+    "one wing 7 % of the whole mass",
+    lambda mass: 0.07 * mass,
+    "no law found: a guess",
+    (0.77, 1.43),
+    f"guess: 5.4 % is the law of birds at 68 g ({RAYNER}), 10 % a guess",
+)
+ROBOT_WING_MASS = Law(
+    "kg",
+    "one wing 4.2 % of the whole mass",
+    lambda mass: 0.5 * (0.103 - 0.0943) / 0.103 * mass,
+    f"no law found: one robot, 103 g with and 94.3 g without wings; {FLAPPER}",
+    (0.4, 2.5),
+    "guess",
+)
+BIRD_FLAP_INERTIA = Law(
+    "kg m2",
+    "0.118 (m_w l^2)^1.040",
+    lambda wing_mass, length: 0.118 * (wing_mass * length**2) ** 1.040,
+    RAYNER,
+    (0.45, 1.6),
+    f"the birds of its figure 6 lie at 0.6 to 1.6, one dissected pigeon at 0.5 ({HARVEY})",
+)
+BAT_FLAP_INERTIA = Law(
+    "kg m2",
+    "twice 0.118 (m_w l^2)^1.040, the law of birds",
+    lambda wing_mass, length: 2 * BIRD_FLAP_INERTIA(wing_mass, length),
+    f"{RAYNER} and text: bats have twice the inertia",
+    (0.5, 1.3),
+    "the law of birds to the highest of the three bats of its figure 6",
+)
+ROBOT_MASS_EXPONENT = Law(
+    "1",
+    "1.1, a wing whose centre of mass is at 0.32 of its length",
+    lambda: 1 / 0.32 - 2,
+    "no law found: one robot's wing, 0.08 m of 0.25 m, in code of Fan, Gehrke and Breuer, arXiv 2408.15577",
+    (0.0, 2.0),
+    "guess: uniform to as a bird",
+)
+BIRD_PITCH_INERTIA = Law(
+    "kg m2",
+    "2.6e-4 (m / 0.26)^(5/3)",
+    lambda mass: 2.6e-4 * (mass / 0.26) ** (5 / 3),
+    f"no law found: one dissected pigeon of 0.26 kg, {HARVEY}, scaled by isometry",
+    (0.5, 2.0),
+    "guess",
+)
+BAT_PITCH_INERTIA = Law(
+    "kg m2",
+    "2.4e-5 (m / 0.068)^(5/3)",
+    lambda mass: 2.4e-5 * (mass / 0.068) ** (5 / 3),
+    "no law found: an ellipsoid 82 mm long for a bat of 68 g, scaled by isometry",
+    (0.5, 2.1),
+    "guess",
+)
+ROBOT_PITCH_INERTIA = Law(
+    "kg m2",
+    "3.0e-4 (m / 0.103)^(5/3)",
+    lambda mass: 3.0e-4 * (mass / 0.103) ** (5 / 3),
+    f"no law found: one robot of 103 g, scaled by isometry; {FLAPPER}",
+    (0.33, 3.0),
+    "guess",
+)
+BODY_DRAG_AREA = Law(
+    "m2",
+    "drag coefficient 0.2 (Klein Heerenbrink 2016, jackdaw, doi 10.1242/jeb.132480) times 0.00813 m^0.666",
+    lambda mass: 0.2 * 0.00813 * mass**0.666,
+    "Pennycuick 1988, birds, as in the R package afpt",
+    (0.5, 1.5),
+    "guess: drag coefficients of 0.1 to 0.3 are in use",
+)
+
+# --- the wingbeat ---
+
+FREQUENCY_BY_MASS = Law(
+    "Hz",
+    "3.228 m^-0.440",
+    lambda mass: 3.228 * mass**-0.440,
+    RAYNER,
+    (0.5, 2.0),
+    "guess: r2 is 0.653 in log-log",
+)
+FREQUENCY_BY_WING = Law(
+    "Hz",
+    "1.807 l^-1.055",
+    lambda length: 1.807 * length**-1.055,
+    RAYNER,
+    (0.6, 1.6),
+    "guess: r2 is 0.877 in log-log",
+)
+
+
+def _pennycuick(mass: float, span: float, area: float, density: float, gravity: float) -> float:
+    return mass ** (3 / 8) * gravity**0.5 * span ** (-23 / 24) * area ** (-1 / 3) * density ** (-3 / 8)
+
+
+BIRD_FREQUENCY = Law(
+    "Hz",
+    "m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8",
+    _pennycuick,
+    f"{PENNYCUICK}, 47 species in cruise",
+    (0.7, 1.3),
+    "alcids and a pigeon lie at 0.73 to 1.04, 14 species at 0.81 to 1.05 (Pennycuick 2001, J Exp Biol 204:3283)",
+)
+ROBOT_FREQUENCY = Law(
+    "Hz",
+    "m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8",
+    _pennycuick,
+    f"no law of robots found: that of birds, {PENNYCUICK}",
+    (0.7, 1.3),
+    "four robots lie at 0.80 to 1.16 (USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust)",
+)
+BAT_FREQUENCY = Law(
+    "Hz",
+    "5.54 - 3.068 log10 m - 2.857 log10 V",
+    lambda mass, speed: 5.54 - 3.068 * math.log10(mass) - 2.857 * math.log10(speed),
+    f"{BULLEN}, abstract: 23 Australian species",
+    (0.75, 1.3),
+    "21 of the 23 within 1 Hz, and speeds from 4 to 10 m/s",
+)
+BIRD_FLAP_AMPLITUDE = Law(
+    "rad",
+    "half of 67 b^-0.24 degrees",
+    lambda span: math.radians(33.5 * span**-0.24),
+    "Nudds, Taylor and Thomas 2004, as quoted in code",
+    (0.5, 1.6),
+    "guess",
+)
+BAT_FLAP_AMPLITUDE = Law(
+    "rad",
+    "half of 56.92 + 5.18 V + 16.06 log10 S degrees",
+    lambda speed, area: math.radians(0.5 * (56.92 + 5.18 * speed + 16.06 * math.log10(area))),
+    f"{BULLEN}, abstract: 23 Australian species",
+    (0.6, 1.6),
+    "15 degrees either side of the whole, and speeds from 4 to 10 m/s",
+)
+ROBOT_FLAP_AMPLITUDE = Law(
+    "rad",
+    "half of 81 degrees",
+    lambda: math.radians(0.5 * (80 + 105 + 50 + 90) / 4),
+    "no law found: the mean of USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust",
+    (0.6, 1.35),
+    "those four, of 50 to 105 degrees",
+)
+
+# --- the cruise ---
+
+CRUISE_BY_MASS = Law(
+    "m/s",
+    "15.9 m^0.13",
+    lambda mass: 15.9 * mass**0.13,
+    "Alerstam et al. 2007, PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, 138 species",
+    (0.6, 1.6),
+    "guess",
+)
+
+
+def exponent_of_inertia(share: float) -> float:
+    """Return the p of strip masses ``(1 - s/L)**p`` that gives a flap inertia; 0, a uniform wing, where none does.
+
+    Parameters
+    ----------
+    share : inertia about the shoulder over wing mass times length squared; ``2/((p + 2) (p + 3))``.
+
+    >>> exponent_of_inertia(1 / 3), round(exponent_of_inertia(0.1), 9)
+    (0.0, 2.0)
+    """
+    return max(0.0, 0.5 * (math.sqrt(1 + 8 / share) - 5))
+
+
+def mass_exponent(law: Law, wing_mass: float, length: float) -> Number:
+    """Return the mass exponent that gives a wing the flap inertia of a law, from its mass [kg] and length [m]."""
+    inertia, whole = law(wing_mass, length), wing_mass * length**2
+    low, high = law.spread
+    source = (
+        f"derived: gives the wing the flap inertia {inertia:.3g} kg m2, {law.formula} ({law.source}); "
+        f"spread {low:g} to {high:g} times the inertia: {law.scatter}"
+    )
+    limits = exponent_of_inertia(high * inertia / whole), exponent_of_inertia(low * inertia / whole)
+    return Number(exponent_of_inertia(inertia / whole), "1", source, limits)

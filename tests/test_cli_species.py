@@ -15,7 +15,7 @@ from wingbeat._version import __version__
 from wingbeat.cli import main
 from wingbeat.cli.app import COMMANDS, build_app
 from wingbeat.errors import FileError
-from wingbeat.species import load_species, template
+from wingbeat.species import load_species, species_names, template
 
 HEAVY = ("jax", "numpy", "scipy", "matplotlib", "xarray", "pandas", "pydantic", "diffrax")
 
@@ -178,13 +178,18 @@ def test_the_list(run: Any) -> None:
     code, out, errors = run("species")
     rows = {line.split()[0]: line for line in out.splitlines() if line.strip()}
     assert (code, errors) == (0, [])
-    assert [word in rows["pigeon"] for word in ("316", "279", "112", "7.5e+04")] == [True] * 4
-    assert [word in rows["bat"] for word in ("68", "300", "100", "6.7e+04")] == [True] * 4
+    assert [word in rows["pigeon"] for word in ("316", "279", "112", "7.5e+04", "2.7 to 6.7")] == [True] * 5
+    assert [word in rows["bat"] for word in ("68", "300", "100", "6.7e+04", "3.0 to 7.5")] == [True] * 5
+    warning = " ".join(out.partition("warning: ")[2].split())
+    assert "beyond the Reynolds numbers of the paper's plate, 2e4 to 5e4: " in warning
+    assert "pigeon" in warning
+    assert "noctule" not in warning
 
 
 def test_the_list_as_json(run: Any) -> None:
     animals = {animal["name"]: animal for animal in json.loads(run("species", "--json")[1])}
-    assert list(animals) == ["bat", "pigeon"]
+    assert list(animals) == list(species_names())
+    assert animals["pigeon"]["fitted_speeds"] == pytest.approx([0.3 / 0.112, 0.75 / 0.112])
     assert animals["pigeon"]["mass"] == pytest.approx(0.316)
     assert animals["pigeon"]["reynolds_at_10_m_per_s"] == pytest.approx(0.112 * 10 / 1.5e-5)
 

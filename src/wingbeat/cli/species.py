@@ -6,7 +6,7 @@ import json as json_format
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App, Parameter
 
@@ -69,16 +69,43 @@ def show(
 def new(
     path: Annotated[Path, Parameter(help="File to write, for example my.toml.")],
     *,
+    kind: Annotated[
+        Literal["bird", "bat", "robot"] | None,
+        Parameter(help="Derive it by scaling laws from --mass, --wing-span and --wing-area."),
+    ] = None,
+    mass: Annotated[float | None, Parameter(help="Of the whole animal [kg].")] = None,
+    wing_span: Annotated[float | None, Parameter(help="Tip to tip [m].")] = None,
+    wing_area: Annotated[float | None, Parameter(help="Of both wings and the body between [m2].")] = None,
     force: Annotated[bool, Parameter(negative="", help="Replace a file that is there.")] = False,
 ) -> None:
-    """Write a commented template for a species of your own."""
+    """Write a commented template for a species of your own, or a bird, bat or robot by scaling laws."""
     from wingbeat.files import write_atomically
-    from wingbeat.species_schema import template
 
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    text = _new_text(kind, size, path.stem)
     if os.path.lexists(path) and not path.is_dir() and not force:
         raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
-    write_atomically(path, template())
+    write_atomically(path, text)
     print(f"wrote {path}; try: wingbeat species {path}")
+
+
+def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
+    """Return the text of the template, or of an animal of this size."""
+    from wingbeat.errors import FaultList
+    from wingbeat.species import bat, bird, robot, species_text, template
+
+    faults = FaultList()
+    for key, value in size.items():
+        option = f"--{key.replace('_', '-')}"
+        if kind is None and value is not None:
+            faults.add(option, value, "needs to know whose laws to take", "add --kind bird, bat or robot")
+        elif kind is not None and value is None:
+            faults.add(option, None, "must be given", f"the laws of a {kind} need mass, span and area")
+    faults.raise_if_any()
+    if kind is None:
+        return template()
+    given: dict[str, Any] = size
+    return species_text({"bird": bird, "bat": bat, "robot": robot}[kind](name=name, **given))
 
 
 def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
@@ -111,8 +138,11 @@ def _print_json(content: Any) -> None:
 
 
 def _summary(animal: Species) -> dict[str, Any]:
+    from wingbeat.aero import SuFan
+
     wing = animal.vehicle.wing
     reynolds = _SPEED * wing.mean_chord / animal.air.viscosity
+    fitted = [number * animal.air.viscosity / wing.mean_chord for number in SuFan().reynolds_range or ()]
     return {
         "name": animal.name,
         "common_name": animal.common_name,
@@ -120,6 +150,7 @@ def _summary(animal: Species) -> dict[str, Any]:
         "semi_span": wing.semi_span,
         "chord": wing.mean_chord,
         "reynolds_at_10_m_per_s": reynolds if math.isfinite(reynolds) else None,
+        "fitted_speeds": fitted,
     }
 
 
@@ -142,13 +173,23 @@ def _table(title: str, *columns: str) -> Table:
 
 
 def _print_list(everyone: list[Species]) -> None:
-    table = _table("", "name", "animal", "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r")
+    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "fitted at [m/s]>r"
+    table = _table("", "name", "animal", *columns)
+    outside = []
     for animal in everyone:
         row = _summary(animal)
         lengths = [f"{1e3 * row[key]:.4g}" for key in ("mass", "semi_span", "chord")]
-        table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}")
+        low, high = row["fitted_speeds"]
+        if not low <= _SPEED <= high:
+            outside.append(animal.name)
+        speeds = f"{low:.1f} to {high:.1f}"
+        table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}", speeds)
     console = _console()
     console.print(table)
+    if outside:
+        names = ", ".join(outside)
+        line = f"warning: at {_SPEED:g} m/s beyond the Reynolds numbers of the paper's plate, 2e4 to 5e4: {names}"
+        console.print(line, style="yellow")
     console.print("wingbeat species NAME shows every number of one; wingbeat species new FILE starts your own.")
 
 

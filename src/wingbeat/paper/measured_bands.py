@@ -7,10 +7,10 @@ had, and their abstract says only that the frequency does not change appreciably
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from wingbeat.species import scaling
 from wingbeat.vehicle import Air, Vehicle
 
 # What the paper prints about the bat at 10 m/s, by coefficient model: peak power [W], range of body pitch [deg].
@@ -45,22 +45,21 @@ class Measured:
 
 
 def _birds_by_mass(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return 3.228 * vehicle.mass**-0.440
+    return scaling.FREQUENCY_BY_MASS(vehicle.mass)
 
 
 def _birds_by_wing(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return 1.807 * vehicle.wing.semi_span**-1.055
+    return scaling.FREQUENCY_BY_WING(vehicle.wing.semi_span)
 
 
 def _birds_by_theory(vehicle: Vehicle, air: Air, speed: float) -> float:
     wing = vehicle.wing
     span, area = 2 * wing.semi_span, 2 * wing.semi_span * wing.mean_chord
-    lift = vehicle.mass ** (3 / 8) * air.gravity**0.5
-    return lift * span ** (-23 / 24) * area ** (-1 / 3) * air.density ** (-3 / 8)
+    return scaling.BIRD_FREQUENCY(vehicle.mass, span, area, air.density, air.gravity)
 
 
 def _bats(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return 5.54 - 3.068 * math.log10(vehicle.mass) - 2.857 * math.log10(speed)
+    return scaling.BAT_FREQUENCY(vehicle.mass, speed)
 
 
 _RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, table 3"

@@ -4,6 +4,7 @@ from wingbeat.species.animals import bat, bird, robot
 from wingbeat.species.loading import load_species
 from wingbeat.species.record import Species
 from wingbeat.species.settings import parse_setting
+from wingbeat.species.writing import species_text
 from wingbeat.species_schema import Alternative, Bound, Number, json_schema, species_names, template
 
 __all__ = [
@@ -18,5 +19,6 @@ __all__ = [
     "parse_setting",
     "robot",
     "species_names",
+    "species_text",
     "template",
 ]

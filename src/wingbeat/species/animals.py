@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from numbers import Real
 from typing import Any
 
 from wingbeat.errors import FaultList
-from wingbeat.species.deriving import BAT, BIRD, ROBOT, Kind, derive
+from wingbeat.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
 from wingbeat.species.loading import species_of
 from wingbeat.species.record import Species
 from wingbeat.species.settings import plain
@@ -21,7 +22,9 @@ _MEASURED = {
     if key.path not in ("vehicle.mass", "vehicle.body.mass")
     for path in key.spellings
 }
-_NEEDED_BY_LAWS = ("wing_mass", "semi_span", "frequency", "density", "gravity")
+# Limits of what the laws go on from: shares of the whole mass and the span, and anything on a planet.
+_SHARES = {"wing_mass": ("mass", 1e-6, 0.5), "semi_span": ("wing_span", 0.01, 1.0)}
+_LIMITS = {"frequency": (1e-3, 1e4), "density": (1e-3, 1e3), "gravity": (1e-3, 1e3)}
 # Shorter than its chord no span is; a hundred chords are a slip of units.
 _MOST_CHORDS = 100.0
 
@@ -57,8 +60,8 @@ def bird(
 
     >>> import wingbeat as wb
     >>> crow = wb.bird(mass=0.3, wing_span=0.62, wing_area=0.06)
-    >>> crow.numbers["vehicle.wing.mass"].source[:34]
-    'derived: one wing 0.0706 m^1.098 ('
+    >>> crow.numbers["vehicle.wing.mass"].source[:38]
+    'derived: 0.0706 m^1.098 at m = 0.3 kg '
     """
     size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
     return _species(BIRD, size, (name, common_name, scientific_name), measured)
@@ -142,10 +145,12 @@ def _species(
     content = SpeciesText(*names)
     _check_size(size, faults)
     for name, value in measured.items():
-        _put(content.numbers, name, plain(value), faults)
+        _put(content.numbers, name, plain(value), size, faults)
     limits = _checked_range(frequency_range, faults)
     faults.raise_if_any()
     mass, span, area = (float(value) for value in size.values())
+    _check_laws(kind, content.numbers, mass, area, faults)
+    faults.raise_if_any()
     derive(kind, content, mass, span, area, limits)
     content.numbers.written["vehicle.mass"] = "mass", size["mass"]
     return species_of(content, faults)
@@ -163,7 +168,19 @@ def _check_size(size: dict[str, Any], faults: FaultList) -> None:
         faults.add("wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "m and m2?")
 
 
-def _put(numbers: Numbers, name: str, value: Any, faults: FaultList) -> None:
+def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: FaultList) -> None:
+    """Note a size for which the laws of bats, which are not powers, give no wingbeat."""
+    if kind is not BAT:
+        return
+    beat = zip(
+        bat_beat(mass, area), ("frequency", "flap_amplitude"), (("mass", mass), ("wing_area", area)), strict=True
+    )
+    for number, name, (where, value) in beat:
+        if f"wingbeat.{name}" not in given and single(number) <= 0:
+            faults.add(where, value, f"is beyond the law of bats' {name}", f"give {name}=")
+
+
+def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:
     """Add a measured number, or note why it cannot be one."""
     if name not in _MEASURED:
         faults.add(spoken(name), shown(value), "is not a number of a species", suggest(name, _MEASURED))
@@ -173,8 +190,24 @@ def _put(numbers: Numbers, name: str, value: Any, faults: FaultList) -> None:
         return
     if key.path in numbers:
         faults.add(name, shown(value), f"is given as {numbers.written[key.path][0]} too", "keep one of the two")
-    elif name not in _NEEDED_BY_LAWS or faults.number(name, value, above=0, unit=key.unit):
+    elif _possible(name, value, size, faults):
         numbers.put(key, Number(to_si(value, path), key.unit, "given"), name, value)
+
+
+def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) -> bool:
+    """Say whether the laws can go on from a measured number."""
+    if name in _LIMITS:
+        low, high = _LIMITS[name]
+        return faults.number(name, value, at_least=low, at_most=high)
+    if name not in _SHARES or not isinstance(size[_SHARES[name][0]], Real):
+        return True
+    whole, low, high = _SHARES[name]
+    if low * size[whole] <= value <= high * size[whole]:
+        return True
+    faults.add(
+        name, value, f"must be {low:g} to {high:g} of the {whole}, {size[whole]:g}", "of one wing, in kg and m"
+    )
+    return False
 
 
 def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None:

@@ -91,7 +91,7 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
     if kind.flap_inertia is None:
         exponent = scaling.ROBOT_MASS_EXPONENT.number()
     else:
-        exponent = scaling.mass_exponent(kind.flap_inertia, _single(wing_mass), _single(length))
+        exponent = scaling.mass_exponent(kind.flap_inertia, single(wing_mass), single(length))
     vertical = "guess: near vertical is the best in cruise (Parslew 2015, J R Soc Interface 12:20140953, on birds)"
     return {
         "vehicle.mass": _whole(kind, mass, span),
@@ -112,8 +112,7 @@ def _whole(kind: Kind, mass: float, span: float) -> Number:
     if kind is not BIRD:
         return Number(mass, "kg", "given")
     usual = scaling.BIRD_MASS.number(span)
-    scatter = scaling.BIRD_MASS.scatter
-    return Number(mass, "kg", f"given; range: birds of this span, {scatter}", usual.range)
+    return Number(mass, "kg", f"given; range {usual.source}", usual.range)
 
 
 def _chord(kind: Kind, span: float, area: float) -> Number:
@@ -137,8 +136,7 @@ def _air() -> dict[str, Number]:
 
 def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, gravity: Any) -> dict[str, Number]:
     if kind is BAT:
-        frequency = scaling.BAT_FREQUENCY.number(mass, _SPEED)
-        amplitude = scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
+        frequency, amplitude = bat_beat(mass, area)
     else:
         law = scaling.BIRD_FREQUENCY if kind is BIRD else scaling.ROBOT_FREQUENCY
         frequency = law.number(mass, span, area, density, gravity)
@@ -160,6 +158,11 @@ def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, g
     }
 
 
+def bat_beat(mass: float, area: float) -> tuple[Number, Number]:
+    """Return frequency [Hz] and flap amplitude [rad] of a bat of this mass [kg] and wing area [m2]."""
+    return scaling.BAT_FREQUENCY.number(mass, _SPEED), scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
+
+
 def _guess(path: str, degrees: float | None, low: float, high: float, source: str = "first guess") -> Number:
     value = default_of(path) if degrees is None else math.radians(degrees)
     return Number(value, "rad", source, (math.radians(low), math.radians(high)))
@@ -167,7 +170,7 @@ def _guess(path: str, degrees: float | None, low: float, high: float, source: st
 
 def _bounds(stock: Number, given: tuple[float, float] | None) -> tuple[dict[str, Bound], Bound]:
     """Return the bounds of what an orbit may choose, and of the body's pitch."""
-    low, high = (factor * _single(stock) for factor in _WIDE)
+    low, high = (factor * single(stock) for factor in _WIDE)
     frequency = Bound((low, high), "guess: an eighth to four times the stock frequency", True)
     if given is not None:
         frequency = Bound(given, "given")
@@ -196,7 +199,8 @@ def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:
     return found
 
 
-def _single(number: Number) -> float:
+def single(number: Number) -> float:
+    """Return the value of a number that is not a list."""
     assert not isinstance(number.value, tuple), "of the numbers here the chord alone may be a list"
     return number.value
 

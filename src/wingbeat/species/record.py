@@ -15,7 +15,9 @@ from wingbeat.species.settings import plain, settable
 from wingbeat.species_schema import Alternative, Number, Numbers, check_value, display, suggest, to_si
 from wingbeat.vehicle import Air, Vehicle
 
-__all__ = ["Species", "find_warnings"]
+__all__ = ["DERIVED", "Species", "find_warnings"]
+
+DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 
 _SET_BY_HAND = "set by hand in place of"
 
@@ -156,6 +158,13 @@ def find_warnings(species: Species) -> tuple[str, ...]:
             path = f"wingbeat.{name}"
             guess = words(path, species.numbers[path])
             found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer one")
+    derived = [
+        path.removeprefix("vehicle.")
+        for path, number in species.numbers.items()
+        if path.startswith("vehicle.") and number.source.startswith(DERIVED)
+    ]
+    if derived:
+        found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
     if not species.free:
         found.append("free: no wingbeat parameter is free, so no orbit can be sought; add the table [free]")
     return tuple(found)

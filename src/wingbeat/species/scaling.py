@@ -28,6 +28,7 @@ class Law:
     ----------
     unit : of the number.
     formula : as it is printed, for the reader of a source.
+    inputs : symbol and unit of each value that it takes.
     function : the formula.
     source : where it was read.
     spread : factors between which measured values lie, of the value that the law gives.
@@ -40,6 +41,7 @@ class Law:
 
     unit: str
     formula: str
+    inputs: tuple[str, ...]
     function: Callable[..., float]
     source: str
     spread: tuple[float, float]
@@ -52,8 +54,15 @@ class Law:
     def number(self, *values: float) -> Number:
         """Return what the law gives, marked as derived, with its spread as the plausible range."""
         value, (low, high) = self(*values), self.spread
-        source = f"derived: {self.formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
+        where = ", ".join(_told(*pair) for pair in zip(self.inputs, values, strict=True))
+        formula = f"{self.formula} at {where}" if where else self.formula
+        source = f"derived: {formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
         return Number(value, self.unit, source, (low * value, high * value))
+
+
+def _told(symbol_and_unit: str, value: float) -> str:
+    symbol, unit = symbol_and_unit.split()
+    return f"{symbol} = {value:.4g} {unit}"
 
 
 # --- lengths ---
@@ -61,14 +70,16 @@ class Law:
 BIRD_MASS = Law(
     "kg",
     "(b / 1.137)^(1/0.396)",
+    ("b m",),
     lambda span: (span / 1.137) ** (1 / 0.396),
     "fitted to a table of mass, span and area compiled from 27 studies, BirdWingData_tidy_ver2.1",
-    (0.36, 2.9),
-    "95 % of 613 bird species in that table",
+    (0.23, 3.8),
+    "all of 613 bird species in that table",
 )
 BIRD_SEMI_SPAN = Law(
     "m",
-    "0.464 of the span",
+    "0.464 b",
+    ("b m",),
     lambda span: 0.464 * span,
     f"wing length 0.528 m^0.396 ({RAYNER}) over span 1.137 m^0.396 of the birds of BirdWingData_tidy_ver2.1",
     (0.95, 1.08),
@@ -76,7 +87,8 @@ BIRD_SEMI_SPAN = Law(
 )
 HALF_SPAN = Law(
     "m",
-    "half the span",
+    "b/2",
+    ("b m",),
     lambda span: 0.5 * span,
     "no law found: as Su et al., arXiv 2302.09602, take it for their bat",
     (0.9, 1.0),
@@ -84,7 +96,8 @@ HALF_SPAN = Law(
 )
 MEAN_CHORD = Law(
     "m",
-    "wing area over span",
+    "S/b",
+    ("b m", "S m2"),
     lambda span, area: area / span,
     "its definition",
     (0.85, 1.1),
@@ -100,7 +113,8 @@ ROBOT_ASPECT_RATIO = (2.5, 10.0), "a guess around the 3.4 to 7.0 of four robots"
 
 BIRD_WING_MASS = Law(
     "kg",
-    "one wing 0.0706 m^1.098",
+    "0.0706 m^1.098",
+    ("m kg",),
     lambda mass: 0.0706 * mass**1.098,
     RAYNER,
     (0.6, 1.6),
@@ -108,7 +122,8 @@ BIRD_WING_MASS = Law(
 )
 BAT_WING_MASS = Law(
     "kg",
-    "one wing 7 % of the whole mass",
+    "0.07 m",
+    ("m kg",),
     lambda mass: 0.07 * mass,
     "no law found: a guess",
     (0.77, 1.43),
@@ -116,7 +131,8 @@ BAT_WING_MASS = Law(
 )
 ROBOT_WING_MASS = Law(
     "kg",
-    "one wing 4.2 % of the whole mass",
+    "0.042 m",
+    ("m kg",),
     lambda mass: 0.5 * (0.103 - 0.0943) / 0.103 * mass,
     f"no law found: one robot, 103 g with and 94.3 g without wings; {FLAPPER}",
     (0.4, 2.5),
@@ -125,6 +141,7 @@ ROBOT_WING_MASS = Law(
 BIRD_FLAP_INERTIA = Law(
     "kg m2",
     "0.118 (m_w l^2)^1.040",
+    ("m_w kg", "l m"),
     lambda wing_mass, length: 0.118 * (wing_mass * length**2) ** 1.040,
     RAYNER,
     (0.45, 1.6),
@@ -132,7 +149,8 @@ BIRD_FLAP_INERTIA = Law(
 )
 BAT_FLAP_INERTIA = Law(
     "kg m2",
-    "twice 0.118 (m_w l^2)^1.040, the law of birds",
+    "twice the birds' 0.118 (m_w l^2)^1.040",
+    ("m_w kg", "l m"),
     lambda wing_mass, length: 2 * BIRD_FLAP_INERTIA(wing_mass, length),
     f"{RAYNER} and text: bats have twice the inertia",
     (0.5, 1.3),
@@ -141,6 +159,7 @@ BAT_FLAP_INERTIA = Law(
 ROBOT_MASS_EXPONENT = Law(
     "1",
     "1.1, a wing whose centre of mass is at 0.32 of its length",
+    (),
     lambda: 1 / 0.32 - 2,
     "no law found: one robot's wing, 0.08 m of 0.25 m, in code of Fan, Gehrke and Breuer, arXiv 2408.15577",
     (0.0, 2.0),
@@ -149,6 +168,7 @@ ROBOT_MASS_EXPONENT = Law(
 BIRD_PITCH_INERTIA = Law(
     "kg m2",
     "2.6e-4 (m / 0.26)^(5/3)",
+    ("m kg",),
     lambda mass: 2.6e-4 * (mass / 0.26) ** (5 / 3),
     f"no law found: one dissected pigeon of 0.26 kg, {HARVEY}, scaled by isometry",
     (0.5, 2.0),
@@ -157,6 +177,7 @@ BIRD_PITCH_INERTIA = Law(
 BAT_PITCH_INERTIA = Law(
     "kg m2",
     "2.4e-5 (m / 0.068)^(5/3)",
+    ("m kg",),
     lambda mass: 2.4e-5 * (mass / 0.068) ** (5 / 3),
     "no law found: an ellipsoid 82 mm long for a bat of 68 g, scaled by isometry",
     (0.5, 2.1),
@@ -165,6 +186,7 @@ BAT_PITCH_INERTIA = Law(
 ROBOT_PITCH_INERTIA = Law(
     "kg m2",
     "3.0e-4 (m / 0.103)^(5/3)",
+    ("m kg",),
     lambda mass: 3.0e-4 * (mass / 0.103) ** (5 / 3),
     f"no law found: one robot of 103 g, scaled by isometry; {FLAPPER}",
     (0.33, 3.0),
@@ -173,6 +195,7 @@ ROBOT_PITCH_INERTIA = Law(
 BODY_DRAG_AREA = Law(
     "m2",
     "drag coefficient 0.2 (Klein Heerenbrink 2016, jackdaw, doi 10.1242/jeb.132480) times 0.00813 m^0.666",
+    ("m kg",),
     lambda mass: 0.2 * 0.00813 * mass**0.666,
     "Pennycuick 1988, birds, as in the R package afpt",
     (0.5, 1.5),
@@ -184,6 +207,7 @@ BODY_DRAG_AREA = Law(
 FREQUENCY_BY_MASS = Law(
     "Hz",
     "3.228 m^-0.440",
+    ("m kg",),
     lambda mass: 3.228 * mass**-0.440,
     RAYNER,
     (0.5, 2.0),
@@ -192,11 +216,15 @@ FREQUENCY_BY_MASS = Law(
 FREQUENCY_BY_WING = Law(
     "Hz",
     "1.807 l^-1.055",
+    ("l m",),
     lambda length: 1.807 * length**-1.055,
     RAYNER,
     (0.6, 1.6),
     "guess: r2 is 0.877 in log-log",
 )
+
+
+_SIZE_AND_AIR = "m kg", "b m", "S m2", "rho kg/m3", "g m/s2"
 
 
 def _pennycuick(mass: float, span: float, area: float, density: float, gravity: float) -> float:
@@ -206,6 +234,7 @@ def _pennycuick(mass: float, span: float, area: float, density: float, gravity: 
 BIRD_FREQUENCY = Law(
     "Hz",
     "m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8",
+    _SIZE_AND_AIR,
     _pennycuick,
     f"{PENNYCUICK}, 47 species in cruise",
     (0.7, 1.3),
@@ -214,6 +243,7 @@ BIRD_FREQUENCY = Law(
 ROBOT_FREQUENCY = Law(
     "Hz",
     "m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8",
+    _SIZE_AND_AIR,
     _pennycuick,
     f"no law of robots found: that of birds, {PENNYCUICK}",
     (0.7, 1.3),
@@ -222,6 +252,7 @@ ROBOT_FREQUENCY = Law(
 BAT_FREQUENCY = Law(
     "Hz",
     "5.54 - 3.068 log10 m - 2.857 log10 V",
+    ("m kg", "V m/s"),
     lambda mass, speed: 5.54 - 3.068 * math.log10(mass) - 2.857 * math.log10(speed),
     f"{BULLEN}, abstract: 23 Australian species",
     (0.75, 1.3),
@@ -230,6 +261,7 @@ BAT_FREQUENCY = Law(
 BIRD_FLAP_AMPLITUDE = Law(
     "rad",
     "half of 67 b^-0.24 degrees",
+    ("b m",),
     lambda span: math.radians(33.5 * span**-0.24),
     "Nudds, Taylor and Thomas 2004, as quoted in code",
     (0.5, 1.6),
@@ -238,6 +270,7 @@ BIRD_FLAP_AMPLITUDE = Law(
 BAT_FLAP_AMPLITUDE = Law(
     "rad",
     "half of 56.92 + 5.18 V + 16.06 log10 S degrees",
+    ("V m/s", "S m2"),
     lambda speed, area: math.radians(0.5 * (56.92 + 5.18 * speed + 16.06 * math.log10(area))),
     f"{BULLEN}, abstract: 23 Australian species",
     (0.6, 1.6),
@@ -246,6 +279,7 @@ BAT_FLAP_AMPLITUDE = Law(
 ROBOT_FLAP_AMPLITUDE = Law(
     "rad",
     "half of 81 degrees",
+    (),
     lambda: math.radians(0.5 * (80 + 105 + 50 + 90) / 4),
     "no law found: the mean of USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust",
     (0.6, 1.35),
@@ -257,6 +291,7 @@ ROBOT_FLAP_AMPLITUDE = Law(
 CRUISE_BY_MASS = Law(
     "m/s",
     "15.9 m^0.13",
+    ("m kg",),
     lambda mass: 15.9 * mass**0.13,
     "Alerstam et al. 2007, PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, 138 species",
     (0.6, 1.6),
@@ -282,7 +317,8 @@ def mass_exponent(law: Law, wing_mass: float, length: float) -> Number:
     inertia, whole = law(wing_mass, length), wing_mass * length**2
     low, high = law.spread
     source = (
-        f"derived: gives the wing the flap inertia {inertia:.3g} kg m2, {law.formula} ({law.source}); "
+        f"derived: gives the wing the flap inertia {inertia:.3g} kg m2, {law.formula} at m_w = {wing_mass:.4g} kg, "
+        f"l = {length:.4g} m ({law.source}); "
         f"spread {low:g} to {high:g} times the inertia: {law.scatter}"
     )
     limits = exponent_of_inertia(high * inertia / whole), exponent_of_inertia(low * inertia / whole)

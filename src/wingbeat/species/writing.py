@@ -1,0 +1,89 @@
+"""A species as the text of a species file: every number with its unit, plausible range and source."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+
+from wingbeat.species.building import BODY, WHOLE
+from wingbeat.species.record import Species
+from wingbeat.species_schema import Number, display
+
+__all__ = ["species_text"]
+
+_HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
+
+
+def species_text(species: Species) -> str:
+    """Return the TOML text of a species; `load_species` makes the same species of it, to six digits.
+
+    >>> from wingbeat.species import load_species
+    >>> species_text(load_species("pigeon")).splitlines()[1]
+    'name = "pigeon"'
+    """
+    lines = [_HEAD]
+    for name in ("name", "common_name", "scientific_name"):
+        lines.append(f"{name} = {_quoted(getattr(species, name))}")
+    lines += _tables(species.numbers, "", BODY)
+    lines += [
+        "",
+        "# What an orbit may choose. A bound that is a guess is named when an orbit leans on it.",
+        "[free]",
+    ]
+    lines += [_bound(species, name) for name in species.free]
+    lines += ["", "# Limits along the whole path, not only at its start.", "[path]", _bound(species, "body_pitch")]
+    for name, other in species.alternatives.items():
+        table = f"alternatives.{name if re.fullmatch('[A-Za-z0-9_-]+', name) else _quoted(name)}"
+        lines += ["", f"[{table}]", f"reason = {_quoted(other.reason)}"]
+        lines += _tables(other.numbers, f"{table}.", BODY if WHOLE in other.numbers else "")
+    return "\n".join(lines) + "\n"
+
+
+def _tables(numbers: Mapping[str, Number], prefix: str, left_out: str) -> Iterator[str]:
+    for path, number in numbers.items():
+        if path == left_out:
+            continue
+        name, shown = display(path, number)
+        values = [_digits(value) for value in (shown.value if isinstance(shown.value, tuple) else (shown.value,))]
+        yield from ("", f"[{prefix}{name}]")
+        yield f"value = [{', '.join(values)}]" if isinstance(shown.value, tuple) else f"value = {values[0]}"
+        yield f"unit = {_quoted(shown.unit)}"
+        if shown.range:
+            yield f"range = [{_digits(shown.range[0])}, {_digits(shown.range[1])}]"
+        if shown.source:
+            yield f"source = {_text(shown.source)}"
+
+
+def _bound(species: Species, name: str) -> str:
+    limits = species.bounds.get(name, species.body_pitch_bounds)
+    unit = species.numbers[f"wingbeat.{name}"].unit if name in species.bounds else "rad"
+    if unit == "rad":
+        unit, limits = "deg", (math.degrees(limits[0]), math.degrees(limits[1]))
+        key = f"{name}_deg"
+    else:
+        key = name
+    guessed = "true" if name in species.guessed_bounds else "false"
+    pair = f"[{_digits(limits[0])}, {_digits(limits[1])}]"
+    reason = _quoted(species.reasons[name])
+    return f"{key} = {{ bounds = {pair}, unit = {_quoted(unit)}, guessed = {guessed}, reason = {reason} }}"
+
+
+def _digits(value: float) -> str:
+    text = f"{value:.6g}"
+    return text if re.search(r"[.e]", text) else f"{text}.0"
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
+
+
+def _text(text: str) -> str:
+    """Return a text in quotes, over several lines where one is too long: readers put them together again."""
+    quoted = _quoted(text)
+    if len(quoted) < 100:
+        return quoted
+    lines = textwrap.wrap(quoted[1:-1], 112, break_long_words=False, break_on_hyphens=False)
+    return '"""\n' + "\n".join(lines) + '"""'

@@ -1,0 +1,167 @@
+"""The birds whose airspeed was measured, each flown over a range of speeds from its mass, span and area alone."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import wingbeat as wb
+from wingbeat.errors import FileError
+from wingbeat.files import read_text
+from wingbeat.orbits.solve import Progress
+
+AIRSPEEDS = "bird_airspeed_alerstam2007.csv"
+FREQUENCIES, LEVEL_FLIGHT, AMPLITUDES = (
+    "check_frequency.csv",
+    "alcid_level_flight.csv",
+    "alcid_stroke_amplitude.csv",
+)
+# Of the speed at which a wing at lift coefficient 1 carries the bird; measured airspeeds play no part in them.
+SPEEDS = (0.65, 0.8, 0.95, 1.1, 1.25, 1.4, 1.6)
+POWER, FREQUENCY, HELD = "least power", "least frequency", "least power, amplitude held"
+ENGLISH = {
+    "Uria aalge": "Common murre",
+    "Fratercula corniculata": "Horned puffin",
+    "Fratercula cirrhata": "Tufted puffin",
+    "Cepphus columba": "Pigeon guillemot",
+}
+
+
+@dataclass(frozen=True)
+class Bird:
+    """A species: biometry and airspeed [m/s]; of a few, measured frequency [Hz] and half amplitude [deg]."""
+
+    name: str
+    mass: float
+    span: float
+    area: float
+    airspeed: float
+    airspeed_sd: float = math.nan
+    frequency: float = math.nan
+    frequency_sd: float = math.nan
+    amplitude_deg: float = math.nan
+
+    @property
+    def species(self) -> wb.Species:
+        """The bird as the scaling laws have it."""
+        return wb.bird(mass=self.mass, wing_span=self.span, wing_area=self.area, name=self.name)
+
+
+@dataclass(frozen=True)
+class Point:
+    """What came out for one bird at one speed; not-a-number where no orbit was certified."""
+
+    species: str
+    asked: str
+    speed: float
+    status: str
+    power: float
+    frequency: float
+    amplitude_deg: float
+    active_bounds: str
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    if not path.is_file():
+        raise FileError(f"cannot find {path.name} in {str(path.parent)!r}; the data are not part of this project")
+    return list(csv.DictReader(line for line in read_text(path).splitlines() if line and not line.startswith("#")))
+
+
+def _number(text: str) -> float:
+    return float(text) if text else math.nan
+
+
+def radar_birds(folder: Path) -> list[Bird]:
+    """Return the species of Alerstam et al. 2007 with mass, span, area and airspeed."""
+    found = []
+    for row in _rows(folder / AIRSPEEDS):
+        size = [row[key] for key in ("mass_kg", "wingspan_m", "wing_area_m2", "Ue_m_s")]
+        if all(size):
+            found.append(Bird(row["species"], *map(float, size), _number(row["Ue_sd_m_s"])))
+    return found
+
+
+def timed_birds(folder: Path) -> list[Bird]:
+    """Return the few birds of measured wingbeat frequency, at the speed at which it was measured."""
+    speeds, strokes = _rows(folder / LEVEL_FLIGHT), _rows(folder / AMPLITUDES)
+
+    def mean(rows: list[dict[str, str]], key: str) -> float:
+        return sum(float(row[key]) for row in rows) / len(rows)
+
+    found = []
+    for row in _rows(folder / FREQUENCIES):
+        if not row["frequency_kind"].startswith("measured"):
+            continue
+        name = row["species"]
+        size = [float(row[key]) for key in ("mass_kg", "wingspan_m", "wing_area_m2")]
+        beat = float(row["f_Hz"]), float(row["f_sd_Hz"])
+        if name in ENGLISH:
+            speed = mean([r for r in speeds if r["species"] == ENGLISH[name]], "ground_speed_m_s")
+            own = [r for r in strokes if r["species"] == ENGLISH[name] and r["fluid"] == "Air"]
+            found.append(Bird(name, *size, speed, math.nan, *beat, 0.5 * mean(own, "stroke_amplitude_deg")))
+        else:  # the pigeon, in slow flight at 4.46 m/s with its load
+            found.append(Bird(name, *size, 4.46, 0.27, *beat))
+    return found
+
+
+def problems(radar: list[Bird], timed: list[Bird]) -> list[tuple[str, wb.OrbitProblem]]:
+    """Return every problem of the study with the name of what it asks."""
+    asked = []
+    for bird in radar:
+        species = bird.species
+        air = species.air
+        at_one = math.sqrt(2 * bird.mass * air.gravity / (air.density * bird.area))
+        for speed in (*(factor * at_one for factor in SPEEDS), bird.airspeed):
+            asked.append((POWER, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power")))
+        asked.append((FREQUENCY, wb.OrbitProblem(species, speed=bird.airspeed)))
+    for bird in timed:
+        species, speed = bird.species, bird.airspeed
+        asked.append((POWER, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power")))
+        asked.append((FREQUENCY, wb.OrbitProblem(species, speed=speed)))
+        if math.isfinite(bird.amplitude_deg):
+            held = f"flap_amplitude={bird.amplitude_deg} deg"
+            asked.append(
+                (HELD, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power", subject_to=[held]))
+            )
+    return asked
+
+
+def fly(asked: list[tuple[str, wb.OrbitProblem]], processes: int, progress: Progress | None = None) -> list[Point]:
+    """Solve all of it in one batch."""
+    problems = [problem for _, problem in asked]
+    orbits = wb.solve_orbits(problems, starts=1, processes=processes, progress=progress, most_starts=8)
+    return [_point(what, problem, orbit) for (what, problem), orbit in zip(asked, orbits, strict=True)]
+
+
+def _point(what: str, problem: wb.OrbitProblem, orbit: wb.Orbit) -> Point:
+    named = problem.species.name, what, problem.speed, orbit.status.value
+    if orbit.status is not wb.Status.CONVERGED:
+        return Point(*named, math.nan, math.nan, math.nan, "")
+    record = orbit.record()
+    beat, bounds = record["wingbeat"], " ".join(record["active_bounds"])
+    amplitude = math.degrees(beat["flap_amplitude"])
+    return Point(*named, record["mean_positive_power"], beat["frequency"], amplitude, bounds)
+
+
+def to_csv(points: list[Point]) -> str:
+    """Return the points as a CSV file's text."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(Point.__dataclass_fields__)
+    for point in points:
+        writer.writerow([f"{value:.6g}" if isinstance(value, float) else value for value in vars(point).values()])
+    return text.getvalue()
+
+
+def from_csv(path: Path) -> list[Point]:
+    """Return the points that `to_csv` wrote."""
+    return [
+        Point(**{key: float(value) if key in _FLOATS else value for key, value in row.items()})  # type: ignore[arg-type]
+        for row in _rows(path)
+    ]
+
+
+_FLOATS = ("speed", "power", "frequency", "amplitude_deg")

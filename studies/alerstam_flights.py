@@ -11,6 +11,7 @@ from pathlib import Path
 import wingbeat as wb
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
+from wingbeat.orbits.batch import in_processes
 from wingbeat.orbits.solve import Progress
 
 AIRSPEEDS = "bird_airspeed_alerstam2007.csv"
@@ -21,6 +22,8 @@ FREQUENCIES, LEVEL_FLIGHT, AMPLITUDES = (
 )
 # Of the speed at which a wing at lift coefficient 1 carries the bird; measured airspeeds play no part in them.
 SPEEDS = (0.65, 0.8, 0.95, 1.1, 1.25, 1.4, 1.6)
+# A power curve that rises by more than this share above the line between neighbours is no power curve.
+ROUGH = 0.01
 POWER, FREQUENCY, HELD = "least power", "least frequency", "least power, amplitude held"
 ENGLISH = {
     "Uria aalge": "Common murre",
@@ -64,7 +67,8 @@ class Point:
     active_bounds: str
 
 
-def _rows(path: Path) -> list[dict[str, str]]:
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a CSV file whose comments begin with #."""
     if not path.is_file():
         raise FileError(f"cannot find {path.name} in {str(path.parent)!r}; the data are not part of this project")
     return list(csv.DictReader(line for line in read_text(path).splitlines() if line and not line.startswith("#")))
@@ -77,7 +81,7 @@ def _number(text: str) -> float:
 def radar_birds(folder: Path) -> list[Bird]:
     """Return the species of Alerstam et al. 2007 with mass, span, area and airspeed."""
     found = []
-    for row in _rows(folder / AIRSPEEDS):
+    for row in read_rows(folder / AIRSPEEDS):
         size = [row[key] for key in ("mass_kg", "wingspan_m", "wing_area_m2", "Ue_m_s")]
         if all(size):
             found.append(Bird(row["species"], *map(float, size), _number(row["Ue_sd_m_s"])))
@@ -86,13 +90,13 @@ def radar_birds(folder: Path) -> list[Bird]:
 
 def timed_birds(folder: Path) -> list[Bird]:
     """Return the few birds of measured wingbeat frequency, at the speed at which it was measured."""
-    speeds, strokes = _rows(folder / LEVEL_FLIGHT), _rows(folder / AMPLITUDES)
+    speeds, strokes = read_rows(folder / LEVEL_FLIGHT), read_rows(folder / AMPLITUDES)
 
     def mean(rows: list[dict[str, str]], key: str) -> float:
         return sum(float(row[key]) for row in rows) / len(rows)
 
     found = []
-    for row in _rows(folder / FREQUENCIES):
+    for row in read_rows(folder / FREQUENCIES):
         if not row["frequency_kind"].startswith("measured"):
             continue
         name = row["species"]
@@ -136,6 +140,52 @@ def fly(asked: list[tuple[str, wb.OrbitProblem]], processes: int, progress: Prog
     return [_point(what, problem, orbit) for (what, problem), orbit in zip(asked, orbits, strict=True)]
 
 
+def curves(points: list[Point]) -> dict[str, list[Point]]:
+    """Return the points of least power of each species, by rising speed; what was not certified is left out."""
+    found: dict[str, list[Point]] = {}
+    for point in sorted(points, key=lambda point: point.speed):
+        if point.asked == POWER and math.isfinite(point.power):
+            found.setdefault(point.species, []).append(point)
+    return found
+
+
+def rough(curve: list[Point]) -> bool:
+    """Say whether a point lies above its neighbours as power curves do not: another family, a poorer optimum."""
+    speeds = [point.speed for point in curve]
+    logs = [math.log(point.power) for point in curve]
+    for i in range(1, len(curve) - 1):
+        share = (speeds[i] - speeds[i - 1]) / (speeds[i + 1] - speeds[i - 1])
+        if logs[i] > logs[i - 1] + share * (logs[i + 1] - logs[i - 1]) + ROUGH:
+            return True
+    return False
+
+
+def fly_again(
+    points: list[Point], radar: list[Bird], processes: int, progress: Progress | None = None
+) -> list[Point]:
+    """Search the rough curves again, each speed from its neighbours' answers; keep what costs less power."""
+    by_name, own = {bird.name: bird for bird in radar}, curves(points)
+    poor = [
+        by_name[name] for name in by_name if name not in own or rough(own[name]) or len(own[name]) <= len(SPEEDS)
+    ]
+    series = [p for found in in_processes(_series, poor, processes, progress) for p in found]
+    least = {(p.species, p.asked, round(p.speed, 9)): p for p in series}
+    return [_better(point, least.get((point.species, point.asked, round(point.speed, 9)))) for point in points]
+
+
+def _better(one: Point, other: Point | None) -> Point:
+    return (
+        one if other is None or not other.power < (one.power if math.isfinite(one.power) else math.inf) else other
+    )
+
+
+def _series(bird: Bird) -> list[Point]:
+    asked = [problem for what, problem in problems([bird], []) if what == POWER]
+    asked.sort(key=lambda problem: problem.speed)
+    orbits = wb.solve_series(asked, starts=2, most_starts=8)
+    return [_point(POWER, problem, orbit) for problem, orbit in zip(asked, orbits, strict=True)]
+
+
 def _point(what: str, problem: wb.OrbitProblem, orbit: wb.Orbit) -> Point:
     named = problem.species.name, what, problem.speed, orbit.status.value
     if orbit.status is not wb.Status.CONVERGED:
@@ -160,7 +210,7 @@ def from_csv(path: Path) -> list[Point]:
     """Return the points that `to_csv` wrote."""
     return [
         Point(**{key: float(value) if key in _FLOATS else value for key, value in row.items()})  # type: ignore[arg-type]
-        for row in _rows(path)
+        for row in read_rows(path)
     ]
 
 

@@ -269,6 +269,26 @@ def test_new_writes_a_file_that_loads(run: Any, tmp_path: Path) -> None:
     assert run("species", str(path))[0] == 0
 
 
+def test_new_derives_a_bird_of_a_size(run: Any, tmp_path: Path) -> None:
+    path = tmp_path / "crow.toml"
+    size = ("--mass", "0.3", "--wing-span", "0.62", "--wing-area", "0.06")
+    code, _, errors = run("species", "new", str(path), "--kind", "bird", *size)
+    assert (code, errors) == (0, [])
+    crow = load_species(path)
+    assert (crow.name, crow.vehicle.mass) == ("crow", pytest.approx(0.3))
+    assert "doi 10.1242/jeb.198.8.1655" in crow.numbers["vehicle.wing.mass"].source
+    code, _, errors = run("species", "new", str(path), "--force", "--kind", "bat", *size[:2])
+    assert (code, len(errors)) == (2, 2)
+    assert errors[0].startswith("error: --wing-span = None: must be given")
+    code, _, errors = run("species", "new", str(path), "--force", *size)
+    assert (code, len(errors)) == (2, 3)
+    assert "add --kind bird, bat or robot" in errors[0]
+    code, _, errors = run("species", "new", str(path), "--force", "--kind", "bird", *size[:5], "6")
+    assert (code, len(errors)) == (2, 1)
+    assert "larger than the square of the span" in errors[0]
+    assert load_species(path).name == "crow"
+
+
 def test_new_does_not_replace_a_file_unless_forced(run: Any, tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("precious")

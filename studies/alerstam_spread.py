@@ -1,0 +1,67 @@
+"""How far the spread of each derived number, and each guess, moves the answers for a few birds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from alerstam_flights import POWER, SPEEDS, Bird, Point, fly
+from alerstam_summary import best_speeds
+
+import wingbeat as wb
+
+# Birds of three sizes, within, at and beyond the Reynolds numbers of the fit.
+BIRDS = ("Apus apus", "Columba palumbus", "Larus argentatus")
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Minimum-power and maximum-range speed [m/s] and least power [W] of one bird with one number changed."""
+
+    species: str
+    what: str
+    min_power_speed: float
+    max_range_speed: float
+    least_power: float
+
+
+def variants(bird: Bird) -> dict[str, wb.Species]:
+    """Return the bird, and the bird with each number at either end of its spread."""
+    plain = bird.species
+    found = {"as derived": plain}
+    for name, path in (
+        ("wing_mass", "vehicle.wing.mass"),
+        ("mass_exponent", "vehicle.wing.mass_exponent"),
+        ("pitch_inertia", "vehicle.body.pitch_inertia"),
+        ("semi_span", "vehicle.wing.semi_span"),
+        ("chord", "vehicle.wing.chord"),
+        ("span_retraction", "wingbeat.span_retraction"),
+    ):
+        number = plain.numbers[path]
+        for end, value in zip(("low", "high"), number.range or (), strict=True):
+            changed: dict[str, Any] = {name: min(value, 0.5 * bird.span) if name == "semi_span" else value}
+            found[f"{name} {end}"] = wb.bird(
+                mass=bird.mass, wing_span=bird.span, wing_area=bird.area, name=bird.name, **changed
+            )
+    return found | {"body-drag": plain.with_alternative("body-drag")}
+
+
+def spreads(radar: list[Bird], processes: int) -> list[Moved]:
+    """Fly every variant of the few birds over the study's speeds, in one batch."""
+    asked, named = [], []
+    for bird in (bird for bird in radar if bird.name in BIRDS):
+        for what, species in variants(bird).items():
+            named.append((bird.name, what))
+            at_one = math.sqrt(2 * bird.mass * species.air.gravity / (species.air.density * bird.area))
+            for factor in SPEEDS:
+                asked.append(
+                    (POWER, wb.OrbitProblem(species, speed=factor * at_one, minimise="mean_positive_power"))
+                )
+    points = fly(asked, processes)
+    found = []
+    for i, (name, what) in enumerate(named):
+        curve: list[Point] = points[i * len(SPEEDS) : (i + 1) * len(SPEEDS)]
+        best = best_speeds([point for point in curve if math.isfinite(point.power)])
+        found.append(Moved(name, what, *best))
+    return found

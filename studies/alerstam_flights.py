@@ -150,7 +150,12 @@ def curves(points: list[Point]) -> dict[str, list[Point]]:
 
 
 def rough(curve: list[Point]) -> bool:
-    """Say whether a point lies above its neighbours as power curves do not: another family, a poorer optimum."""
+    """Say whether a point lies above its neighbours as power curves do not, or one was not certified.
+
+    Such a point is a poorer optimum, or of another family of orbits.
+    """
+    if not all(math.isfinite(point.power) for point in curve):
+        return True
     speeds = [point.speed for point in curve]
     logs = [math.log(point.power) for point in curve]
     for i in range(1, len(curve) - 1):
@@ -168,7 +173,8 @@ def fly_again(
     poor = [
         by_name[name] for name in by_name if name not in own or rough(own[name]) or len(own[name]) <= len(SPEEDS)
     ]
-    series = [p for found in in_processes(_series, poor, processes, progress) for p in found]
+    again = [[problem for what, problem in problems([bird], []) if what == POWER] for bird in poor]
+    series = [point for found in in_processes(fly_series, again, processes, progress) for point in found]
     least = {(p.species, p.asked, round(p.speed, 9)): p for p in series}
     return [_better(point, least.get((point.species, point.asked, round(point.speed, 9)))) for point in points]
 
@@ -179,9 +185,9 @@ def _better(one: Point, other: Point | None) -> Point:
     )
 
 
-def _series(bird: Bird) -> list[Point]:
-    asked = [problem for what, problem in problems([bird], []) if what == POWER]
-    asked.sort(key=lambda problem: problem.speed)
+def fly_series(asked: list[wb.OrbitProblem]) -> list[Point]:
+    """Fly one bird's problems of least power, each speed helped by its neighbours; by rising speed."""
+    asked = sorted(asked, key=lambda problem: problem.speed)
     orbits = wb.solve_series(asked, starts=2, most_starts=8)
     return [_point(POWER, problem, orbit) for problem, orbit in zip(asked, orbits, strict=True)]
 

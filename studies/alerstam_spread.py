@@ -6,10 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from alerstam_flights import POWER, SPEEDS, Bird, Point, fly
+from alerstam_flights import POWER, SPEEDS, Bird, fly, fly_series, rough
 from alerstam_summary import best_speeds
 
 import wingbeat as wb
+from wingbeat.orbits.batch import in_processes
 
 # Birds of three sizes, within, at and beyond the Reynolds numbers of the fit.
 BIRDS = ("Apus apus", "Columba palumbus", "Larus argentatus")
@@ -59,9 +60,15 @@ def spreads(radar: list[Bird], processes: int) -> list[Moved]:
                     (POWER, wb.OrbitProblem(species, speed=factor * at_one, minimise="mean_positive_power"))
                 )
     points = fly(asked, processes)
-    found = []
-    for i, (name, what) in enumerate(named):
-        curve: list[Point] = points[i * len(SPEEDS) : (i + 1) * len(SPEEDS)]
-        best = best_speeds([point for point in curve if math.isfinite(point.power)])
-        found.append(Moved(name, what, *best))
-    return found
+    count = len(SPEEDS)
+    flown = [points[i * count : (i + 1) * count] for i in range(len(named))]
+    poor = [i for i, curve in enumerate(flown) if rough(curve) or math.isnan(best_speeds(curve)[0])]
+    again = [[problem for _, problem in asked[i * count : (i + 1) * count]] for i in poor]
+    for i, curve in zip(poor, in_processes(fly_series, again, processes), strict=True):
+        flown[i] = [
+            p if p.power < q.power or math.isnan(q.power) else q for p, q in zip(curve, flown[i], strict=True)
+        ]
+    return [
+        Moved(name, what, *best_speeds([point for point in curve if math.isfinite(point.power)]))
+        for (name, what), curve in zip(named, flown, strict=True)
+    ]

@@ -247,7 +247,7 @@ TAIL = """
   speeds are nearly fixed multiples of that at lift coefficient 1 (panel D), as coefficients that do not know the
   Reynolds number must make them. Measured speeds are no such multiple: birds with lightly loaded wings fly far
   above. To foretell the airspeed of a species the model serves no better than one speed for all.
-- The misses are largest where the plate was fitted, so flying beyond the fit does not explain them.
+- The misses are largest where the plate was fitted, so flying beyond the fit does not by itself explain them.
 - What may explain them, none of it tested here: no induced flow (slow flight looks too cheap, so both speeds come
   out too low); a thick plate's drag at small angles (fast flight looks too dear, with the same effect); small birds
   that bound with folded wings, which the model cannot; and birds on passage that choose their speed for other ends
@@ -257,5 +257,7 @@ TAIL = """
 - Least power asks for some twice the frequency of animals, often for as much as its bound lets it have, and more
   with the measured amplitude of the alcids. Positive hinge power puts no price on frequency as such; muscles do.
 - Power is several times what was measured. A power from this model is not an animal's.
-- The table above says what the laws' spread can change. It is one number at a time, for three birds.
+- The spread of the derived numbers does not close the gap: the table above moves either speed by a tenth or so, and
+  power by a quarter. The guessed span retraction moves the minimum-power speed most. It is one number at a time,
+  for three birds.
 """

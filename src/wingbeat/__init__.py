@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from wingbeat.orbits.quantities import Frequency as Frequency
     from wingbeat.orbits.quantities import PowerCost as PowerCost
     from wingbeat.orbits.quantities import Quantity as Quantity
+    from wingbeat.orbits.quantities import SpringPower as SpringPower
     from wingbeat.orbits.solution import Status as Status
     from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
@@ -68,6 +69,7 @@ _HOME = {
     "PowerCost": "orbits.quantities",
     "Quantity": "orbits.quantities",
     "Species": "species",
+    "SpringPower": "orbits.quantities",
     "State": "model",
     "Status": "orbits.solution",
     "Vehicle": "vehicle",

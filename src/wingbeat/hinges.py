@@ -1,4 +1,4 @@
-"""What the hinges must give: torques and powers, from sums over the wing that depend on time alone.
+"""What the hinges must give, and for what: torques and powers, from sums over the wing that depend on time alone.
 
 By d'Alembert the effort along a motion of the wing is ``sum m (r'' - g) . v - F . v``, v what that motion does to
 each point: for a hinge torque dr/d(angle), for the power of all actuators dr/dt in body axes. In stroke axes
@@ -60,12 +60,32 @@ class HingeMotion(NamedTuple):
 
 
 class HingeLoads(NamedTuple):
-    """Hinge torques [N m] and powers [W], both wings together."""
+    """Hinge torques [N m] and powers [W], both wings together.
+
+    The hinge power is the sum of three shares: ``aerodynamic_power`` against the air loads, ``inertial_power`` that
+    speeds up the wings as seen from the body, and ``body_power``, the rest: the wings are carried by a body that
+    accelerates and turns, in gravity.
+    """
 
     flap_torque: Any
     pitch_torque: Any
     hinge_power: Any
     actuator_power: Any
+    aerodynamic_power: Any
+    inertial_power: Any
+    body_power: Any
+
+
+class _Effort(NamedTuple):
+    """What a motion of the wing takes against the air, for its own acceleration in the body, and for the body's."""
+
+    air: Any
+    inertia: Any
+    body: Any
+
+    @property
+    def whole(self) -> Any:
+        return self.body + self.inertia + self.air
 
 
 class _Chords(NamedTuple):
@@ -149,15 +169,22 @@ def hinge_loads(
     moments = strip_moments(model.kernel, motion, strips) if model.at_centre_of_pressure else 0.0
     felt = from_world(attitude, ax, az + model.air.gravity)
 
-    def effort(along: Along) -> Any:
-        inertial = (
-            dot(felt, along.first_moment)
+    def effort(along: Along) -> _Effort:
+        return _Effort(
+            air=-2.0 * over_strips(strips.normal * along.lever + moments * along.turning),
+            inertia=along.push,
+            body=dot(felt, along.first_moment)
             + pitch_acceleration * along.swirl
             - pitch_rate * pitch_rate * along.spin
-            + 2.0 * pitch_rate * along.coriolis
-            + along.push
+            + 2.0 * pitch_rate * along.coriolis,
         )
-        return inertial - 2.0 * over_strips(strips.normal * along.lever + moments * along.turning)
 
     flap, pitch = effort(hinges.flap), effort(hinges.pitch)
-    return HingeLoads(flap, pitch, flap * hinges.flap_rate + pitch * hinges.pitch_rate, effort(hinges.whole))
+    shares = (a * hinges.flap_rate + b * hinges.pitch_rate for a, b in zip(flap, pitch, strict=True))
+    return HingeLoads(
+        flap.whole,
+        pitch.whole,
+        flap.whole * hinges.flap_rate + pitch.whole * hinges.pitch_rate,
+        effort(hinges.whole).whole,
+        *shares,
+    )

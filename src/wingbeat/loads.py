@@ -41,6 +41,9 @@ class Loads(NamedTuple):
     pitch_torque: Any
     hinge_power: Any
     actuator_power: Any
+    aerodynamic_power: Any
+    inertial_power: Any
+    body_power: Any
     air_power: Any
     centre_of_mass: Any
     momentum: Any
@@ -108,10 +111,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         drag=air.strips.drag,
         strip_force=air.strip_force,
         air_force=air.generalised,
-        flap_torque=hinges.flap_torque,
-        pitch_torque=hinges.pitch_torque,
-        hinge_power=hinges.hinge_power,
-        actuator_power=hinges.actuator_power,
+        **hinges._asdict(),
         air_power=air.power,
         **whole,
     )

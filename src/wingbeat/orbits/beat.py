@@ -42,6 +42,9 @@ class Beat(NamedTuple):
     pitch_torque: Any
     hinge_power: Any
     actuator_power: Any
+    aerodynamic_power: Any
+    inertial_power: Any
+    body_power: Any
     alpha: Any
     lift: Any
     drag: Any
@@ -55,15 +58,20 @@ class Beat(NamedTuple):
         return jnp.mean(0.5 * (values[:-1] + values[1:]))
 
     def mean_positive(self, values: Any) -> Any:
-        """Return the mean of the positive part of a series, which runs straight between its samples.
+        """Return the mean of the positive part of a series, which runs straight between its samples."""
+        return mean_positive(values)
 
-        Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero.
-        """
-        before, after = values[:-1], values[1:]
-        crosses = before * after < 0.0
-        part = jnp.maximum(before, after) ** 2 / jnp.where(crosses, jnp.abs(before - after), 1.0)
-        whole = jnp.maximum(before, 0.0) + jnp.maximum(after, 0.0)
-        return 0.5 * jnp.mean(jnp.where(crosses, part, whole))
+
+def mean_positive(values: Any) -> Any:
+    """Return the mean of the positive part of samples at equal phases, straight lines between them.
+
+    Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero.
+    """
+    before, after = values[:-1], values[1:]
+    crosses = before * after < 0.0
+    part = jnp.maximum(before, after) ** 2 / jnp.where(crosses, jnp.abs(before - after), 1.0)
+    whole = jnp.maximum(before, 0.0) + jnp.maximum(after, 0.0)
+    return 0.5 * jnp.mean(jnp.where(crosses, part, whole))
 
 
 # Numbers of a beat that are no series.
@@ -91,10 +99,7 @@ def _series(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_
         flap_rate=moved.flap_rate,
         wing_pitch=pitch_angle(wingbeat, phase),
         wing_pitch_rate=moved.pitch_rate,
-        flap_torque=hinges.flap_torque,
-        pitch_torque=hinges.pitch_torque,
-        hinge_power=hinges.hinge_power,
-        actuator_power=hinges.actuator_power,
+        **hinges._asdict(),
         alpha=strips.alpha.T,
         lift=strips.lift.T,
         drag=strips.drag.T,

@@ -14,6 +14,7 @@ import numpy as np
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jnp
 from wingbeat.orbits.beat import Beat
+from wingbeat.orbits.springs import SpringCost
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,40 @@ def PowerCost(returned: float = 0.0) -> Quantity:
     faults = FaultList()
     faults.number("returned", returned, at_least=-1, at_most=1, fix="0: negative work is lost; 1: it is returned")
     faults.raise_if_any()
-    return Quantity(f"power_cost({returned:g})", _Cost("hinge_power", returned), "W")
+    return Quantity(f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), "W")
+
+
+def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
+    """Return the mean positive hinge power that springs at the flap hinges leave to the actuators.
+
+    A spring's torque is ``-k (flap - rest)``; what an actuator gives is the hinge torque less that of the spring.
+    What it brakes is free but lost, as in ``mean_positive_power``, which is this without a spring.
+
+    Parameters
+    ----------
+    stiffness : k of both springs together [N m/rad].
+    rest_angle : flap angle at which they are slack [rad]; the middle of the stroke if not given.
+
+    Raises
+    ------
+    InvalidInputError : a negative stiffness, a rest angle beyond half a turn, not finite.
+
+    >>> SpringPower(0.5).name, SpringPower(0.5, -0.1).name
+    ('spring_power(0.5)', 'spring_power(0.5,-0.1)')
+    """
+    faults = FaultList()
+    faults.number("stiffness", stiffness, at_least=0, unit="N m/rad", fix="of both springs together")
+    if rest_angle is not None:
+        faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit="rad")
+    faults.raise_if_any()
+    numbers = [stiffness] if rest_angle is None else [stiffness, rest_angle]
+    name = f"spring_power({','.join(map(_exactly, numbers))})"
+    return Quantity(name, SpringCost(*map(float, numbers)), "W")
+
+
+def _exactly(number: float) -> str:
+    """Return the shortest text that is read back as the very number."""
+    return repr(float(number)).removesuffix(".0")
 
 
 def _cost_of_transport(beat: Beat) -> Any:
@@ -193,6 +227,7 @@ class Constraint:
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _POWER_COST = re.compile(rf"power_cost\(({_NUMBER})\)")
+_SPRING_POWER = re.compile(rf"spring_power\(({_NUMBER})(?:,\s*({_NUMBER}))?\)")
 
 
 def named_quantity(name: str) -> Quantity:
@@ -204,10 +239,16 @@ def named_quantity(name: str) -> Quantity:
     """
     if found := _POWER_COST.fullmatch(str(name)):
         return PowerCost(float(found[1]))
+    if found := _SPRING_POWER.fullmatch(str(name)):
+        return SpringPower(*(float(number) for number in found.groups() if number is not None))
     if name not in QUANTITIES:
         faults = FaultList()
         close = difflib.get_close_matches(str(name), QUANTITIES, n=1)
-        fix = f"did you mean {close[0]}?" if close else f"there are {', '.join(QUANTITIES)}, power_cost(0.5)"
+        fix = (
+            f"did you mean {close[0]}?"
+            if close
+            else f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
+        )
         faults.add("quantity", name, "is not one that wingbeat knows", fix)
         faults.raise_if_any()
     return QUANTITIES[name]
@@ -220,11 +261,12 @@ def named_objective(name: str) -> Frequency | Quantity:
     ------
     InvalidInputError : there is none.
     """
-    name = str(name).replace("-", "_")
+    word, bracket, numbers = str(name).partition("(")
+    name = word.replace("-", "_") + bracket + numbers  # a minus in the brackets is one
     return Frequency() if name == "frequency" else named_quantity(_SHORT.get(name, name))
 
 
-_EXPRESSION = re.compile(rf"\s*([\w().+-]+)\s*(<=|>=)\s*({_NUMBER})\s*(deg)?\s*")
+_EXPRESSION = re.compile(rf"\s*([\w.+-]+(?:\([^()]*\))?)\s*(<=|>=)\s*({_NUMBER})\s*(deg)?\s*")
 
 
 def parse_constraint(text: str) -> Constraint:

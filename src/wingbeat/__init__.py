@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from wingbeat.orbits.solution import Status as Status
     from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
+    from wingbeat.results.glide import GlidePolar as GlidePolar
+    from wingbeat.results.glide import glide_polar as glide_polar
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
     from wingbeat.results.orbit import solve_orbit as solve_orbit
@@ -63,6 +65,7 @@ _HOME = {
     "Flight": "results.flight",
     "FlightModel": "model",
     "Frequency": "orbits.quantities",
+    "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem",
@@ -83,6 +86,7 @@ _HOME = {
     "flight_loads": "loads",
     "flight_model": "model",
     "generalised_torques": "five_coordinates",
+    "glide_polar": "results.glide",
     "load_orbit": "results.orbit",
     "load_species": "species",
     "robot": "species",

@@ -36,6 +36,7 @@ Settings = Annotated[
         help="Numbers to change, PATH=VALUE with the paths of the record: wing.mass=0.02 air.density=1.0 ...",
     ),
 ]
+Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
 AeroName = Annotated[
     str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), a table (.csv) or a fit (.toml).")
 ]
@@ -48,8 +49,8 @@ Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
 ForcePoint = Annotated[str, Parameter(help="Where the force acts: quarter-chord or centre-of-pressure.")]
 
 
-def species_with(name: str, settings: list[str] | None) -> Species:
-    """Load a species and change the numbers given with ``--set``; all faults of the settings at once."""
+def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
+    """Load a species, change the numbers given with ``--set``, and load it; all faults of the settings at once."""
     species = load_species(name)
     values, faults = {}, FaultList()
     if settings is not None and not settings:
@@ -64,7 +65,7 @@ def species_with(name: str, settings: list[str] | None) -> Species:
             faults.add("--set", text, "is set twice", "keep one of them")
         values[path] = value
     faults.raise_if_any()
-    return species.with_values(values) if values else species
+    return (species.with_values(values) if values else species).with_payload(payload)
 
 
 def aero_with(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:

@@ -18,6 +18,7 @@ from wingbeat.cli.options import (
     BlendWidth,
     Extension,
     ForcePoint,
+    Payload,
     Settings,
     Strips,
     Whole,
@@ -70,6 +71,7 @@ def orbit(
     starts: Annotated[Whole, Parameter(help="Number of searches; more find better optima.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
+    payload: Payload = 0.0,
     from_: Annotated[
         Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
     ] = None,
@@ -116,7 +118,7 @@ def orbit(
     else:
         assert species is not None
         assert speed is not None
-        animal = species_with(species, set_)
+        animal = species_with(species, set_, payload)
         bounds = {}
         if flap_amplitude_max is not None:
             least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]

@@ -53,7 +53,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
             "warnings": species.warnings,
             "numbers": species.numbers,
         },
-        "vehicle": vehicle_record(problem),
+        "vehicle": vehicle_record(problem.vehicle),
         "stock_wingbeat": dict(vars(species.wingbeat)),
         "aero": aero,
         "air": dict(vars(problem.air)),

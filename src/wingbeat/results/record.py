@@ -14,14 +14,15 @@ from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.results.warnings import orbit_warnings
+from wingbeat.vehicle import Vehicle
 
 
-def vehicle_record(problem: OrbitProblem) -> dict[str, Any]:
+def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
-    wing = dict(vars(problem.vehicle.wing))
+    wing = dict(vars(vehicle.wing))
     wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
     wing["shoulder"] = list(wing["shoulder"])
-    return {"body": dict(vars(problem.vehicle.body)), "wing": wing}
+    return {"body": dict(vars(vehicle.body)), "wing": wing}
 
 
 def aero_record(aero: BladeElement) -> dict[str, Any]:
@@ -45,7 +46,7 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "status": solution.status.value,
         "message": solution.message,
         "species": problem.species.name,
-        "vehicle": vehicle_record(problem),
+        "vehicle": vehicle_record(problem.vehicle),
         "aero": aero_record(problem.aero),
         "air": dict(vars(problem.air)),
         "speed": float(problem.speed),

@@ -94,6 +94,26 @@ class Species:
             given.put(key, Number(to_si(value, path), key.unit, source, old.range), path, value)
         return self._rebuilt(self.numbers | given, given, faults)
 
+    def with_payload(self, payload: float) -> Species:
+        """Return this species carrying a load at its body's centre of mass: a heavier body, and nothing else.
+
+        Parameters
+        ----------
+        payload : mass of the load [kg].
+
+        Raises
+        ------
+        InvalidInputError : a negative payload, not finite, no number.
+
+        >>> from wingbeat.species import load_species
+        >>> round(load_species("pigeon").with_payload(0.03).vehicle.mass, 3)
+        0.346
+        """
+        faults = FaultList()
+        faults.number("payload", payload, at_least=0, unit="kg", fix="0 is no load")
+        faults.raise_if_any()
+        return self.with_values({"body.mass": self.vehicle.body.mass + payload}) if payload else self
+
     def with_alternative(self, name: str) -> Species:
         """Return this species with the numbers of one of its `alternatives`.
 

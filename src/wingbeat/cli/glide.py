@@ -1,0 +1,126 @@
+"""``wingbeat glide``: the steady glides of wings held still."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+import os
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import (
+    AeroName,
+    BlendWidth,
+    Extension,
+    ForcePoint,
+    Payload,
+    Settings,
+    Strips,
+    aero_with,
+    check_outputs,
+    species_with,
+)
+from wingbeat.cli.ranges import parse_range
+from wingbeat.errors import FaultList
+from wingbeat.glide import Glide
+from wingbeat.plots import check_figure_name, glide_page, save_figure
+from wingbeat.results.glide import GlidePolar, glide_polar
+
+_HEADS = {"alpha": "deg", "speed": "m/s", "sink": "m/s", "ratio": "-", "path": "deg", "body": "deg", "wing": "deg"}
+_HEADS |= {"flap": "deg", "tail": "N m", "hold": "N m"}
+
+
+def glide(
+    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    *,
+    alpha: Annotated[str, Parameter(help="Angles of attack at the wing's root [deg], start:stop:step.")] = "1:30:1",
+    flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
+    trim: Annotated[
+        str,
+        Parameter(help="What is turned until the pitching moment vanishes: body-pitch, flap, or tail (nothing)."),
+    ] = "body-pitch",
+    aero: AeroName = "su-fan",
+    extension: Extension = "mirrored",
+    blend_width_deg: BlendWidth = 1.0,
+    force_point: ForcePoint = "quarter-chord",
+    strips: Strips = 10,
+    set_: Settings = None,
+    payload: Payload = 0.0,
+    json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write the polar to this NetCDF file.")
+    ] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
+
+    Where no angle trims the pitching moment, the table says what a tail would have to give.
+    Exit code 3: no steady glide at any of the angles.
+
+    Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
+    """
+    faults = FaultList()
+    if plot is not None:
+        check_figure_name(faults, "--plot", plot)
+    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
+        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    faults.raise_if_any()
+    angles = parse_range(alpha, "--alpha")
+    if not 0 < angles[0] <= angles[-1] <= 90 or (np.diff(angles) < 0).any():
+        faults.add("--alpha", alpha, "must rise from above 0 to at most 90 degrees", "for example 1:30:1")
+    if not -90 < flap_deg < 90:
+        faults.add("--flap-deg", flap_deg, "must be between -90 and 90 degrees")
+    faults.raise_if_any()
+    animal = species_with(species, set_, payload)
+    loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+    check_outputs(output, plot)
+    polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
+    if output:
+        polar.save(output)
+    if plot:
+        save_figure(glide_page(polar.dataset), plot)
+    if json:
+        print(json_format.dumps(polar.record(), indent=2, allow_nan=False))
+    else:
+        _print(polar)
+    return EXIT_GOOD if any(math.isfinite(one.speed) for one in polar.glides) else EXIT_NOT_CERTIFIED
+
+
+def _print(polar: GlidePolar) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    # Names come from files, and as markup [deg] would vanish.
+    console = Console(markup=False, highlight=False, emoji=False)
+    table = Table(box=None, pad_edge=False)
+    for head, unit in _HEADS.items():
+        table.add_column(Text(f"{head}\n[{unit}]"), justify="right", no_wrap=True)
+    for one in polar.glides:
+        table.add_row(*_cells(one))
+    console.print(table)
+    for label, best in (("slowest sink", polar.least_sink), ("flattest glide", polar.best_ratio)):
+        console.print(f"{label}: {'not between the angles given' if best is None else _told(best)}")
+    console.print("path: below the horizontal; tail: moment asked of one; hold: flap torque of both wings")
+    for warning in polar.record()["warnings"]:
+        console.print(f"- {warning}", style="yellow")
+
+
+def _cells(one: Glide) -> list[str]:
+    angles = (one.glide_angle, one.body_pitch, one.wing_pitch, one.flap)
+    numbers = [f"{one.speed:.2f}", f"{one.sink:.2f}", f"{one.glide_ratio:.2f}"]
+    numbers += [f"{math.degrees(angle):z.1f}" for angle in angles]
+    numbers += ["-" if one.trimmed else f"{one.tail_moment:.4f}", f"{one.flap_torque:.3f}"]
+    found = math.isfinite(one.speed)
+    return [f"{math.degrees(one.angle_of_attack):.4g}", *(numbers if found else ["none"] * len(numbers))]
+
+
+def _told(one: Glide) -> str:
+    alpha = math.degrees(one.angle_of_attack)
+    return (
+        f"{one.sink:.3f} m/s at {one.speed:.2f} m/s, ratio {one.glide_ratio:.3f}, angle of attack {alpha:.2f} deg"
+    )

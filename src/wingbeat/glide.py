@@ -1,0 +1,207 @@
+"""Steady glide with the wings held still: the balance of forces and moment, and what holds the wings.
+
+In steady glide nothing accelerates, so the five-coordinate equations say what must act on each coordinate:
+``tau = g - f_aero``. Its first two rows vanish where the glide is in balance; the third is what a tail would have
+to give; the last two are what the hinges must give to hold the wings. With a plain wing at the body's centre of mass
+the first two rows are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and ``tan(gamma) = C_D / C_L``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.five_coordinates import air_forces, equations_of_motion
+from wingbeat.frames import stroke_pitch
+from wingbeat.jax64 import jnp
+from wingbeat.kinematics import Wingbeat
+from wingbeat.model import FlightModel
+from wingbeat.stored import stored
+
+TRIMS = ("body-pitch", "flap", "tail")
+# Largest force over weight, and moment over weight times chord, of what counts as balance.
+_BALANCED = 1e-11
+# Steps from no trim to either end of its reach in which a change of the moment's sign is looked for.
+_STEPS = 12
+
+
+class Posture(NamedTuple):
+    """What a steady glide is made of: speed [m/s] and angles [rad].
+
+    The path is below the horizontal, the body above the path by their angles; the wing's angle of attack is that of
+    the chord at the root, were the wing not flapped.
+    """
+
+    speed: Any
+    glide_angle: Any
+    body_above_path: Any
+    flap: Any
+    angle_of_attack: Any
+
+
+class Glide(NamedTuple):
+    """One steady glide, SI units and radians; torques of both wings together.
+
+    ``tail_moment`` is what a tail would have to give, nose up; none where the glide is trimmed without one.
+    """
+
+    angle_of_attack: float
+    speed: float
+    sink: float
+    glide_angle: float
+    glide_ratio: float
+    body_pitch: float
+    wing_pitch: float
+    flap: float
+    tail_moment: float
+    flap_torque: float
+    pitch_torque: float
+    trimmed: bool
+
+
+# A posture that is none: no balance was found.
+_NOWHERE = Posture(*[math.nan] * 5)
+
+
+def held_still(wingbeat: Wingbeat) -> Wingbeat:
+    """Return the wingbeat of wings that are held: spread and straight as in mid-downstroke, the twist as it is."""
+    still = {"flap_amplitude": 0.0, "pitch_amplitude": 0.0, "span_retraction": 0.0, "fold_amplitude": 0.0}
+    return dataclasses.replace(wingbeat, **still)
+
+
+def _angles(model: FlightModel, posture: Posture) -> tuple[Any, Any]:
+    """Return body pitch and wing pitch [rad]."""
+    body_pitch = posture.body_above_path - posture.glide_angle
+    above_body = posture.angle_of_attack - posture.body_above_path
+    return body_pitch, above_body - stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+
+
+@stored
+def _needed(model: FlightModel, wingbeat: Wingbeat, numbers: Any) -> Any:
+    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]."""
+    posture = Posture(*numbers)
+    body_pitch, wing_pitch = _angles(model, posture)
+    none = jnp.zeros(())
+    ahead, down = posture.speed * jnp.cos(posture.glide_angle), posture.speed * jnp.sin(posture.glide_angle)
+    q = jnp.stack([none, none, body_pitch, posture.flap, wing_pitch])
+    q_dot = jnp.stack([ahead, -down, none, none, none])
+    gravity = equations_of_motion(model, wingbeat, q, q_dot, none).gravity_force
+    return gravity - air_forces(model, wingbeat, q, q_dot, none).generalised
+
+
+class GlideSolver:
+    """Finds steady glides of one vehicle at given angles of attack.
+
+    Parameters
+    ----------
+    model : the flight model.
+    wingbeat : gives the twist.
+    flap : angle at which the wings are held [rad].
+    trim : what is turned until the pitching moment vanishes: ``"body-pitch"``, the wings keeping their angle of
+        attack; ``"flap"``, the body keeping along the path; or ``"tail"``, nothing.
+    reach : least and largest of the angle that trims [rad], body pitch or flap.
+    """
+
+    def __init__(
+        self, model: FlightModel, wingbeat: Wingbeat, flap: float, trim: str, reach: tuple[float, float]
+    ) -> None:
+        self.model, self._flap, self._trim, self._reach = model, flap, trim, reach
+        self._evaluate = _needed.bind(model, held_still(wingbeat))
+        weight = model.vehicle.mass * model.air.gravity
+        self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
+
+    def at(self, angle_of_attack: float) -> Glide:
+        """Return the glide at an angle of attack [rad]; all not-a-number where no forces balance.
+
+        A glide that nothing trims keeps its body along the path, and says what moment it lacks.
+        """
+        start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack)
+        posture = self._solve(start, rows=2, free=[0, 1])
+        if posture is None:
+            return self._told(_NOWHERE._replace(angle_of_attack=angle_of_attack), trimmed=False)
+        turned = None if self._trim == "tail" else self._trimmed(posture)
+        return self._told(turned or posture, trimmed=turned is not None)
+
+    def _trimmed(self, level: Posture) -> Posture | None:
+        """Return the posture without a moment that is nearest to `level`, its forces always in balance, or None."""
+        column, reach = 3, np.array(self._reach)
+        if self._trim == "body-pitch":
+            column, reach = 2, reach + level.glide_angle  # above the path, not the horizontal
+        ends: list[tuple[Posture, float] | None] = [(level, self._moment(level))] * 2
+        for step in range(1, _STEPS + 1):
+            for side, end in enumerate(ends):
+                if end is None:
+                    continue
+                angle = level[column] + step / _STEPS * (reach[side] - level[column])
+                there = self._solve(_put(end[0], column, angle), rows=2, free=[0, 1])
+                moment = 0.0 if there is None else self._moment(there)
+                if there is not None and moment * end[1] <= 0.0:
+                    found = self._solve(_between(end, (there, moment)), rows=3, free=[0, 1, column])
+                    if found is not None and reach[0] <= found[column] <= reach[1]:
+                        return found
+                ends[side] = None if there is None else (there, moment)
+        return None
+
+    def _moment(self, posture: Posture) -> float:
+        return float(self._evaluate(np.array(posture))[2])
+
+    def _closed_form(self, alpha: float) -> tuple[float, float]:
+        """Return speed and glide angle of the plain wing that this one nearly is."""
+        vehicle, air = self.model.vehicle, self.model.air
+        lift, drag = (float(c) for c in self.model.kernel.lift_drag(jnp.asarray(alpha)))
+        area = 2.0 * vehicle.wing.semi_span * vehicle.wing.mean_chord
+        drag += vehicle.body.drag_area / area
+        pressure = vehicle.mass * air.gravity / (area * math.hypot(lift, drag))
+        return math.sqrt(2.0 * pressure / air.density), math.atan2(drag, lift)
+
+    def _solve(self, start: Posture, rows: int, free: list[int]) -> Posture | None:
+        """Return the posture near `start` in which the first rows balance, or None."""
+        from scipy.optimize import root
+
+        held = np.array(start)
+
+        def numbers(unknowns: np.ndarray) -> np.ndarray:
+            found = held.copy()
+            found[free] = unknowns
+            return found
+
+        def miss(unknowns: np.ndarray) -> np.ndarray:
+            return np.asarray(self._evaluate(numbers(unknowns)))[:rows] / self._scale[:rows]
+
+        found = root(miss, held[free], tol=1e-14)
+        posture = Posture(*numbers(found.x).tolist())
+        balanced = np.abs(miss(found.x)).max() <= _BALANCED  # what `root` calls a failure may be one bit off
+        ahead = posture.speed > 0.0 and abs(posture.glide_angle) < 0.5 * math.pi  # a wing can fall broadside, too
+        return posture if balanced and ahead else None
+
+    def _told(self, posture: Posture, trimmed: bool) -> Glide:
+        needed = np.asarray(self._evaluate(np.array(posture)))
+        body_pitch, wing_pitch = _angles(self.model, posture)
+        return Glide(
+            posture.angle_of_attack,
+            posture.speed,
+            posture.speed * math.sin(posture.glide_angle),
+            posture.glide_angle,
+            1.0 / math.tan(posture.glide_angle),
+            body_pitch,
+            wing_pitch,
+            posture.flap,
+            0.0 if trimmed else float(needed[2]),
+            float(needed[3]),
+            float(needed[4]),
+            trimmed,
+        )
+
+
+def _put(posture: Posture, column: int, angle: float) -> Posture:
+    return Posture(*(angle if i == column else value for i, value in enumerate(posture)))
+
+
+def _between(one: tuple[Posture, float], other: tuple[Posture, float]) -> Posture:
+    """Return the posture on the straight line between two at which their moments, of opposite signs, cancel."""
+    (first, moment), (last, opposite) = one, other
+    share = moment / (moment - opposite) if moment != opposite else 0.0
+    return Posture(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))

@@ -1,0 +1,197 @@
+"""The glide polar: steady glides at a range of angles of attack, with the slowest sink and the flattest path."""
+
+from __future__ import annotations
+
+import functools
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.aero import BladeElement, SuFan
+from wingbeat.errors import FaultList
+from wingbeat.glide import TRIMS, Glide, GlideSolver
+from wingbeat.model import flight_model
+from wingbeat.nomenclature import Term
+from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
+from wingbeat.results.storage import KIND, save_dataset
+from wingbeat.species import Species
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_ALONG = ("angle_of_attack",)
+TERMS = {
+    "angle_of_attack": Term("α", "rad", "angle of attack of the root chord, were the wing not flapped", _ALONG),
+    "speed": Term("V", "m s-1", "speed along the path", _ALONG),
+    "sink": Term("V_s", "m s-1", "sinking speed", _ALONG),
+    "glide_angle": Term("γ", "rad", "angle of the path below the horizontal", _ALONG),
+    "glide_ratio": Term("L/D", "1", "glide ratio, way forward over way down", _ALONG),
+    "body_pitch": Term("ψ", "rad", "body pitch, nose up positive", _ALONG),
+    "wing_pitch": Term("θ", "rad", "wing pitch at the root, leading edge up positive", _ALONG),
+    "flap": Term("φ", "rad", "flap angle, wing up positive", _ALONG),
+    "tail_moment": Term("M_t", "N m", "moment that a tail would have to give, nose up positive", _ALONG),
+    "flap_torque": Term("τ_φ", "N m", "flap torque that holds the wings, both wings", _ALONG),
+    "pitch_torque": Term("τ_θ", "N m", "wing pitch torque that holds the wings, both wings", _ALONG),
+    "trimmed": Term("", "1", "whether the pitching moment vanishes without a tail", _ALONG),
+}
+DEFAULT_ALPHA_DEG = np.arange(1.0, 31.0)
+
+
+@dataclass(frozen=True)
+class GlidePolar:
+    """Steady glides of one species, in the order asked for; see `glide_polar`.
+
+    ``least_sink`` and ``best_ratio`` are the slowest sink and the flattest path there are between the angles of
+    attack asked for; None where these end before the least or the best.
+    """
+
+    species: Species
+    aero: BladeElement
+    trim: str
+    glides: tuple[Glide, ...]
+    least_sink: Glide | None
+    best_ratio: Glide | None
+
+    def record(self) -> dict[str, Any]:
+        """Return everything as a JSON-able dictionary, SI and radians; what was not found is None."""
+        rows = [finite_or_none(glide._asdict()) for glide in self.glides]
+        lists = {name: [row[name] for row in rows] for name in Glide._fields}
+        return {**self._about(), **lists}
+
+    def _about(self) -> dict[str, Any]:
+        best = {"least_sink": self.least_sink, "best_ratio": self.best_ratio}
+        return {
+            "species": self.species.name,
+            "vehicle": vehicle_record(self.species.vehicle),
+            "aero": aero_record(self.aero),
+            "air": dict(vars(self.species.air)),
+            "trim": self.trim,
+            **{name: None if glide is None else glide._asdict() for name, glide in best.items()},
+            "warnings": glide_warnings(self),
+            "version": __version__,
+        }
+
+    @functools.cached_property
+    def dataset(self) -> xr.Dataset:
+        """The polar over angle of attack, labelled."""
+        import xarray as xr
+
+        columns = dict(zip(Glide._fields, np.array(self.glides, dtype=float).T, strict=True))
+        columns["trimmed"] = columns["trimmed"].astype("int8")
+        variables = {
+            name: (term.dims, columns[name], {"units": term.unit, "long_name": term.long_name})
+            for name, term in TERMS.items()
+        }
+        about = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self._about().items()}
+        attributes = {"Conventions": "CF-1.11", KIND: "glide", **about}
+        return xr.Dataset(variables, attrs=attributes).set_coords("angle_of_attack")
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the dataset to a NetCDF-4 file, whole or not at all.
+
+        Raises
+        ------
+        FileError : the file cannot be written.
+        """
+        save_dataset(self.dataset, path)
+
+
+def glide_polar(
+    species: Species,
+    aero: Any = None,
+    angles_of_attack: Sequence[float] | np.ndarray | None = None,
+    flap: float = 0.0,
+    trim: str = "body-pitch",
+) -> GlidePolar:
+    """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
+
+    Lift, drag, weight and, where it can be, the pitching moment balance, with the same air loads as in flapping
+    flight. Where no angle trims the moment, the body is kept along the path and `Glide.tail_moment` says what is
+    lacking.
+
+    Parameters
+    ----------
+    species : gives vehicle, twist, air, and the range of body pitch.
+    aero : a coefficient model or a `BladeElement`, `SuFan()` if not given.
+    angles_of_attack : of the chord at the root, were the wing not flapped [rad]; 1 to 30 degrees if not given.
+    flap : flap angle at which the wings are held [rad].
+    trim : what is turned until the moment vanishes: ``"body-pitch"`` under wings that keep their angle of attack,
+        ``"flap"`` with the body along the path, or ``"tail"``, nothing.
+
+    Raises
+    ------
+    InvalidInputError : angles not increasing or not between 0 and 90 degrees, a flap angle beyond 90 degrees, an
+        unknown trim.
+
+    >>> from wingbeat.species import load_species
+    >>> polar = glide_polar(load_species("pigeon"), angles_of_attack=np.radians([4.0, 6.0, 8.0]))
+    >>> round(polar.best_ratio.glide_ratio, 2), round(polar.best_ratio.speed, 1)
+    (3.27, 11.9)
+    """
+    faults = FaultList()
+    angles = np.radians(DEFAULT_ALPHA_DEG) if angles_of_attack is None else np.asarray(angles_of_attack, float)
+    fix = "increasing, above 0, at most pi/2"
+    inside = angles.ndim == 1 and angles.size > 0 and (angles > 0).all() and (angles <= 0.5 * math.pi).all()
+    if not inside or not (np.diff(angles) > 0).all():
+        faults.add("angles_of_attack", angles.tolist(), "must be angles of attack in radians", fix)
+    if not isinstance(species, Species):
+        faults.add("species", species, "is not a Species", "use load_species(name or path)")
+    elif species.air.gravity == 0:
+        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "without weight nothing glides")
+    faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
+    faults.choice("trim", trim, TRIMS)
+    faults.raise_if_any()
+    loads = aero if isinstance(aero, BladeElement) else BladeElement(aero or SuFan())
+    model = flight_model(species.vehicle, loads, species.air)
+    either_way = -0.5 * math.pi, 0.5 * math.pi
+    reach = species.body_pitch_bounds if trim == "body-pitch" else species.bounds.get("flap_mean", either_way)
+    solver = GlideSolver(model, species.wingbeat, flap, trim, reach)
+    glides = tuple(solver.at(float(angle)) for angle in angles)
+    sink = _best(solver, glides, lambda glide: glide.sink)
+    ratio = _best(solver, glides, lambda glide: -glide.glide_ratio)
+    return GlidePolar(species, loads, trim, glides, sink, ratio)
+
+
+def _best(solver: GlideSolver, glides: tuple[Glide, ...], cost: Any) -> Glide | None:
+    """Return the glide of least cost between the neighbours of the cheapest, None if that is at an end."""
+    from scipy.optimize import minimize_scalar
+
+    costs = np.nan_to_num([cost(glide) for glide in glides], nan=np.inf)
+    least = int(costs.argmin())
+    if not 0 < least < len(glides) - 1 or not np.isfinite(costs[[least - 1, least + 1]]).all():
+        return None
+    ends = glides[least - 1].angle_of_attack, glides[least + 1].angle_of_attack
+    found = minimize_scalar(lambda angle: cost(solver.at(angle)), bounds=ends, options={"xatol": 1e-9})
+    return solver.at(float(found.x))
+
+
+def glide_warnings(polar: GlidePolar) -> list[str]:
+    """Return what a reader should know before trusting a glide polar."""
+    notes = list(polar.species.warnings)
+    found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
+    if len(found) < len(polar.glides):
+        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady glide ahead")
+    untrimmed = [glide for glide in found if not glide.trimmed]
+    if untrimmed:
+        moments = [glide.tail_moment for glide in untrimmed]
+        notes.append(
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would have to give "
+            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body is kept along the path"
+        )
+    coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
+    low, high = coefficients.reynolds_range or (0.0, math.inf)
+    reynolds = [glide.speed * wing.mean_chord / air.viscosity for glide in found]
+    outside = sum(not low <= number <= high for number in reynolds)
+    if outside:
+        notes.append(
+            f"Reynolds number outside the fitted {low:g} to {high:g} in {outside} of {len(found)} glides "
+            f"(it runs from {min(reynolds):.0f} to {max(reynolds):.0f})"
+        )
+    notes.append("no induced drag is added to what the coefficients hold")
+    return notes

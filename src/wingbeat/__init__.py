@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import solve_series as solve_series
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
+    from wingbeat.results.power import power_account as power_account
     from wingbeat.species import Species as Species
     from wingbeat.species import bat as bat
     from wingbeat.species import bird as bird
@@ -89,6 +90,7 @@ _HOME = {
     "glide_polar": "results.glide",
     "load_orbit": "results.orbit",
     "load_species": "species",
+    "power_account": "results.power",
     "robot": "species",
     "sensitivities": "results.sensitivities",
     "simulate": "results.flight",

@@ -2,8 +2,9 @@
 
 In steady glide nothing accelerates, so the five-coordinate equations say what must act on each coordinate:
 ``tau = g - f_aero``. Its first two rows vanish where the glide is in balance; the third is what a tail would have
-to give; the last two are what the hinges must give to hold the wings. With a plain wing at the body's centre of mass
-the first two rows are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and ``tan(gamma) = C_D / C_L``.
+to give; the last two are what the hinges must give to hold the wings. With a plain wing at the body's centre of
+mass the first two rows are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and
+``tan(gamma) = C_D / C_L``.
 """
 
 from __future__ import annotations

@@ -34,10 +34,11 @@ from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.power import power_account
 from wingbeat.results.sensitivities import sensitivities as differentiate
 
 FIGURES = (".png", ".pdf", ".svg")
-_BESIDE_FROM = ("from_", "json", "output", "plot", "sensitivities", "tornado")
+_BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
 
 
 def orbit(
@@ -75,6 +76,9 @@ def orbit(
     from_: Annotated[
         Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
     ] = None,
+    power: Annotated[
+        bool, Parameter(negative="", help="Say what the power is made of, what braking costs, what a spring saves.")
+    ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
@@ -163,6 +167,8 @@ def orbit(
         save_figure(tornado_page(influence), tornado)
     if influence and sensitivities:
         record |= {"sensitivities": influence.table(), "error_bars": [bar._asdict() for bar in bars]}
+    if power:
+        record["power_account"] = power_account(found.dataset)
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))
     else:

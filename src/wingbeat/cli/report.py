@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.cli.power_report import power_groups
 from wingbeat.errors import FileError
 from wingbeat.results.storage import KIND, load_dataset
 
@@ -57,6 +58,7 @@ def print_orbit(record: dict[str, Any], console: Console) -> None:
             "wingbeat": _wingbeat(record.get("wingbeat", {})),
             "state at the top of the stroke": _state(record.get("initial_state", {})),
             "power, both wings": _powers(record),
+            **power_groups(record.get("power_account")),
             "certificate": _certificate(record),
             "stability": _stability(record),
         },

@@ -9,12 +9,14 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.results.power import power_account
 from wingbeat.results.storage import KIND, parse_attributes
 
 
 def show(
     file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
     *,
+    power: Annotated[bool, Parameter(negative="", help="Say what the power of an orbit is made of.")] = False,
     json: Annotated[bool, Parameter(negative="", help="Print JSON alone: SI units and radians.")] = False,
 ) -> None:
     """Print a saved orbit's record, or a flight's summary.
@@ -28,6 +30,8 @@ def show(
     console = Console(markup=False, highlight=False, emoji=False)
     is_orbit = dataset.attrs[KIND] == "orbit"
     record = parse_attributes(dataset.attrs, file)[0] if is_orbit else flight_summary(dataset, file)
+    if power:
+        record["power_account"] = power_account(dataset)
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))
     elif is_orbit:

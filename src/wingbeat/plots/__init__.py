@@ -3,9 +3,19 @@
 from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.page import wingbeat_page as wingbeat_page
+from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
 from wingbeat.plots.tornado import tornado_page as tornado_page
 
-__all__ = ["FIGURE_SUFFIXES", "check_figure_name", "fit_page", "glide_page", "save_figure", "tornado_page", "wingbeat_page",]
+__all__ = [
+    "FIGURE_SUFFIXES",
+    "check_figure_name",
+    "fit_page",
+    "glide_page",
+    "power_page",
+    "save_figure",
+    "tornado_page",
+    "wingbeat_page",
+]

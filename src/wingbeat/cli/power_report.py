@@ -1,0 +1,42 @@
+"""What the power of an orbit is made of, as rows of a table."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+__all__ = ["power_groups"]
+
+
+def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:
+    """Return the groups of rows that tell a power account, none if there is none."""
+    if account is None:
+        return {}
+    costs = [(_fate(share), _watts(cost)) for share, cost in account["cost_by_returned"]]
+    spring = account["best_spring"]
+    if spring["rest_angle"] is None:
+        springs = [("best stiffness", "none: no spring helps")]
+    else:
+        saved = 1.0 - spring["mean_positive_power"] / account["mean_positive_power"]
+        springs = [
+            ("best stiffness, both together", f"{spring['stiffness']:.4g} N m/rad"),
+            ("slack at a flap angle of", f"{math.degrees(spring['rest_angle']):.4g} deg"),
+            ("mean positive power left", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
+        ]
+    return {
+        "mean power, by what becomes of negative work": [("braked", _watts(account["braking"])), *costs],
+        "shares of the hinge power: mean, least, most": [
+            (name, ", ".join(_watts(share[key]) for key in ("mean", "least", "most")))
+            for name, share in account["shares"].items()
+        ],
+        "springs at the flap hinges": springs,
+    }
+
+
+def _fate(returned: float) -> str:
+    named = {-1.0: "if braking costs as much as driving", 0.0: "if it is lost"}
+    return named.get(returned, f"if {returned:.0%} of it is returned")
+
+
+def _watts(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g} W"

@@ -1,0 +1,74 @@
+"""What the power of a beat is made of: shares, braking, and what springs at the flap hinges would save."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.orbits.beat import mean_positive
+from wingbeat.orbits.springs import best_spring
+from wingbeat.results.record import beat_mean, finite_or_none
+from wingbeat.results.storage import KIND
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SHARES = {"aerodynamic": "aerodynamic_power", "inertial": "inertial_power", "body": "body_power"}
+_RETURNED = (-1.0, 0.0, 0.25, 0.5, 0.75, 1.0)
+
+
+def power_account(dataset: xr.Dataset) -> dict[str, Any]:
+    """Account for the hinge power of an orbit, both wings [W].
+
+    Parameters
+    ----------
+    dataset : `Orbit.dataset`, or what was saved of it.
+
+    Returns
+    -------
+    A JSON-able dictionary: ``mean_power``, ``mean_positive_power``; ``braking``, the mean of the negative work;
+    ``cost_by_returned``, pairs of the share of it that is returned (-1: it costs as much as driving) and the cost;
+    ``shares``, aerodynamic, inertial and body, each with mean, least and most; ``best_spring`` of both flap hinges
+    together with ``stiffness`` [N m/rad], ``rest_angle`` [rad], None where no spring helps, and the
+    ``mean_positive_power`` that it leaves. All None where the flight ran off.
+
+    Raises
+    ------
+    InvalidInputError : the dataset is no orbit, or one of a version that had no shares.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
+    >>> account = wb.power_account(orbit.dataset)
+    >>> sum(share["mean"] for share in account["shares"].values()) - account["mean_power"] < 1e-12
+    True
+    """
+    check_orbit(dataset)
+    flap, rate, power = (dataset[name].values for name in ("flap", "flap_rate", "hinge_power"))
+    mean, positive = beat_mean(power), float(mean_positive(power))
+    flown = bool(np.isfinite(power).all())
+    spring = best_spring(flap, rate, power)._asdict() if flown else {"stiffness": None, "rest_angle": None}
+    account = {
+        "mean_power": mean,
+        "mean_positive_power": positive,
+        "braking": positive - mean,
+        "cost_by_returned": [[share, positive - share * (positive - mean)] for share in _RETURNED],
+        "shares": {name: _spread(dataset[variable].values) for name, variable in SHARES.items()},
+        "best_spring": {"mean_positive_power": None, **spring},
+    }
+    return finite_or_none(account)
+
+
+def _spread(values: np.ndarray) -> dict[str, float]:
+    return {"mean": beat_mean(values), "least": float(values.min()), "most": float(values.max())}
+
+
+def check_orbit(dataset: xr.Dataset) -> None:
+    """Raise `InvalidInputError` unless the dataset is that of an orbit with its shares of power."""
+    faults = FaultList()
+    if dataset.attrs.get(KIND) != "orbit":
+        faults.add("dataset", dataset.attrs.get(KIND), "is no orbit: only a closed beat has a power account")
+    elif missing := [name for name in SHARES.values() if name not in dataset]:
+        faults.add("dataset", missing, "is missing from it", "solve the orbit again")
+    faults.raise_if_any()

@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import solve_orbit as solve_orbit
     from wingbeat.results.orbit import solve_orbits as solve_orbits
     from wingbeat.results.orbit import solve_series as solve_series
+    from wingbeat.results.power import power_account as power_account
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
-    from wingbeat.results.power import power_account as power_account
     from wingbeat.species import Species as Species
     from wingbeat.species import bat as bat
     from wingbeat.species import bird as bird

@@ -44,7 +44,7 @@ BAD_FILES = [
     ("cut.nc", "it is damaged or cut short"),
     ("empty.nc", "it is not a NetCDF-4 file"),
     ("text.nc", "it is not a NetCDF-4 file"),
-    ("foreign.nc", "it holds no orbit or flight of wingbeat"),
+    ("foreign.nc", "it holds no orbit, flight or curve of wingbeat"),
     ("folder.nc", "is a directory"),
 ]
 

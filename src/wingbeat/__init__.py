@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from wingbeat.orbits.quantities import Quantity as Quantity
     from wingbeat.orbits.quantities import SpringPower as SpringPower
     from wingbeat.orbits.solution import Status as Status
+    from wingbeat.results.curve import Curve as Curve
+    from wingbeat.results.curve import load_curve as load_curve
+    from wingbeat.results.curve import solve_curve as solve_curve
     from wingbeat.results.flight import Flight as Flight
     from wingbeat.results.flight import simulate as simulate
     from wingbeat.results.glide import GlidePolar as GlidePolar
@@ -62,6 +65,7 @@ _HOME = {
     "Beat": "orbits.beat",
     "Body": "vehicle",
     "Constraint": "orbits.quantities",
+    "Curve": "results.curve",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "model",
@@ -88,6 +92,7 @@ _HOME = {
     "flight_model": "model",
     "generalised_torques": "five_coordinates",
     "glide_polar": "results.glide",
+    "load_curve": "results.curve",
     "load_orbit": "results.orbit",
     "load_species": "species",
     "power_account": "results.power",
@@ -95,6 +100,7 @@ _HOME = {
     "sensitivities": "results.sensitivities",
     "simulate": "results.flight",
     "simulate_torque_driven": "flights",
+    "solve_curve": "results.curve",
     "solve_orbit": "results.orbit",
     "solve_orbits": "results.orbit",
     "solve_series": "results.orbit",

@@ -32,6 +32,7 @@ COMMANDS = {
     "orbit": "Find the wingbeat that flies at a given speed, and certify it.",
     "uncertainty": "Say how sure an orbit's frequency and power are.",
     "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
+    "curve": "Find power and frequency along speed, and the characteristic speeds.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the animals in the box, or a file of your own, with the source of every number.",
     "polar": "Print or save the lift and drag coefficients over angle of attack.",

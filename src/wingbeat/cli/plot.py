@@ -1,4 +1,4 @@
-"""``wingbeat plot``: draw one page of a saved orbit or flight."""
+"""``wingbeat plot``: draw one page of a saved orbit, flight or curve."""
 
 from __future__ import annotations
 
@@ -8,23 +8,33 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.curve_report import drawn
 from wingbeat.cli.report import read_result
 from wingbeat.errors import FaultList
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
+from wingbeat.results.curve import curve_from
+from wingbeat.results.storage import KIND
 
 
 def plot(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
+    file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page: .png, .pdf or .svg.")],
     power: Annotated[bool, Parameter(negative="", help="Draw what the power of an orbit is made of.")] = False,
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 
+    Of a curve: power and frequency along speed.
+
     Examples: wingbeat plot pigeon.nc -o pigeon.pdf; wingbeat plot pigeon.nc --power -o power.png
     """
     faults = FaultList()
     check_figure_name(faults, "--output", output)
     faults.raise_if_any()
-    save_figure((power_page if power else wingbeat_page)(read_result(file)), output)
+    dataset = read_result(file)
+    if power:
+        page = power_page(dataset)
+    else:
+        page = drawn(curve_from(dataset, file)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
+    save_figure(page, output)
     print(f"wrote {output}", file=sys.stderr)

@@ -26,16 +26,16 @@ _STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
 
 def read_result(path: str | PathLike[str]) -> xr.Dataset:
-    """Return the dataset of a file that `orbit -o` or `simulate -o` wrote.
+    """Return the dataset of a file that `orbit -o`, `simulate -o` or `curve -o` wrote.
 
     Raises
     ------
     FileError : missing, unreadable, cut short, or of another program.
     """
     dataset = load_dataset(path)
-    if dataset.attrs.get(KIND) not in ("orbit", "flight"):
-        ways = "give a file of `wingbeat orbit -o` or `wingbeat simulate -o`"
-        raise FileError(f"cannot read {os.fspath(path)!r}: it holds no orbit or flight of wingbeat; {ways}")
+    if dataset.attrs.get(KIND) not in ("orbit", "flight", "curve"):
+        ways = "give a file of `wingbeat orbit -o`, `simulate -o` or `curve -o`"
+        raise FileError(f"cannot read {os.fspath(path)!r}: it holds no orbit, flight or curve of wingbeat; {ways}")
     return dataset
 
 

@@ -1,4 +1,4 @@
-"""``wingbeat show``: print what a saved orbit or flight holds."""
+"""``wingbeat show``: print what a saved orbit, flight or curve holds."""
 
 from __future__ import annotations
 
@@ -8,24 +8,30 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.results.curve import curve_from
 from wingbeat.results.power import power_account
 from wingbeat.results.storage import KIND, parse_attributes
 
 
 def show(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
+    file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     power: Annotated[bool, Parameter(negative="", help="Say what the power of an orbit is made of.")] = False,
     json: Annotated[bool, Parameter(negative="", help="Print JSON alone: SI units and radians.")] = False,
 ) -> None:
-    """Print a saved orbit's record, or a flight's summary.
+    """Print a saved orbit's record, a flight's summary, or a curve.
 
     Angles are printed in degrees; with --json in radians, as everywhere in files.
     """
     from rich.console import Console
 
     dataset = read_result(file)
+    if dataset.attrs[KIND] == "curve":
+        curve = curve_from(dataset, file)
+        print(json_format.dumps(curve.record(), indent=2, allow_nan=False)) if json else print_curve(curve)
+        return
     # Names and messages come from files: what looks like markup in them is text.
     console = Console(markup=False, highlight=False, emoji=False)
     is_orbit = dataset.attrs[KIND] == "orbit"

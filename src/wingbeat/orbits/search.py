@@ -57,9 +57,14 @@ def search(problem: Transcription, start: np.ndarray, *, elastic: bool = False) 
     return _candidate(problem, scaled, closed, optimal)
 
 
-def refine(problem: Transcription, start: np.ndarray) -> Candidate:
+def refine(problem: Transcription, start: np.ndarray, iterations: int = _BRIEFLY) -> Candidate:
     """Search once from unknowns that are taken to be near an orbit, and briefly: if they are, that is enough."""
-    scaled, optimal = optimise(problem, problem.scaled(start), iterations=_BRIEFLY)
+    scaled, optimal = optimise(problem, problem.scaled(start), iterations)
+    return as_candidate(problem, scaled, optimal)
+
+
+def as_candidate(problem: Transcription, scaled: np.ndarray, optimal: bool = False) -> Candidate:
+    """Judge unknowns in the optimiser's scale; `optimal` is what the search that led to them says of itself."""
     closed = is_closed(problem, scaled)
     return _candidate(problem, scaled, closed, optimal or (closed and optimality(problem, scaled) <= OPTIMAL))
 

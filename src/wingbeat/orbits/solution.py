@@ -52,6 +52,17 @@ class Solution:
         free = [getattr(self.wingbeat, name) for name in self.problem.free]
         return np.concatenate([self.certificate.states[0, 2:], free])
 
+    @property
+    def place(self) -> np.ndarray:
+        """The unknowns in the optimiser's scale, velocities from the mean ones: orbits at two speeds compare."""
+        drift = np.zeros(self.unknowns.size)
+        drift[1:3] = self.problem.speed, self.problem.climb
+        return (self.unknowns - drift) / self.problem.unknowns().scale
+
+    def same_as(self, other: Solution) -> bool:
+        """Whether this is the same optimum of the same problem."""
+        return bool(np.abs(self.place - other.place).max() <= SAME)
+
     @functools.cached_property
     def objective(self) -> float:
         """What was made least."""
@@ -76,13 +87,11 @@ class Solution:
 
 def better_of(own: Solution, other: Solution) -> Solution:
     """Return the better of two answers to one problem, with the searches, optima and times of both."""
-    scale = own.problem.unknowns().scale
-    same = np.abs((own.unknowns - other.unknowns) / scale).max() <= SAME
     converged = [s for s in (own, other) if s.status is Status.CONVERGED]
     return dataclasses.replace(
         min(converged, key=lambda s: s.objective, default=own),
         starts=own.starts + other.starts,
-        distinct_optima=own.distinct_optima + (0 if same else other.distinct_optima),
+        distinct_optima=own.distinct_optima + (0 if own.same_as(other) else other.distinct_optima),
         seed=own.seed,
         seconds=own.seconds + other.seconds,
         certify_seconds=own.certify_seconds + other.certify_seconds,

@@ -141,14 +141,39 @@ def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> S
     below : the objective must come out less than this, or the orbit is not even certified.
     """
     begun = time.perf_counter()
-    transcription = Transcription(problem)
-    candidate = refine(transcription, start)
+    candidate = refine(Transcription(problem), start)
     if not (candidate.closed and candidate.optimal and candidate.objective < below):
         return None
+    return certified_optimum(candidate, time.perf_counter() - begun)
+
+
+def find_optima(problem: OrbitProblem, starts: int, seed: int = 0) -> list[Solution]:
+    """Return every distinct optimum that searches meet and the certifier closes, best first; none if none is.
+
+    Parameters
+    ----------
+    problem, starts, seed : as in `find_orbit`; the searches are made one after the other.
+    """
+    begun = time.perf_counter()
+    found = list(_searches(Transcription(problem), range(starts), seed, False, 1))
+    each = (time.perf_counter() - begun) / starts
+    optima: list[Solution] = []
+    for candidate in sorted(_distinct(found), key=lambda c: c.objective):
+        optimum = certified_optimum(candidate, each)
+        if optimum is not None and not any(optimum.same_as(other) for other in optima):
+            optima.append(optimum)
+    return optima
+
+
+def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
+    """Return what a search ended in as the certifier closes it, or None; `seconds` is what the search took."""
+    begun = time.perf_counter()
+    transcription = candidate.programme.anew()
     best = _first_certified(transcription, [candidate])
     if best is None:
         return None
-    return _solution(best, 1, 1, 0, time.perf_counter() - begun, transcription.certify_seconds)
+    seconds += time.perf_counter() - begun
+    return _solution(best, 1, 1, 0, seconds, transcription.certify_seconds)
 
 
 def _solution(
@@ -219,13 +244,13 @@ def _first_certified(problem: Transcription, found: list[Candidate]) -> Correcte
     return None
 
 
-def _distinct(found: list[Candidate]) -> list[np.ndarray]:
-    """Return the distinct optima among the candidates, in the optimiser's scale."""
-    optima: list[np.ndarray] = []
+def _distinct(found: list[Candidate]) -> list[Candidate]:
+    """Return those candidates that are optima, one of each."""
+    optima: list[Candidate] = []
     for candidate in found:
-        known = any(np.abs(candidate.scaled - other).max() <= SAME for other in optima)
+        known = any(np.abs(candidate.scaled - other.scaled).max() <= SAME for other in optima)
         if candidate.closed and candidate.optimal and not known:
-            optima.append(candidate.scaled)
+            optima.append(candidate)
     return optima
 
 

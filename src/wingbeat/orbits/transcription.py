@@ -155,12 +155,14 @@ class Transcription:
 
     def pitch_margins(self, pitch: np.ndarray) -> np.ndarray:
         """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
-        return np.array([pitch.min() - self.pitch_bounds[0], self.pitch_bounds[1] - pitch.max()])
+        lowest, highest = peak_weights(-pitch) @ pitch, peak_weights(pitch) @ pitch
+        return np.array([lowest - self.pitch_bounds[0], self.pitch_bounds[1] - highest])
 
     def margins_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return their derivative, shape (margins, n)."""
         point = self._at(scaled)
-        pitch = np.stack([point.pitch_jacobian[point.pitch.argmin()], -point.pitch_jacobian[point.pitch.argmax()]])
+        lowest, highest = peak_weights(-point.pitch), peak_weights(point.pitch)
+        pitch = np.stack([lowest @ point.pitch_jacobian, -highest @ point.pitch_jacobian])
         if self.asked is None:
             return pitch
         rows = point.rows_jacobian + self._rows_tilt
@@ -226,6 +228,24 @@ class Transcription:
         assert isinstance(minimise, Frequency)
         gradient = minimise.gradient(self.unknowns.names, self.physical(scaled))
         return gradient * self.unknowns.scale / minimise.scale
+
+
+def peak_weights(values: np.ndarray) -> np.ndarray:
+    """Return the weights of samples along a closed path that give its peak, of the parabola through the highest.
+
+    The highest sample itself would have a kink wherever two samples are level, and an optimum that leans on a bound
+    of the path would come to lie in it. The weights are those of the derivative, too: a peak does not slide.
+    """
+    count = len(values) - 1
+    middle = int(values.argmax()) % count
+    before, after = (middle - 1) % count, (middle + 1) % count
+    bend = values[before] - 2.0 * values[middle] + values[after]
+    slide = 0.0
+    if bend < 0.0:
+        slide = min(max(0.5 * (values[before] - values[after]) / bend, -0.5), 0.5)
+    weights = np.zeros(len(values))
+    weights[[before, middle, after]] = 0.5 * slide * (slide - 1.0), 1.0 - slide**2, 0.5 * slide * (slide + 1.0)
+    return weights
 
 
 def _with_level(point: Point) -> Point:

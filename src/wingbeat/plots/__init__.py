@@ -1,5 +1,7 @@
-"""Figures: the page that shows one wingbeat or a flight of several, and how figures are saved."""
+"""Figures: pages of a wingbeat or a flight, of a power curve, of a fit, and how figures are saved."""
 
+from wingbeat.plots.curve_page import Published as Published
+from wingbeat.plots.curve_page import curve_page as curve_page
 from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.page import wingbeat_page as wingbeat_page
@@ -11,7 +13,9 @@ from wingbeat.plots.tornado import tornado_page as tornado_page
 
 __all__ = [
     "FIGURE_SUFFIXES",
+    "Published",
     "check_figure_name",
+    "curve_page",
     "fit_page",
     "glide_page",
     "power_page",

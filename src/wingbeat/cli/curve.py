@@ -1,0 +1,100 @@
+"""``wingbeat curve``: power and frequency along speed, with every branch, jump and characteristic speed."""
+
+from __future__ import annotations
+
+import json as json_format
+import os
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.curve_report import drawn, print_curve
+from wingbeat.cli.options import (
+    AeroName,
+    BlendWidth,
+    Extension,
+    ForcePoint,
+    Settings,
+    Strips,
+    Whole,
+    aero_with,
+    check_outputs,
+    species_with,
+)
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.ranges import parse_range
+from wingbeat.errors import FaultList
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.plots.saving import check_figure_name, save_figure
+from wingbeat.results.curve import solve_curve
+
+
+def curve(
+    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    *,
+    speeds: Annotated[
+        list[str],
+        Parameter(consume_multiple=True, negative=(), help="Speeds [m/s]: 3:20:1, or 0 3:20:1 with hover."),
+    ],
+    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    aero: AeroName = "su-fan",
+    extension: Extension = "mirrored",
+    blend_width_deg: BlendWidth = 1.0,
+    force_point: ForcePoint = "quarter-chord",
+    strips: Strips = 10,
+    minimise: Annotated[
+        str, Parameter(help="What to make least at each speed: frequency, positive-power, power, peak-power, ...")
+    ] = "frequency",
+    subject_to: Annotated[
+        list[str] | None,
+        Parameter(consume_multiple=True, negative=(), help="Limits to keep: 'peak_power<=30' 'frequency=6' ..."),
+    ] = None,
+    power_limit: Annotated[
+        float | None, Parameter(help="Power that can be sustained [W]: the speeds within it are told.")
+    ] = None,
+    starts: Annotated[Whole, Parameter(help="Searches at either end; a third as many at each speed between.")] = 6,
+    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    set_: Settings = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write every optimum to this NetCDF file.")
+    ] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw power and frequency: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find the power and frequency curves along speed, their branches and their characteristic speeds.
+
+    Every optimum met is continued to the speeds beside it, both ways. Where the best orbit changes branch, or leans
+    on other bounds, the curve is marked. Exit code 0: certified, gaps are told. 3: nothing certified.
+
+    Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
+    wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc
+    """
+    faults = FaultList()
+    if plot is not None:
+        check_figure_name(faults, "--plot", plot)
+    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
+        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    faults.raise_if_any()
+    row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))
+    problem = OrbitProblem(
+        species_with(species, set_),
+        speed=row[-1] if row else 0.0,
+        climb=climb,
+        aero=aero_with(aero, extension, blend_width_deg, strips, force_point),
+        minimise=minimise,
+        subject_to=subject_to or (),
+    )
+    check_outputs(output, plot)
+    with progress_bar(f"{problem.species.name} along speed") as progress:
+        found = solve_curve(problem, row, starts, seed, power_limit, progress)
+    if output:
+        found.save(output)
+    if plot:
+        save_figure(drawn(found), plot)
+    if json:
+        print(json_format.dumps(found.record(), indent=2, allow_nan=False))
+    else:
+        print_curve(found)
+    return EXIT_NOT_CERTIFIED if len(found.gaps) == len(row) else EXIT_GOOD

@@ -1,0 +1,102 @@
+"""A power curve on a terminal and as a figure: what `curve`, `show` and `plot` share."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.paper.measured_powers import published_for
+from wingbeat.vehicle import Air, Body, Vehicle, Wing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from wingbeat.results.curve import Curve
+
+_LABELS = {
+    "minimum_power": "least power",
+    "maximum_range": "greatest range",
+    "fastest_sustained": "fastest within the power limit",
+    "slowest_sustained": "slowest within the power limit",
+}
+
+
+def drawn(curve: Curve) -> Figure:
+    """Return the page of a curve, with what was published of the animal, if anything, beside it."""
+    from wingbeat.plots import curve_page
+
+    record, speed = curve.record(), curve.dataset["speed"].values
+    vehicle = Vehicle(Body(**record["vehicle"]["body"]), Wing(**record["vehicle"]["wing"]))
+    beside = published_for(record["species"], vehicle, Air(**record["air"]), float(speed[0]), float(speed[-1]))
+    return curve_page(curve.dataset, beside)
+
+
+def print_curve(curve: Curve) -> None:
+    """Print one line a speed with what happens between, then characteristic speeds, then warnings."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    # Names and messages come from files: what looks like markup in them is text.
+    console = Console(markup=False, highlight=False, emoji=False)
+    record = curve.record()
+    points = record["points"]
+    climb = f", climbing {record['climb']:.4g} m/s" if record["climb"] else ""
+    certified = len(points) - len(record["gaps"])
+    console.print(
+        f"{record['species']}{climb}, least {record['objective'].replace('_', ' ')}: "
+        f"{certified} of {len(points)} speeds certified"
+    )
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "on the bound of"):
+        table.add_column(Text(heading), justify="left" if heading.startswith("on") else "right")
+    after = {(m["lower_speed"], m["kind"]): m for m in record["marks"]}
+    for point in points:
+        table.add_row(*map(Text, _row(point)))
+        if mark := after.get((point["speed"], "branch")):
+            table.add_row(*[Text("")] * 6, Text(f"-- branch changes: {mark['what']}", style="yellow"))
+    console.print(table)
+    console.print()
+    console.print(Text(f"characteristic speeds, of the {_power(record)}", style="bold"))
+    for name, found in record["characteristic_speeds"].items():
+        console.print(f"  {_LABELS[name]}: {_told(found)}")
+    if record["warnings"]:
+        console.print(Text("warnings", style="bold"))
+    for warning in record["warnings"]:
+        console.print(Text(f"- {warning}", style="yellow"))
+
+
+def _power(record: dict[str, Any]) -> str:
+    if record["power"] == "what was made least":
+        return record["objective"].replace("_", " ")
+    return record["power"]
+
+
+def _row(point: dict[str, Any]) -> list[str]:
+    if not point["optima"]:
+        return [f"{point['speed']:g}", "", "", "", "", "0", f"{point['status']}: {point['message']}"]
+    best = point["optima"][0]
+    cost = best["cost_of_transport"]
+    return [
+        f"{point['speed']:g}",
+        f"{best['frequency']:.4g}",
+        f"{best['mean_positive_power']:.4g}",
+        "-" if cost is None else f"{cost:.3g}",
+        f"{math.degrees(best['flap_amplitude']):.3g}",
+        f"{point['distinct_optima']}",
+        best["active_bounds"] or "nothing",
+    ]
+
+
+def _told(found: dict[str, Any] | None) -> str:
+    if found is None:
+        return "none"
+    text = f"{found['speed']:.3g} m/s, {found['power']:.4g} W"
+    if "within_2_percent" in found:
+        low, high = found["within_2_percent"]
+        text += f"; within 2 % from {low:.3g} to {high:.3g} m/s"
+    if found["at_edge"]:
+        text += "; at the edge of the range or of a gap, it may lie beyond"
+    if found["jump_beside"]:
+        text += "; the curve changes branch there"
+    return text

@@ -1,0 +1,200 @@
+"""The page of a power curve: power and frequency along speed, branches, marks, and what others published."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WIDTH, _HEIGHT, _INCH = 183.0, 150.0, 25.4  # mm
+_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
+_STYLE |= {"axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+# Okabe and Ito's colours, told apart by colour-blind eyes, each with a mark of its own for grey prints.
+_BEST, _OTHER, _PUBLISHED, _ALARM, _SPEEDS = "#0072B2", "0.6", "#009E73", "#C00000", "#D55E00"
+_DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (6, 1.5, 1, 1.5)))
+_NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
+_NAMES = {"minimum_power": ("least power", "v"), "maximum_range": ("greatest range", "s")}
+_NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
+
+
+@dataclass(frozen=True)
+class Published:
+    """What others found, to stand beside a curve.
+
+    Parameters
+    ----------
+    quantity : ``frequency`` [Hz], ``mean_positive_power`` [W], or ``speed``, whose range is then all it says.
+    label : short, with its citation.
+    speeds : shape (K,) [m/s].
+    values : shape (K,); none for ``speed``.
+    spread : half width, 0 where none is stated.
+    """
+
+    quantity: str
+    label: str
+    speeds: np.ndarray
+    values: np.ndarray
+    spread: float = 0.0
+
+
+def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figure:
+    """Draw power and wingbeat frequency of a curve's orbits against speed.
+
+    The thick line is the best orbit of each speed, broken where it changes branch; thin grey lines are the other
+    certified optima met, and the grey band spans them all.
+
+    Parameters
+    ----------
+    dataset : `Curve.dataset`, or what was saved of it.
+    published : what to draw beside it.
+
+    Raises
+    ------
+    InvalidInputError : the dataset is no curve.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    from wingbeat.results.curve import Curve
+
+    faults = FaultList()
+    if dataset.attrs.get("wingbeat_kind") != "curve" or any(name not in dataset for name in _NEEDED):
+        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no curve of wingbeat", "give curve.dataset")
+    faults.raise_if_any()
+    curve = Curve(dataset)
+    powers = {"mean_positive_power": "hinge power, mean of positive part [W]"}
+    if dataset.attrs["objective"] == "mean_power":
+        powers = {"mean_power": "hinge power, mean [W]", **powers}
+    panels = {**powers, "frequency": "wingbeat frequency [Hz]"}
+    with rc_context(_STYLE):  # type: ignore[arg-type]
+        figure = Figure(figsize=(_WIDTH / _INCH, (_HEIGHT + 45 * (len(panels) - 2)) / _INCH), layout="constrained")
+        all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
+        for axes, (name, label) in zip(all_axes, panels.items(), strict=True):
+            axes.set_ylabel(label)
+            _draw_optima(axes, dataset, curve.marks, name)
+            _draw_published(axes, published, name)
+            _draw_marks(axes, curve.marks, curve.gaps, dataset["speed"].values)
+        _draw_speeds(all_axes[0], curve, next(iter(powers)))
+        all_axes[-1].set_xlabel("mean horizontal speed U [m/s]")
+        for axes in all_axes:
+            axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=6.5)
+        figure.suptitle(_title(dataset), fontsize=8, x=0.01, ha="left")
+    return figure
+
+
+def _title(dataset: xr.Dataset) -> str:
+    about = dataset.attrs
+    aero = json.loads(about["aero"])
+    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
+    limits = "".join(f", {text}" for text in json.loads(about["constraints"]))
+    least = about["objective"].replace("_", " ")
+    return f"{about['species']}{climb}: least {least}{limits}; {aero['coefficients']}, {aero['extension']}"
+
+
+def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str) -> None:
+    speed, values = dataset["speed"].values, dataset[name].values
+    good = np.isfinite(values)
+    low = np.where(good, values, np.inf).min(axis=1)
+    high = np.where(good, values, -np.inf).max(axis=1)
+    some = good.any(axis=1)
+    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "all distinct optima met"}
+    axes.fill_between(speed, np.where(some, low, np.nan), np.where(some, high, np.nan), **band)
+    label = "another optimum, continued"
+    for i, below, above in np.argwhere(dataset["continued"].values > 0):
+        if below or above:
+            ends = values[i, below], values[i + 1, above]
+            axes.plot(speed[i : i + 2], ends, color=_OTHER, linewidth=0.6, label=label)
+            label = "_"
+    for rank in range(1, values.shape[1]):
+        axes.plot(speed, values[:, rank], ".", color=_OTHER, markersize=2)
+    torn = {m["lower_speed"] for m in marks if m["kind"] == "branch"}
+    line, label = [values[:, 0], speed], f"best of least {dataset.attrs['objective'].replace('_', ' ')}"
+    for part in np.split(np.arange(len(speed)), [i + 1 for i, u in enumerate(speed) if u in torn]):
+        axes.plot(line[1][part], line[0][part], "-o", color=_BEST, markersize=3, label=label, zorder=3)
+        label = "_"
+    top = 1.15 * np.nanmax(values[:, 0]) if some.any() else 1.0
+    axes.set_xlim(-0.02 * speed[-1], 1.02 * speed[-1])  # from 0 on, where the tangent of greatest range starts
+    axes.set_ylim(0, max(top, min(1.05 * high[some].max(initial=0.0), 1.5 * top)))
+
+
+def _draw_marks(axes: Axes, marks: list[dict[str, Any]], gaps: list[float], speed: np.ndarray) -> None:
+    foot = {"transform": axes.get_xaxis_transform(), "linestyle": "", "clip_on": False, "zorder": 4}
+    for kind, marker, label in (("branch", "X", "change of branch"), ("bounds", "^", "other bounds active")):
+        at = [0.5 * (m["lower_speed"] + m["upper_speed"]) for m in marks if m["kind"] == kind]
+        if at:
+            look = {"marker": marker, "markersize": 5, "markeredgecolor": "k", "markeredgewidth": 0.6}
+            height = 0.03 if kind == "bounds" else 0.09
+            axes.plot(
+                at,
+                [height] * len(at),
+                markerfacecolor="w" if kind == "bounds" else "k",
+                label=label,
+                **look,
+                **foot,
+            )
+            if kind == "branch":
+                for u in at:
+                    axes.axvline(u, color="0.3", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1)
+    if gaps:
+        axes.plot(gaps, [0.03] * len(gaps), "x", color=_ALARM, label="nothing certified", **foot)
+
+
+def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> None:
+    left, right = axes.get_xlim()
+    tallest = axes.get_ylim()[1]
+    for k, one in enumerate(p for p in published if p.quantity in (name, "speed")):
+        style = {"color": _PUBLISHED, "zorder": 2}
+        if one.quantity == "speed":
+            if name != "frequency":
+                axes.axvspan(
+                    one.speeds[0], one.speeds[-1], color=_PUBLISHED, alpha=0.12, linewidth=0, label=one.label
+                )
+            continue
+        if len(one.speeds) == 1:
+            axes.errorbar(
+                one.speeds, one.values, one.spread, fmt="D", markersize=4, capsize=2, label=one.label, **style
+            )
+            continue
+        axes.plot(one.speeds, one.values, linestyle=_DASHES[k % len(_DASHES)], label=one.label, **style)
+        if one.spread:
+            axes.fill_between(
+                one.speeds,
+                one.values - one.spread,
+                one.values + one.spread,
+                color=_PUBLISHED,
+                alpha=0.15,
+                linewidth=0,
+            )
+        tallest = max(tallest, 1.05 * float(np.max(one.values)))
+    axes.set(xlim=(left, right), ylim=(0, tallest))
+
+
+def _draw_speeds(axes: Axes, curve: Any, name: str) -> None:
+    """Mark the characteristic speeds on the power curve, with the tangent from the origin."""
+    for key, found in curve.characteristic_speeds.items():
+        if found is None:
+            continue
+        label, marker = _NAMES[key]
+        edge = ", at the edge" if found["at_edge"] else ", beside a jump" if found["jump_beside"] else ""
+        label = f"{label}: {found['speed']:.1f} m/s, {found['power']:.3g} W{edge}"
+        look = {"marker": marker, "color": _SPEEDS, "markeredgecolor": "k", "linestyle": "", "markersize": 6}
+        axes.plot(found["speed"], found["power"], label=label, zorder=5, **look)
+        if key == "maximum_range":
+            reach = np.array([0.0, 1.15 * found["speed"]])
+            slope = found["power"] / found["speed"]
+            left, right = axes.get_xlim()
+            axes.plot(reach, slope * reach, color=_SPEEDS, linewidth=0.6, linestyle=(0, (4, 2)))
+            axes.set_xlim(left, right)
+    limit = curve.record()["power_limit"]
+    if limit is not None:
+        axes.axhline(limit, color=_SPEEDS, linewidth=0.7, linestyle=":", label=f"power limit {limit:g} W")

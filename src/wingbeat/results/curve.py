@@ -1,0 +1,204 @@
+"""The power curve a user holds: certified orbits along speed, their branches, and its characteristic speeds."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import json
+import os
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList, FileError
+from wingbeat.orbits.marks import marks_of
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.orbits.tracing import trace
+from wingbeat.results.characteristic import characteristic_speeds
+from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.provenance import inputs_of
+from wingbeat.results.record import finite_or_none
+from wingbeat.results.storage import KIND, inputs_hash, load_dataset, save_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOST_SPEEDS = 1000
+
+
+class Curve:
+    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`."""
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+        self._about: dict[str, Any] = {name: json.loads(dataset.attrs[name]) for name in _JSON}
+
+    def __repr__(self) -> str:
+        data = self._dataset
+        what = f"least {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
+        return f"<Curve {data.attrs['species']}: {what}>"
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Every certified optimum over (speed, optimum), the best of each speed first; names as in records."""
+        return self._dataset
+
+    @property
+    def marks(self) -> list[dict[str, Any]]:
+        """What happens between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
+        return self._about["marks"]
+
+    @property
+    def gaps(self) -> list[float]:
+        """The speeds at which nothing is certified [m/s]."""
+        data = self._dataset
+        return [float(u) for u, status in zip(data["speed"], data["status"], strict=True) if status != "converged"]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader should know, with the speeds it holds for."""
+        return self._about["warnings"]
+
+    @functools.cached_property
+    def characteristic_speeds(self) -> dict[str, Any]:
+        """Speeds of least power and greatest range, and those a power limit sustains; see `characteristic_speeds`.
+
+        Of the power that was made least, or of the mean positive power if that was something else.
+        """
+        data = self._dataset
+        torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
+        speed, power = data["speed"].values, data[power_name(data.attrs["objective"])].values[:, 0]
+        joined = np.array([ends not in torn for ends in itertools.pairwise(speed)], dtype=bool)
+        limit = self._about["inputs"]["power_limit"]
+        return characteristic_speeds(speed, power, joined, limit)
+
+    def record(self) -> dict[str, Any]:
+        """Return the curve as a JSON-able dictionary: SI units, radians, None for what has no value."""
+        data, about = self._dataset, self._dataset.attrs
+        columns = {n: v.values.tolist() for n, v in data.data_vars.items() if v.dims in (POINTS, ("speed",))}
+        points = []
+        for i, speed in enumerate(data["speed"].values.tolist()):
+            one = {n: v[i] for n, v in columns.items() if data[n].dims == ("speed",)}
+            optima = [
+                {n: v[i][k] for n, v in columns.items() if data[n].dims == POINTS}
+                for k in range(data.sizes["optimum"])
+                if data["family"].values[i, k] >= 0
+            ]
+            points.append({"speed": speed, **one, "optima": optima})
+        record = {
+            **{n: about[n] for n in ("species", "climb", "objective", "solve_seconds", "version")},
+            **{n: self._about[n] for n in ("vehicle", "aero", "air", "constraints")},
+            "power_limit": self._about["inputs"]["power_limit"],
+            "power": data[power_name(about["objective"])].attrs["long_name"],
+            "characteristic_speeds": self.characteristic_speeds,
+            "gaps": self.gaps,
+            "marks": self.marks,
+            "points": points,
+            "warnings": self.warnings,
+        }
+        return finite_or_none(record)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the dataset to a NetCDF-4 file, whole or not at all.
+
+        Raises
+        ------
+        FileError : the file cannot be written.
+        """
+        save_dataset(self._dataset, path)
+
+
+_JSON = ("vehicle", "aero", "air", "constraints", "marks", "warnings", "inputs")
+
+
+def solve_curve(
+    problem: OrbitProblem,
+    speeds: Sequence[float],
+    starts: int = 6,
+    seed: int = 0,
+    power_limit: float | None = None,
+    progress: Progress | None = None,
+) -> Curve:
+    """Find the certified orbits of least objective along speed, and every other optimum met on the way.
+
+    Every optimum that searches meet is continued to the neighbouring speeds, both ways, until nothing is new, in
+    steps that change no unknown by much; where the best of one speed is not continued into the best of the next the
+    curve carries a mark.
+
+    Parameters
+    ----------
+    problem : what is asked at each speed; its own speed does not count.
+    speeds : at least two, increasing [m/s]; 0 is hover.
+    starts : searches at either end of the range, and a third as many at each speed between.
+    seed : of the random starts.
+    power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
+    progress : called with (tasks done, tasks known of).
+
+    Raises
+    ------
+    InvalidInputError : speeds that are not numbers in increasing order, starts, seed or power_limit out of range.
+
+    >>> import wingbeat as wb
+    >>> problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
+    >>> curve = wb.solve_curve(problem, [10.0, 11.0, 12.0], starts=1)
+    >>> curve.gaps, [mark["kind"] for mark in curve.marks]
+    ([], [])
+    """
+    check_search(starts, seed)
+    faults = FaultList()
+    values = list(speeds)
+    good = all(
+        [faults.number(f"speeds[{i}]", u, at_least=0, at_most=100, unit="m/s") for i, u in enumerate(values)]
+    )
+    if not 2 <= len(values) <= MOST_SPEEDS:
+        faults.add("speeds", len(values), f"must be 2 to {MOST_SPEEDS} speeds", "for example 3:20:1")
+    elif good and not all(low < high for low, high in itertools.pairwise(values)):
+        faults.add("speeds", values, "must increase", "give each speed once, the slowest first")
+    if power_limit is not None:
+        faults.number("power_limit", power_limit, above=0, unit="W", fix="what can be sustained")
+    faults.raise_if_any()
+    begun = time.perf_counter()
+    speeds = [float(u) for u in values]
+    branches = trace(problem, speeds, starts, seed, progress)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        tasks = [[pool.submit(Orbit.of(o, starts, seed).record) for o in optima] for optima in branches.optima]
+        records = [[task.result() for task in row] for row in tasks]
+    inputs = inputs_of(problem, starts, seed) | {"speed": speeds, "power_limit": power_limit}
+    seconds = time.perf_counter() - begun
+    return Curve(curve_dataset(branches, records, marks_of(branches), inputs, seconds))
+
+
+def load_curve(path: str | PathLike[str]) -> Curve:
+    """Read a curve that `Curve.save` wrote.
+
+    Raises
+    ------
+    FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
+    """
+    return curve_from(load_dataset(path), path)
+
+
+def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
+    """Return the curve in a dataset that came from a file.
+
+    Raises
+    ------
+    FileError : it is none, or damaged.
+    """
+    shown = repr(os.fspath(path))
+    if dataset.attrs.get(KIND) != "curve":
+        raise FileError(f"cannot read {shown} as a curve: it is none; give a file of `wingbeat curve -o`")
+    try:
+        curve = Curve(dataset)
+        if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
+            raise ValueError("the inputs are not those it was solved from")
+        curve.record()
+    except (LookupError, ValueError, TypeError, AttributeError) as error:
+        raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve it again") from None
+    return curve

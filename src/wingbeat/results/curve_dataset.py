@@ -1,0 +1,206 @@
+"""A power curve as a labelled dataset: every optimum at every speed, with units, marks and inputs."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.kinematics import Wingbeat
+from wingbeat.model import State
+from wingbeat.orbits.marks import Mark, certified, families
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.orbits.tracing import Branches
+from wingbeat.results.record import aero_record, vehicle_record
+from wingbeat.results.storage import KIND, inputs_hash
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+POINTS = ("speed", "optimum")
+# Of numbers of the orbit record that stand along the curve: unit and meaning.
+_NUMBERS = {
+    "objective_value": ("", "what was made least"),
+    "mean_power": ("W", "mean hinge power, both wings"),
+    "mean_positive_power": ("W", "mean of the positive part of the hinge power, both wings"),
+    "peak_power": ("W", "largest hinge power, both wings"),
+    "mean_actuator_power": ("W", "mean actuator power, both wings"),
+    "peak_actuator_power": ("W", "largest actuator power, both wings"),
+    "cost_of_transport": ("1", "mean positive power over weight times speed"),
+    "body_pitch_range": ("rad", "largest less smallest body pitch"),
+    "strouhal": ("1", "Strouhal number"),
+    "reduced_frequency": ("1", "reduced frequency"),
+    "reynolds": ("1", "Reynolds number of the mean chord"),
+    "optimality": ("1", "largest residual of the optimality conditions, scaled"),
+}
+_WINGBEAT = {
+    "frequency": ("Hz", "wingbeat frequency"),
+    "flap_mean": ("rad", "mean flap angle"),
+    "flap_amplitude": ("rad", "flap amplitude, half of peak to peak"),
+    "pitch_mean": ("rad", "mean wing pitch"),
+    "pitch_amplitude": ("rad", "wing pitch amplitude, half of peak to peak"),
+    "span_retraction": ("1", "span retraction at mid-upstroke"),
+    "twist_ratio": ("1", "pitch at the tip over that at the root"),
+    "fold_amplitude": ("rad", "largest fold of the hand"),
+    "wrist": ("1", "span fraction of the wrist"),
+}
+_STATE = {
+    "x": ("m", "forward position"),
+    "z": ("m", "height"),
+    "body_pitch": ("rad", "body pitch, nose up positive,"),
+    "u": ("m s-1", "forward velocity"),
+    "w": ("m s-1", "upward velocity"),
+    "pitch_rate": ("rad s-1", "pitch rate"),
+}
+
+
+def curve_dataset(
+    branches: Branches,
+    records: Sequence[Sequence[dict[str, Any]]],
+    marks: Sequence[Mark],
+    inputs: dict[str, Any],
+    seconds: float,
+) -> xr.Dataset:
+    """Assemble the records of all optima, shape (speed, optimum), the best first, filled up with not-a-number."""
+    import xarray as xr
+
+    labels = families(branches)
+    problem = branches.optima[0][0].problem
+    speeds = np.array([optima[0].problem.speed for optima in branches.optima])
+    good = [[r if certified(s) else None for r, s in zip(*row, strict=True)] for row in _rows(records, branches)]
+    widest = max(map(len, good))
+    table = _Table(good, widest)
+    for name, (unit, meaning) in _NUMBERS.items():
+        table.add(
+            name, problem.minimise.unit if name == "objective_value" else unit, meaning, lambda r, n=name: r[n]
+        )
+    for name in Wingbeat.__dataclass_fields__:
+        table.add(name, *_WINGBEAT[name], lambda r, n=name: r["wingbeat"][n])
+    for name in State._fields:
+        unit, meaning = _STATE[name]
+        table.add(
+            f"initial_{name}", unit, f"{meaning} at the top of the stroke", lambda r, n=name: r["initial_state"][n]
+        )
+        table.add(
+            f"closure_{name}", unit, f"miss of the {meaning} when re-flown", lambda r, n=name: r["closure"][n]
+        )
+    for i, constraint in enumerate(problem.subject_to):
+        text = str(constraint)
+        about = f"{constraint.quantity.name}, kept to {text}"
+        table.add(f"constraint_{i}", constraint.quantity.unit, about, lambda r, n=text: r["constraints"][n])
+    table.add("largest_multiplier", "1", "largest modulus of the Floquet multipliers", _largest_multiplier)
+    table.texts("active_bounds", "bounds that the orbit leans on", lambda r: ", ".join(r["active_bounds"]))
+    family = np.full((len(speeds), widest), -1)
+    for i, row in enumerate(labels):
+        family[i, : len(row)] = [n if r is not None else -1 for n, r in zip(row, good[i], strict=True)]
+    table.columns["family"] = (POINTS, family, {"long_name": "number of the family of orbits, -1 where none"})
+    steps = np.zeros((len(speeds) - 1, widest, widest), dtype=int)
+    for join in branches.joins:
+        steps[join.interval, join.lower, join.upper] = join.steps
+    about = "steps of the continuation from an optimum of one speed to one of the next, 0 where none leads there"
+    table.columns["continued"] = (("interval", "optimum", "optimum_above"), steps, {"long_name": about})
+    first = [row[0] for row in records]
+    for name in ("status", "message"):
+        table.columns[name] = (("speed",), np.array([r[name] for r in first], dtype=object), {})
+    listed = ["\n".join(r["warnings"]) for r in first]
+    table.columns["warnings"] = (("speed",), np.array(listed, dtype=object), {"long_name": "of the best orbit"})
+    for name in ("starts", "distinct_optima"):
+        counts = [r[name] if g[0] is not None or name == "starts" else 0 for r, g in zip(first, good, strict=True)]
+        table.columns[name] = (("speed",), np.array(counts), {})
+    meaning = {"units": "m s-1", "long_name": "mean horizontal speed", "standard_name": "platform_speed_wrt_air"}
+    ranks = {"long_name": "rank at its speed, 0 the best"}
+    attributes = _attributes(problem, first, marks, inputs, seconds)
+    return xr.Dataset(
+        table.columns,
+        {"speed": ("speed", speeds, meaning), "optimum": ("optimum", np.arange(widest), ranks)},
+        attributes,
+    )
+
+
+def _rows(records: Any, branches: Branches) -> Any:
+    return zip(records, branches.optima, strict=True)
+
+
+class _Table:
+    """Columns over speed and optimum, read off records; None is a record of no certified orbit."""
+
+    def __init__(self, records: Sequence[Sequence[dict[str, Any] | None]], widest: int) -> None:
+        self._records, self._shape = records, (len(records), widest)
+        self.columns: dict[str, Any] = {}
+
+    def add(self, name: str, unit: str, meaning: str, of: Any) -> None:
+        """Add a number of each record; what is None, as a cost of transport in hover, becomes not-a-number."""
+        values = np.full(self._shape, np.nan)
+        for place, record in self._each():
+            found = of(record)
+            values[place] = math.nan if found is None else found
+        self.columns[name] = (POINTS, values, {"units": unit, "long_name": meaning})
+
+    def texts(self, name: str, meaning: str, of: Any) -> None:
+        """Add a text of each record."""
+        values = np.full(self._shape, "", dtype=object)
+        for place, record in self._each():
+            values[place] = of(record)
+        self.columns[name] = (POINTS, values, {"long_name": meaning})
+
+    def _each(self) -> Any:
+        for i, row in enumerate(self._records):
+            yield from (((i, j), record) for j, record in enumerate(row) if record is not None)
+
+
+def _largest_multiplier(record: dict[str, Any]) -> float | None:
+    pairs = record["floquet_multipliers"]
+    return (
+        None if any(part is None for pair in pairs for part in pair) else max(math.hypot(*pair) for pair in pairs)
+    )
+
+
+def power_name(objective: str) -> str:
+    """Return which power a curve is a curve of: what was made least, if that is a mean power."""
+    known = QUANTITIES.get(objective)
+    is_mean = objective.startswith(("mean_", "power_cost")) and (known is None or known.unit == "W")
+    return "objective_value" if is_mean else "mean_positive_power"
+
+
+def _attributes(
+    problem: OrbitProblem, records: Sequence[Any], marks: Sequence[Mark], inputs: dict[str, Any], seconds: float
+) -> dict[str, Any]:
+    return {
+        "Conventions": "CF-1.11",
+        KIND: "curve",
+        "species": problem.species.name,
+        "vehicle": json.dumps(vehicle_record(problem)),
+        "aero": json.dumps(aero_record(problem.aero)),
+        "air": json.dumps(dict(vars(problem.air))),
+        "climb": float(problem.climb),
+        "objective": problem.minimise.name,
+        "constraints": json.dumps([str(c) for c in problem.subject_to]),
+        "marks": json.dumps([mark._asdict() for mark in marks]),
+        "warnings": json.dumps(_common_warnings(records)),
+        "solve_seconds": seconds,
+        "version": __version__,
+        "inputs": json.dumps(inputs),
+        "inputs_hash": inputs_hash(inputs),
+    }
+
+
+def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:
+    """Return the warnings of the best orbits, those that differ in their numbers only once, with their speeds."""
+    speeds: dict[str, list[float]] = {}
+    texts: dict[str, str] = {}
+    for record in records:
+        for text in record["warnings"]:
+            key = re.sub(r"[\d.]+", "#", text)
+            texts.setdefault(key, text)
+            speeds.setdefault(key, []).append(record["speed"])
+    return [f"at {_span(speeds[key])} m/s: {text}" for key, text in texts.items()]
+
+
+def _span(speeds: list[float]) -> str:
+    return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"

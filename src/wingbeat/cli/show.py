@@ -28,6 +28,7 @@ def show(
     from rich.console import Console
 
     dataset = read_result(file)
+    account = power_account(dataset) if power else None
     if dataset.attrs[KIND] == "curve":
         curve = curve_from(dataset, file)
         print(json_format.dumps(curve.record(), indent=2, allow_nan=False)) if json else print_curve(curve)
@@ -36,8 +37,8 @@ def show(
     console = Console(markup=False, highlight=False, emoji=False)
     is_orbit = dataset.attrs[KIND] == "orbit"
     record = parse_attributes(dataset.attrs, file)[0] if is_orbit else flight_summary(dataset, file)
-    if power:
-        record["power_account"] = power_account(dataset)
+    if account is not None:
+        record["power_account"] = account
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))
     elif is_orbit:

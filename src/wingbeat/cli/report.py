@@ -55,6 +55,8 @@ def print_orbit(record: dict[str, Any], console: Console) -> None:
     _print_groups(
         {
             "flight": [("species, mean speed", place), ("air loads", loads), *_flight_numbers(record)],
+            "short of an orbit, at the closest beat": _shortages(record.get("failed_balance") or []),
+            "nearest changes that fly, each by itself": _changes(record.get("relaxations") or []),
             "wingbeat": _wingbeat(record.get("wingbeat", {})),
             "state at the top of the stroke": _state(record.get("initial_state", {})),
             "power, both wings": _powers(record),
@@ -116,6 +118,21 @@ def _flight_numbers(record: dict[str, Any]) -> Rows:
     if "body_pitch_range" in record:
         rows.append(("range of body pitch", _of(record, "body_pitch_range", "deg")))
     return rows
+
+
+def _shortages(shortages: list[dict[str, Any]]) -> Rows:
+    share = {"N m": "of weight times chord"}
+    return [
+        (
+            s["law"],
+            f"{_of(s, 'amount', s['unit'])}, {100 * s['share']:.2g} % {share.get(s['unit'], 'of the weight')}",
+        )
+        for s in shortages
+    ]
+
+
+def _changes(changes: list[dict[str, Any]]) -> Rows:
+    return [("or" if i else "either", change["text"]) for i, change in enumerate(changes)]
 
 
 def _wingbeat(beat: dict[str, Any]) -> Rows:

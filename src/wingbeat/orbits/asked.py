@@ -47,11 +47,14 @@ class Asked:
         )
         return self._readings.of(beat)
 
+    def rows_of(self, place: int) -> range:
+        """Return which of the constraints' rows are those of one of them, by its place among them."""
+        counts = self._readings.constraint_counts
+        return range(sum(counts[:place]), sum(counts[: place + 1]))
+
     def active_rows(self, active: np.ndarray) -> list[int]:
         """Return which constraints have an active row, given which of the margins after body pitch are active."""
-        ends = np.cumsum(self._readings.constraint_counts)
-        starts = ends - self._readings.constraint_counts
-        return [i for i, (begin, end) in enumerate(zip(starts, ends, strict=True)) if active[begin:end].any()]
+        return [i for i in range(len(self._problem.subject_to)) if active[self.rows_of(i)].any()]
 
     def active_constraints(self, margins: np.ndarray) -> list[str]:
         """Return the constraints that are at their limits, given the margins of their rows."""

@@ -28,6 +28,7 @@ def find_orbits(
     processes: int = 1,
     progress: Progress | None = None,
     most_starts: int | None = None,
+    advise: bool = False,
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
 
@@ -37,7 +38,7 @@ def find_orbits(
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
-    starts, seed, most_starts : as in `find_orbit`, for each problem.
+    starts, seed, most_starts, advise : as in `find_orbit`, for each problem.
     processes : how many Python processes share the work; with 1 it is done in this one. The answers are the same.
     progress : called with (problems done, problems in all).
 
@@ -53,7 +54,7 @@ def find_orbits(
         faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
     faults.raise_if_any()
     check_search(starts, seed, 1 if most_starts is None else most_starts)
-    solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts)
+    solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
     return _in_order(solve, problems, processes, progress)
 
 
@@ -84,7 +85,7 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 
 
 def _solve_alike(
-    problems: Sequence[OrbitProblem], starts: int, seed: int, most_starts: int | None
+    problems: Sequence[OrbitProblem], starts: int, seed: int, most_starts: int | None, advise: bool
 ) -> Iterator[Solution]:
     """Solve problems of one group in turn, each helped by the answers before."""
     answers = Answers(problems)
@@ -94,7 +95,9 @@ def _solve_alike(
         best, polish = settled or (None, None)
         own = starts if best is None else starts - 1
         if own:
-            cold = find_orbit(problem, own, seed, threads=1, most_starts=most_starts)
+            cold = find_orbit(
+                problem, own, seed, threads=1, most_starts=most_starts, advise=advise and best is None
+            )
             best = cold if best is None else better_of(cold, best)
         assert best is not None
         if best.status is Status.CONVERGED:

@@ -43,7 +43,7 @@ def find_series(
             fix = f"give all of a row the same, as the first: {', '.join(problems[0].free)}"
             faults.add(f"problems[{i}].free", problem.free, "is not what is free beside it", fix)
     faults.raise_if_any()
-    best = [find_orbit(p, starts, seed, threads=1, most_starts=most_starts) for p in problems]
+    best = [find_orbit(p, starts, seed, threads=1, most_starts=most_starts, advise=False) for p in problems]
     tried: set[tuple[bytes, int]] = set()
     upward = [(i, i + 1) for i in range(len(best) - 1)]
     downward = [(i + 1, i) for i in reversed(range(len(best) - 1))]

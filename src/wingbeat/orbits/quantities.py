@@ -303,8 +303,8 @@ class WingbeatLimit(NamedTuple):
     value: float
 
 
-_ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude")
-_PARAMETERS = (*_ANGLES, "frequency", "span_retraction", "twist_ratio")
+ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude")
+_PARAMETERS = (*ANGLES, "frequency", "span_retraction", "twist_ratio")
 _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({_NUMBER})\s*(deg)?\s*")
 
 
@@ -317,7 +317,7 @@ def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
     6.0
     """
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
-    if found is None or found[1] not in _PARAMETERS or (found[4] and found[1] not in _ANGLES):
+    if found is None or found[1] not in _PARAMETERS or (found[4] and found[1] not in ANGLES):
         return None
     if found[1] == "frequency" and found[2] != "=":
         return None

@@ -12,8 +12,10 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import Certificate
+from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
+from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.stability import floquet_multipliers
 
 # Optima nearer to one another than this, in the optimiser's scale, are one.
@@ -30,7 +32,11 @@ class Status(enum.Enum):
 
 @dataclass(frozen=True)
 class Solution:
-    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted."""
+    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted.
+
+    Where there is none they are those of the beat that comes closest; `shortages` says which law of balance it
+    breaks and by how much, the most first, and `relaxations` which single changes fly, the smallest first.
+    """
 
     problem: OrbitProblem
     status: Status
@@ -45,6 +51,8 @@ class Solution:
     seed: int
     seconds: float
     certify_seconds: float
+    shortages: tuple[Shortage, ...] = ()
+    relaxations: tuple[Relaxation, ...] = ()
 
     @property
     def unknowns(self) -> np.ndarray:

@@ -6,23 +6,26 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.advice import nearest_beat, relaxations, words_of
 from wingbeat.orbits.certify import certify
+from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.correction import SETTLED, Corrected, certified, correct, follow_to_certificate, size
 from wingbeat.orbits.polish import Polish
-from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
+from wingbeat.orbits.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.search import (
     Candidate,
     active_bounds,
-    optimise,
     refine,
     search,
     violation,
 )
 from wingbeat.orbits.shooting import fly_part
+from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.solution import SAME, Solution, Status
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
@@ -33,6 +36,16 @@ MOST_STARTS = 50
 
 
 Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """How a search ended, and without an orbit what is short at the closest beat and which changes fly."""
+
+    status: Status
+    message: str
+    shortages: tuple[Shortage, ...] = ()
+    relaxations: tuple[Relaxation, ...] = ()
 
 
 def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
@@ -51,6 +64,7 @@ def find_orbit(
     progress: Progress | None = None,
     threads: int | None = None,
     most_starts: int | None = None,
+    advise: bool = True,
 ) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
@@ -63,6 +77,7 @@ def find_orbit(
     threads : searches at a time, as many as there are cores if not given.
     most_starts : if none of the searches can be certified, more are made, up to this many (50 if not
         given), before giving up.
+    advise : where there is no orbit, find the single changes that make one; costs as much as the searches.
 
     Returns
     -------
@@ -93,13 +108,37 @@ def find_orbit(
             break
     failure = None
     if best is None:
-        nearest = min(found, key=lambda c: c.violation)
-        # An elastic solve stays a little inside the bounds that hold it up; SLSQP goes to them.
-        at_bounds, _ = optimise(nearest.programme, nearest.scaled, iterations=5)
-        best = certified(nearest.programme, at_bounds)
-        failure = _failure(found, best.miss, problem)
+        best, failure = _without_orbit(transcription, found, threads or os.cpu_count() or 1, advise)
     seconds = time.perf_counter() - begun
-    return _solution(best, len(found), len(_distinct(found)), seed, seconds, transcription.certify_seconds, failure)
+    certifying = transcription.certify_seconds
+    return _solution(best, len(found), len(_distinct(found)), seed, seconds, certifying, failure)
+
+
+def _without_orbit(
+    programme: Transcription, found: list[Candidate], threads: int, advise: bool
+) -> tuple[Corrected, _Outcome | None]:
+    """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to."""
+    problem = programme.problem
+    nearest = nearest_beat(programme, found)
+    if nearest.closes or any(c.closed for c in found):
+        led = search(programme.anew(), programme.physical(nearest.scaled))
+        orbit = _first_certified(programme, [led])
+        if orbit is not None:
+            return orbit, None
+        closest = min([led, *found], key=lambda c: c.violation)
+        message = (
+            f"beats that close were met in {len(found)} searches, but none could be certified as an optimum; "
+            "try more starts, another seed, or a start nearer the answer"
+        )
+        return certified(closest.programme, closest.scaled), _Outcome(Status.NOT_CONVERGED, message)
+    changes = relaxations(problem, programme.physical(nearest.scaled), threads) if advise else ()
+    message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
+    if changes:
+        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
+    elif advise:
+        message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
+    failure = _Outcome(Status.INFEASIBLE, message, nearest.shortages, changes)
+    return certified(programme.anew(), nearest.scaled), failure
 
 
 def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tuple[Solution, Polish] | None:
@@ -183,16 +222,13 @@ def _solution(
     seed: int,
     seconds: float,
     certify_seconds: float,
-    failure: tuple[Status, str] | None = None,
+    failure: _Outcome | None = None,
 ) -> Solution:
-    status, message = failure or (
-        Status.CONVERGED,
-        f"certified: re-flown, it closes to {size(best.miss):.0e}",
-    )
+    told = failure or _Outcome(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
     return Solution(
         best.programme.problem,
-        status,
-        message,
+        told.status,
+        told.message,
         best.wingbeat,
         best.certificate,
         dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
@@ -203,6 +239,8 @@ def _solution(
         seed,
         seconds,
         certify_seconds,
+        told.shortages,
+        told.relaxations,
     )
 
 
@@ -252,29 +290,3 @@ def _distinct(found: list[Candidate]) -> list[Candidate]:
         if candidate.closed and candidate.optimal and not known:
             optima.append(candidate)
     return optima
-
-
-def _failure(found: list[Candidate], miss: np.ndarray, problem: OrbitProblem) -> tuple[Status, str]:
-    """Return status and advice for a search without a certified orbit."""
-    worst = CLOSURE[int(np.argmax(np.abs(np.nan_to_num(miss, nan=np.inf)) / CLOSURE_SCALE))]
-    if any(c.closed for c in found):
-        return (
-            Status.NOT_CONVERGED,
-            f"orbits were met in {len(found)} searches, but none could be certified as an optimum; "
-            "try more starts, another seed, or a start nearer the answer",
-        )
-    balance = {
-        "x": "thrust does not balance drag",
-        "z": "lift does not balance weight",
-        "body_pitch": "the pitch angle does not return: the pitching moment is not trimmed",
-        "u": "the forward speed does not return: thrust does not balance drag",
-        "w": "the vertical speed does not return: lift does not balance weight",
-        "pitch_rate": "the pitch rate does not return: the pitching moment is not trimmed",
-    }[worst]
-    relax = "".join(f"relax {c}, " for c in problem.subject_to)
-    return (
-        Status.INFEASIBLE,
-        f"no orbit within the bounds in {len(found)} searches; at the nearest one {balance} (it misses by "
-        f"{abs(float(miss[CLOSURE.index(worst)])):.2g} in {worst}); widen the bounds of flap amplitude, "
-        f"pitch or frequency, {relax}change the speed, or lighten the vehicle",
-    )

@@ -15,6 +15,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
@@ -35,6 +36,7 @@ class Summary(NamedTuple):
     message: str
     wingbeat: Wingbeat
     initial_state: State
+    relaxations: tuple[Relaxation, ...] = ()
 
 
 class Orbit:
@@ -79,7 +81,7 @@ class Orbit:
             )
 
         start = State(*certificate.states[0].tolist())
-        summary = Summary(solution.status, solution.message, solution.wingbeat, start)
+        summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
         return cls(summary, inputs, record, series)
 
     @functools.cached_property
@@ -99,6 +101,11 @@ class Orbit:
     def message(self) -> str:
         """What that means, in flight terms."""
         return self._summary.message
+
+    @property
+    def relaxations(self) -> tuple[Relaxation, ...]:
+        """Where there is no orbit, single changes that make one, the smallest first; `apply` makes the problem."""
+        return self._summary.relaxations
 
     @property
     def wingbeat(self) -> Wingbeat:
@@ -142,7 +149,8 @@ class Orbit:
 def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None) -> Orbit:
     """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
 
-    A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what to do.
+    A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
+    the beat is then the one that comes closest, and `Orbit.relaxations` are changes that were found to fly.
 
     Parameters
     ----------
@@ -179,6 +187,7 @@ def solve_orbits(
     processes: int = 1,
     progress: Progress | None = None,
     most_starts: int | None = None,
+    advise: bool = False,
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
 
@@ -197,6 +206,8 @@ def solve_orbits(
     progress : called with (problems done, problems in all).
     most_starts : searches for a problem that yields no orbit before it is given up, 50 if not given; fewer answer
         sooner.
+    advise : for each problem without an orbit find the single changes that make one, as `solve_orbit` does; it
+        takes seconds each.
 
     Raises
     ------
@@ -208,7 +219,7 @@ def solve_orbits(
     >>> [orbit.status.value for orbit in orbits]
     ['converged', 'converged', 'converged']
     """
-    found = find_orbits(problems, starts, seed, processes, progress, most_starts)
+    found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise)
     return [Orbit.of(solution, starts, seed) for solution in found]
 
 
@@ -253,5 +264,6 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
         record["message"],
         Wingbeat(**record["wingbeat"]),
         State(**record["initial_state"]),
+        tuple(Relaxation(**r) for r in record.get("relaxations", [])),
     )
     return Orbit(summary, inputs, lambda: record, lambda: dataset)

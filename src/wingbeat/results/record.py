@@ -58,6 +58,8 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
+        "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.shortages],
+        "relaxations": [dict(vars(r)) for r in solution.relaxations],
         "optimality": solution.optimality,
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,

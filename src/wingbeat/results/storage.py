@@ -20,7 +20,10 @@ KIND = "wingbeat_kind"
 # What a record holds, by kind; any other attribute is somebody else's, as the `history` of other tools.
 _TEXTS = ("status", "message", "species", "objective", "version")
 _TABLES = ("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints")
-_LISTS = ("active_bounds", "floquet_multipliers", "warnings", "alpha_quarter_span", "alpha_three_quarter_span")
+_LISTS = (
+    *("active_bounds", "failed_balance", "relaxations", "floquet_multipliers", "warnings"),
+    *("alpha_quarter_span", "alpha_three_quarter_span"),
+)
 _NUMBERS = (
     *("speed", "climb", "optimality", "starts", "distinct_optima", "stable", "solve_seconds", "body_pitch_range"),
     *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),

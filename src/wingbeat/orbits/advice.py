@@ -1,0 +1,125 @@
+"""What to tell a user who asked for an orbit that there is not: what fails, and which changes would fly."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.orbits.changes import Change, Relaxation, possible_changes, relaxation
+from wingbeat.orbits.correction import correct
+from wingbeat.orbits.easing import least_change
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import QUANTITIES, Frequency
+from wingbeat.orbits.search import Candidate, refine, search
+from wingbeat.orbits.shortage import NOTHING, Balance, Closest, Shortage
+from wingbeat.orbits.transcription import Transcription
+
+# Beats from which the closest is sought, of those that the searches ended with.
+_NEAREST = 4
+# A bound that a beat is as near to as this share of its range holds it back; and one that it is at.
+_LEANING = 0.02
+_AT = 1e-3
+# Changes that are told; of a short share of a law, the part of the largest that is worth telling.
+_TOLD = 3
+_MENTION = 0.2
+# Steps of the last digit that a change is widened by until a certified orbit is found.
+_WIDER = (0, 1, 3, 10)
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """The beat within the bounds that comes closest to an orbit, and what it is short of, the most first."""
+
+    scaled: np.ndarray
+    shortages: tuple[Shortage, ...]
+    closes: bool
+
+
+def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
+    """Return the beat that comes closest to an orbit, from where the searches ended."""
+    balance = Balance(programme)
+    ends = [c.scaled for c in sorted(found, key=lambda c: c.violation)[:_NEAREST]]
+    closest = balance.failing(ends)
+    # An elastic solve stays a little inside the bounds that hold it up.
+    at, near = closest.scaled.copy(), _AT * (programme.upper - programme.lower)
+    for bound in (programme.lower, programme.upper):
+        at = np.where(np.abs(at - bound) <= near, bound, at)
+    return Nearest(at, balance.shortages(closest), _closes(closest))
+
+
+def _closes(closest: Closest) -> bool:
+    return closest.keeps_the_rest and closest.size <= NOTHING
+
+
+def words_of(problem: OrbitProblem, shortages: Sequence[Shortage]) -> str:
+    """Return what is short, in a sentence's part."""
+    told = [str(s) for s in shortages if abs(s.share) >= _MENTION * abs(shortages[0].share)]
+    place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
+    limits = ", ".join(str(c) for c in problem.subject_to)
+    return f"{place}{f' with {limits}' if limits else ''} {' and '.join(told)}"
+
+
+def relaxations(problem: OrbitProblem, near: np.ndarray, threads: int) -> tuple[Relaxation, ...]:
+    """Return the single changes, the smallest first, with which a certified orbit was found.
+
+    Parameters
+    ----------
+    problem : the problem that has none.
+    near : the unknowns of the beat that comes closest.
+    threads : changes that are looked at at a time.
+    """
+    problem = _plainly(problem)
+    programme = Transcription(problem)
+    changes = list(possible_changes(problem, leaning(programme, programme.scaled(near))))
+
+    def least(change: Change) -> tuple[float, np.ndarray] | None:
+        return least_change(problem, change, near)
+
+    with ThreadPoolExecutor(threads) as pool:
+        found = list(pool.map(least, changes))
+    met = [(*answer, change) for change, answer in zip(changes, found, strict=True) if answer is not None]
+    flying: list[Relaxation] = []
+    for share, unknowns, change in sorted(met, key=lambda m: m[0]):
+        certain = _certified_change(problem, change, change.moved(share), unknowns)
+        if certain is not None:
+            flying.append(certain)
+        if len(flying) == _TOLD:
+            break
+    return tuple(flying)
+
+
+def _plainly(problem: OrbitProblem) -> OrbitProblem:
+    """Return the problem with an objective that needs no unknown of its own."""
+    if not Transcription(problem).has_level:
+        return problem
+    plain = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
+    return dataclasses.replace(problem, minimise=plain)
+
+
+def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
+    """Yield (name, sign) of the bounds that a beat leans on, ``body_pitch`` for the whole path."""
+    names, reach = programme.unknowns.names, _LEANING * (programme.upper - programme.lower)
+    for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
+        if name in programme.problem.free:
+            if x - low <= near:
+                yield name, ">="
+            if high - x <= near:
+                yield name, "<="
+    for margin, sign in zip(programme.margins(scaled)[:2], (">=", "<="), strict=True):
+        if margin <= _LEANING:
+            yield "body_pitch", sign
+
+
+def _certified_change(problem: OrbitProblem, change: Change, value: float, near: np.ndarray) -> Relaxation | None:
+    for more in _WIDER:
+        eased = relaxation(problem, change, value, more)
+        programme = Transcription(eased.apply(problem))
+        for seek in (refine, search):
+            met = seek(programme.anew(), near)
+            if met.closed and met.optimal and correct(met.programme, met.scaled).is_orbit():
+                return eased
+    return None

@@ -1,0 +1,230 @@
+"""Single changes to a problem: a bound, a limit, or a number of the vehicle or the flight set to another value."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import ANGLES, Constraint
+from wingbeat.species import Species
+
+# How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
+_QUARTER_TURN = 0.5 * math.pi
+_REACH = {
+    "frequency": (0.1, 200.0),
+    "flap_mean": (-_QUARTER_TURN, _QUARTER_TURN),
+    "flap_amplitude": (0.0, _QUARTER_TURN),
+    "pitch_mean": (-_QUARTER_TURN, _QUARTER_TURN),
+    "pitch_amplitude": (0.0, _QUARTER_TURN),
+    "span_retraction": (0.0, 0.9),
+    "twist_ratio": (0.0, 4.0),
+    "fold_amplitude": (-_QUARTER_TURN, _QUARTER_TURN),
+    "body_pitch": (-_QUARTER_TURN, _QUARTER_TURN),
+}
+# A change of an angle by this much counts as large as a change of any other number by all of itself.
+_LARGE_ANGLE = math.radians(60.0)
+# Times itself that a limit is raised, or divided by, in looking for an orbit.
+_FAR = 30.0
+# The lightest body, and the fastest flight, that is looked at, as a share of what was asked for.
+_LIGHTEST = 0.1
+_FASTEST = 5.0
+# The least change that is worth a digit of its own, as a share of its scale.
+_LEAST = 1e-3
+# Chords that the shoulder is moved by, at most; of a speed near 0, what counts as large [m/s].
+_CHORDS = 2.0
+_BRISK = 2.0
+
+
+@dataclass(frozen=True)
+class Change:
+    """A number of a problem that may move, one way only.
+
+    Parameters
+    ----------
+    name : a wingbeat parameter, ``body_pitch``, a constraint's quantity, ``mass`` (whole, taken off the body),
+        ``speed``, ``climb`` or ``shoulder`` (its place ahead of the body's centre of mass).
+    sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for what is held.
+    old : what it is, SI and radians.
+    reach : how far it may go.
+    scale : a change that is large.
+    tries : shares of the scale at which an orbit is looked for first; the reach alone if not given.
+    """
+
+    name: str
+    sign: str
+    old: float
+    reach: float
+    scale: float
+    tries: tuple[float, ...] = ()
+
+    @property
+    def widest(self) -> float:
+        """The farthest it may move, over its scale."""
+        return abs(self.reach - self.old) / self.scale
+
+    @property
+    def direction(self) -> float:
+        """The sign of a change."""
+        return math.copysign(1.0, self.reach - self.old)
+
+    def moved(self, share: float) -> float:
+        """Return the number moved by a share of its scale."""
+        return self.old + self.direction * share * self.scale
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """A single change with which a certified orbit was found.
+
+    Parameters
+    ----------
+    name, sign : which number, as in `Change`.
+    old, new : what it is and what it would be, SI and radians.
+    unit : of both.
+    text : the change in words, angles in degrees.
+    """
+
+    name: str
+    sign: str
+    old: float
+    new: float
+    unit: str
+    text: str
+
+    def apply(self, problem: OrbitProblem) -> OrbitProblem:
+        """Return the problem with the change made."""
+        return with_change(problem, self.name, self.sign, self.new)
+
+
+_SHOWN = {"rad": (math.degrees(1.0), "deg"), "m": (1e3, "mm")}
+_UNITS = {"mass": "kg", "speed": "m/s", "climb": "m/s", "shoulder": "m", "frequency": "Hz"}
+
+
+def unit_of(problem: OrbitProblem, change: Change) -> str:
+    """Return the SI unit of the number that changes."""
+    limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
+    plain = "rad" if change.name in (*ANGLES, "body_pitch") else "1"
+    return limits[0] if limits else _UNITS.get(change.name, plain)
+
+
+def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
+    """Return the change to at least a value, rounded outward to what its text prints.
+
+    Parameters
+    ----------
+    problem, change : what changes.
+    value : what it must at least be changed to, SI.
+    more : further steps of the last digit.
+    """
+    unit = unit_of(problem, change)
+    factor, shown = _SHOWN.get(unit, (1.0, unit))
+    new = rounded_outward(change, value, factor, more)
+    text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
+    text += "" if shown == "1" else f" {shown}"
+    if change.name == "mass":
+        text += f" ({100 * (new / change.old - 1):.2g} %, off the body)"
+    return Relaxation(change.name, change.sign, change.old, new, unit, text)
+
+
+def _words(problem: OrbitProblem, change: Change) -> str:
+    if any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
+        return f"{change.name}{change.sign}"
+    words = {"pitch_mean": "mean wing pitch", "pitch_amplitude": "wing pitch amplitude", "mass": "whole mass"}
+    name = words.get(change.name, change.name.replace("_", " "))
+    return name if change.sign == "=" else f"{'upper' if change.sign == '<=' else 'lower'} bound of {name}"
+
+
+def with_change(problem: OrbitProblem, name: str, sign: str, value: float) -> OrbitProblem:
+    """Return the problem with one number set, named as in `Change`."""
+    if name == "mass":
+        wings = 2.0 * problem.vehicle.wing.mass
+        return dataclasses.replace(problem, species=_with_number(problem.species, "body", "mass", value - wings))
+    if name == "shoulder":
+        shoulder = (value, *problem.vehicle.wing.shoulder[1:])
+        return dataclasses.replace(problem, species=_with_number(problem.species, "wing", "shoulder", shoulder))
+    if name in ("speed", "climb"):
+        return dataclasses.replace(problem, **{name: value})
+    if sign == "=":
+        wingbeat = dataclasses.replace(problem.species.wingbeat, **{name: value})
+        return dataclasses.replace(problem, species=dataclasses.replace(problem.species, wingbeat=wingbeat))
+    if any(is_limit(c, name, sign) for c in problem.subject_to):
+        limits = [dataclasses.replace(c, limit=value) if is_limit(c, name, sign) else c for c in problem.subject_to]
+        return dataclasses.replace(problem, subject_to=limits)
+    low, high = problem.bounds[name]
+    pair = (low, value) if sign == "<=" else (value, high)
+    return dataclasses.replace(problem, bounds={**problem.bounds, name: pair})
+
+
+def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
+    """Say whether a constraint is the limit of this name and sign."""
+    return constraint.quantity.name == name and constraint.at_most is (sign == "<=")
+
+
+def _with_number(species: Species, part: str, name: str, value: object) -> Species:
+    """Set a number of body or wing; a species of an orbit's file knows no numbers beside its records."""
+    if species.numbers:
+        return species.with_values({f"{part}.{name}": value})
+    record = dataclasses.replace(getattr(species.vehicle, part), **{name: value})
+    return dataclasses.replace(species, vehicle=dataclasses.replace(species.vehicle, **{part: record}))
+
+
+def possible_changes(problem: OrbitProblem, leaning: Iterable[tuple[str, str]]) -> Iterator[Change]:
+    """Yield the changes that may make a problem feasible.
+
+    Parameters
+    ----------
+    problem : the problem.
+    leaning : (name, sign) of the bounds, that of body pitch along the path too, that the nearest beat leans on.
+    """
+    limits = [(c.quantity.name, "<=" if c.at_most else ">=", c) for c in problem.subject_to]
+    for name, sign, constraint in limits:
+        old = float(constraint.limit)
+        scale = abs(old) or constraint.quantity.scale
+        yield Change(name, sign, old, old + (_FAR if constraint.at_most else -_FAR) * scale, scale)
+    for name, sign in leaning:
+        if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
+            upper = sign == "<="
+            yield from _towards(name, sign, float(problem.bounds[name][upper]), _REACH[name][upper])
+    for name in problem.species.bounds:
+        if name not in problem.free:
+            old = float(getattr(problem.species.wingbeat, name))
+            for reach in _REACH[name]:
+                yield from _towards(name, "=", old, reach, (0.1, 0.3))
+    wing = problem.vehicle.wing
+    mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
+    yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, (0.2, 0.5))
+    brisk = max(problem.speed, _BRISK)
+    yield Change("speed", "=", problem.speed, problem.speed + _FASTEST * brisk, brisk, (0.3, 1.0, 2.5))
+    if problem.speed > 0:
+        yield Change("speed", "=", problem.speed, 0.0, brisk, (0.3,))
+    yield Change("climb", "=", problem.climb, problem.climb - brisk, brisk, (0.2, 0.4))
+    for way in (1.0, -1.0):
+        yield Change("shoulder", "=", ahead, ahead + way * _CHORDS * wing.mean_chord, wing.mean_chord, (0.2, 0.6))
+
+
+def _towards(name: str, sign: str, old: float, reach: float, tries: tuple[float, ...] = ()) -> Iterator[Change]:
+    """Yield the change from old to reach, if there is any way to go in that direction."""
+    scale = _LARGE_ANGLE if name in (*ANGLES, "body_pitch") else max(abs(old), 0.1)
+    if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
+        yield Change(name, sign, old, reach, scale, tries)
+
+
+def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
+    """Return a value that can be printed, moved on from `old` to the next of two digits of the change.
+
+    Parameters
+    ----------
+    change : of which number.
+    value : what it must at least be changed to, SI.
+    factor : of the unit it is printed in.
+    more : further steps of the last digit.
+    """
+    moved = max(abs(value - change.old), _LEAST * change.scale) * factor
+    digits = 1 - math.floor(math.log10(moved))
+    way = change.direction
+    steps = math.ceil(round(way * value * factor * 10.0**digits, 3)) + more
+    printed = round(way * steps * 10.0**-digits, digits)
+    return min(max(printed / factor, min(change.old, change.reach)), max(change.old, change.reach))

@@ -13,6 +13,7 @@ first and the world axis last; they describe the left wing, while every total co
 import math
 
 import numpy as np
+from oracle_laws import prescribed, wing_angles
 
 X, Y, Z = np.eye(3)
 STILL = np.zeros(3)
@@ -61,17 +62,6 @@ def dickinson(alpha):
 # --- Kinematics
 
 
-def wing_angles(wingbeat, phase):
-    """Flap and root pitch with their first and second time derivatives: two triples (rad, rad/s, rad/s2)."""
-    omega = 2.0 * math.pi * wingbeat["frequency"]
-    s, c = math.sin(2.0 * math.pi * phase), math.cos(2.0 * math.pi * phase)
-    flap, pitch = wingbeat["flap_amplitude"], wingbeat["pitch_amplitude"]
-    return (
-        (wingbeat["flap_mean"] + flap * c, -flap * omega * s, -flap * omega**2 * c),
-        (wingbeat["pitch_mean"] - pitch * s, -pitch * omega * c, pitch * omega**2 * s),
-    )
-
-
 def _carry(base, spin, arm, arm_rate=STILL, arm_acceleration=STILL):
     """Velocity and acceleration at `arm` from `base`; the arm's own rates as seen in the turning frame."""
     (v, a), (w, w_dot) = base, spin
@@ -97,13 +87,10 @@ class Wing:
         wing = vehicle["wing"]
         x, z, psi, phi, theta = q
 
-        # What time prescribes: the recovery law, the half span, the fold of the hand.
-        omega = 2.0 * math.pi * wingbeat["frequency"]
-        s, c = math.sin(omega * t), math.cos(omega * t)
-        moving = 0.0 if frozen else 1.0
-        law, law_d, law_dd = (1.0 - s) / 2.0, -moving * omega * c / 2.0, moving * omega**2 * s / 2.0
-        shrink = wing["semi_span"] * wingbeat["span_retraction"]
-        span, span_d, span_dd = wing["semi_span"] - shrink * law, -shrink * law_d, -shrink * law_dd
+        # What time prescribes: the recovery law that drives the fold, the half span, the sweep.
+        laws = prescribed(wingbeat, wingbeat["frequency"] * t, frozen)
+        (law, law_d, law_dd), ratios, (sweep, sweep_d, sweep_dd) = laws
+        span, span_d, span_dd = (wing["semi_span"] * ratio for ratio in ratios)
 
         # Per-strip constants, as columns where they multiply vectors.
         eta = (np.arange(strips) + 0.5) / strips
@@ -118,18 +105,22 @@ class Wing:
         fold = np.where(hand, wingbeat["fold_amplitude"], 0.0)[:, None]
         self.ratio = (1.0 + (wingbeat["twist_ratio"] - 1.0) * eta)[:, None]
 
-        # Axes in the world. Flap turns about e_c0, pitch about -e_s, body pitch about -y.
+        # Axes in the world. Flap turns about e_c0, sweep about -e_n0, pitch about -e_s, body pitch about -y.
         x_b = np.array([math.cos(psi), 0.0, math.sin(psi)])
         z_b = np.array([-math.sin(psi), 0.0, math.cos(psi)])
-        beta = wing["stroke_plane_angle"]
+        beta = wing["stroke_plane_angle"] + wingbeat["stroke_plane_tilt"]
         up = -math.cos(beta) * x_b + math.sin(beta) * z_b
         self.e_c0 = math.sin(beta) * x_b + math.cos(beta) * z_b
         e_arm = math.cos(phi) * Y + math.sin(phi) * up
+        n_arm = np.cross(self.e_c0, e_arm)
         own = phi - fold * law
-        self.e_s = np.cos(own) * Y + np.sin(own) * up
-        e_n0, tilt = np.cross(self.e_c0, self.e_s), theta * self.ratio
-        self.e_c = np.cos(tilt) * self.e_c0 + np.sin(tilt) * e_n0
-        self.e_n = -np.sin(tilt) * self.e_c0 + np.cos(tilt) * e_n0
+        e_own = np.cos(own) * Y + np.sin(own) * up
+        e_n0, tilt = np.cross(self.e_c0, e_own), theta * self.ratio
+        e_arm = math.cos(sweep) * e_arm + math.sin(sweep) * self.e_c0
+        self.e_s = math.cos(sweep) * e_own + math.sin(sweep) * self.e_c0
+        level = np.cross(self.e_s, e_n0)
+        self.e_c = np.cos(tilt) * level + np.sin(tilt) * e_n0
+        self.e_n = -np.sin(tilt) * level + np.cos(tilt) * e_n0
 
         # Places.
         self.body = np.array([x, 0.0, z])
@@ -142,6 +133,8 @@ class Wing:
         spin_body = (-q_dot[2] * Y, -q_ddot[2] * Y)
         spin_arm = _spin_up(spin_body, self.e_c0, q_dot[3], q_ddot[3])
         spin_own = _spin_up(spin_body, self.e_c0, q_dot[3] - fold * law_d, q_ddot[3] - fold * law_dd)
+        spin_arm = _spin_up(spin_arm, -n_arm, sweep_d, sweep_dd)
+        spin_own = _spin_up(spin_own, -e_n0, sweep_d, sweep_dd)
         self.spin = _spin_up(spin_own, -self.e_s, self.ratio * q_dot[4], self.ratio * q_ddot[4])
         self.w_body, self.w_own = spin_body[0], spin_own[0]
         body = (np.array([q_dot[0], 0.0, q_dot[1]]), np.array([q_ddot[0], 0.0, q_ddot[1]]))

@@ -70,7 +70,7 @@ def test_every_variable_has_a_unit_and_a_name(run: Any, tmp_path: Path) -> None:
             assert variable.attrs["long_name"], name
             assert variable.attrs.get("units") or name == "axis", name  # the axes have names, no numbers
         assert dataset.attrs["Conventions"].startswith("CF-")
-        assert json.loads(dataset.attrs["wingbeat"]) == vars(wb.load_species("pigeon").wingbeat)
+        assert wb.Wingbeat(**json.loads(dataset.attrs["wingbeat"])) == wb.load_species("pigeon").wingbeat
     assert [path.name for path in tmp_path.iterdir()] == ["flight.nc"]
     assert main(["show", str(tmp_path / "flight.nc")]) == 0
 

@@ -32,7 +32,8 @@ PARTS = {
     "air": {"density", "viscosity", "gravity"},
     "wingbeat": {
         *("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "span_retraction"),
-        *("twist_ratio", "fold_amplitude", "wrist"),
+        *("twist_ratio", "fold_amplitude", "wrist", "pitch_phase", "downstroke_fraction", "stroke_plane_tilt"),
+        *("sweep_mean", "sweep_amplitude", "sweep_phase", "flap_harmonics", "pitch_harmonics", "span_harmonics"),
     },
     "initial_state": {"x", "z", "body_pitch", "u", "w", "pitch_rate"},
     "closure": {"x", "z", "body_pitch", "u", "w", "pitch_rate"},

@@ -153,7 +153,7 @@ def test_the_template_is_complete_and_loads_without_a_warning(load: Any) -> None
         name = key.path.rpartition(".")[2]
         assert f"\n{name}" in text or f"\n# {name}" in text, f"{key.path} is not in the template"
     for field in fields(Wingbeat):
-        assert f"\n{field.name}" in text
+        assert f"\n{field.name}" in text or f"\n# {field.name}" in text
 
 
 def test_body_mass_in_place_of_the_whole(load: Any) -> None:
@@ -285,7 +285,7 @@ def test_as_dict_is_json_and_its_records_are_those_of_an_orbit(name: str) -> Non
         "stroke_plane_angle",
     ]
     assert list(plain["air"]) == ["density", "viscosity", "gravity"]
-    assert plain["wingbeat"] == asdict(animal.wingbeat)
+    assert plain["wingbeat"] == json.loads(json.dumps(asdict(animal.wingbeat)))
     assert plain["free"] == list(animal.free)
     assert plain["numbers"]["vehicle.wing.mass"]["range"] == list(animal.numbers["vehicle.wing.mass"].range or ())
 

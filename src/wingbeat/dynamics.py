@@ -31,8 +31,11 @@ def strip_loads(kernel: Any, density: Any, motion: WingMotion, velocity: Pair, p
     The velocity that makes alpha is that of the quarter chord, wherever the force acts. Chord and normal are here
     those that the strip has without pitch.
     """
-    chord_speed = velocity[0] - pitch_rate * motion.above
-    normal_speed = (velocity[1] + pitch_rate * motion.ahead) * motion.flap_cosine + motion.flapping_speed
+    forward_speed, up_speed = velocity[0] - pitch_rate * motion.above, velocity[1] + pitch_rate * motion.ahead
+    normal_speed = up_speed * motion.flap_cosine + motion.flapping_speed
+    chord_speed = forward_speed
+    if motion.level is not None:
+        chord_speed = dot(motion.level, (forward_speed, up_speed)) + motion.sweeping_speed
     return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch)
 
 
@@ -53,9 +56,13 @@ def wing_loads(
     """Return the sum of the strips' loads over both wings, stroke axes; `velocity` is that of the body there."""
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
+    across = motion.flap_cosine  # of the span: what of a moment about it is in the plane of symmetry
+    if motion.level is not None:
+        forward, up = strips.chordwise * motion.level[0], up + strips.chordwise * motion.level[1]
+        across = across * motion.level[0]
     moment = motion.ahead * up - motion.above * forward
     if at_centre_of_pressure:
-        moment = moment + strip_moments(kernel, motion, strips) * motion.flap_cosine
+        moment = moment + strip_moments(kernel, motion, strips) * across
     forward, up, moment = (2.0 * over_strips(a) for a in (forward, up, moment))
     return BodyLoads((forward, up), moment)
 

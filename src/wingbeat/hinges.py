@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from wingbeat.dynamics import strip_loads, strip_moments
-from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
+from wingbeat.frames import Pair, Triple, from_world
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
 from wingbeat.model import FlightModel
@@ -25,6 +25,7 @@ from wingbeat.wing_motion import (
     over_strips,
     shape_at,
     strips_of,
+    stroke_attitude,
     time_rates,
     turned,
     wing_shape,
@@ -37,6 +38,7 @@ class Along(NamedTuple):
     By strip: ``lever``, the quarter chord's velocity along the normal that the strip has without pitch, and
     ``turning``, that of its pitch. Sums over the mass of both wings: ``first_moment`` of v, and of v times place
     turned by a right angle (``swirl``), place (``spin``), rate turned (``coriolis``) and acceleration (``push``).
+    Where the wing sweeps, ``reach`` is the quarter chord's velocity along the unpitched chord, else None.
     SI units; v is in m/rad for a hinge, in m/s for the whole motion.
     """
 
@@ -47,6 +49,7 @@ class Along(NamedTuple):
     spin: Any
     coriolis: Any
     push: Any
+    reach: Any = None
 
 
 class HingeMotion(NamedTuple):
@@ -98,8 +101,7 @@ class _Chords(NamedTuple):
 
 def _chords(shape: WingShape, strips: Strips) -> _Chords:
     quarter, fore = 0.25 * strips.chord, shape.chordwise
-    places = shape.ahead, shape.left, shape.above
-    x, y, z = (place - quarter * ahead for place, ahead in zip(places, fore, strict=True))
+    x, y, z = (place - quarter * ahead for place, ahead in zip(shape.place, fore, strict=True))
     return _Chords(shape, (x, y, z), fore)
 
 
@@ -138,16 +140,18 @@ def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: 
     def work(middle: Pair, fore: Pair) -> Any:
         return total(dot(middle, of_middle) + spread * dot(fore, of_fore))
 
+    swept = here.shape.sweep_sine is not None
     of_middle, of_fore = in_plane(velocity)
     (place, fore), (speed, fore_speed) = in_plane(here), in_plane(rates)
     return Along(
         lever=velocity.shape.above * here.shape.flap_cosine - velocity.shape.left * here.shape.flap_sine,
-        turning=velocity.shape.pitch,
+        turning=dot(velocity.fore, here.shape.normal) if swept else velocity.shape.pitch,
         first_moment=(total(of_middle[0]), total(of_middle[1])),
         swirl=work(turned(place), turned(fore)),
         spin=work(place, fore),
         coriolis=work(turned(speed), turned(fore_speed)),
         push=total(dot(pushes.middle, velocity.middle) + spread * dot(pushes.fore, velocity.fore)),
+        reach=dot(velocity.shape.place, here.shape.level) if swept else None,
     )
 
 
@@ -164,14 +168,17 @@ def hinge_loads(
     """
     body_pitch, u, w, pitch_rate = pitch_state
     ax, az, pitch_acceleration = body_acceleration
-    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
     moments = strip_moments(model.kernel, motion, strips) if model.at_centre_of_pressure else 0.0
     felt = from_world(attitude, ax, az + model.air.gravity)
 
     def effort(along: Along) -> _Effort:
+        air = strips.normal * along.lever + moments * along.turning
+        if along.reach is not None:
+            air = air + strips.chordwise * along.reach
         return _Effort(
-            air=-2.0 * over_strips(strips.normal * along.lever + moments * along.turning),
+            air=-2.0 * over_strips(air),
             inertia=along.push,
             body=dot(felt, along.first_moment)
             + pitch_acceleration * along.swirl

@@ -6,13 +6,14 @@ import dataclasses
 import functools
 import os
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
 import jax
 import jax.numpy as jnp
 
-__all__ = ["cache_folder", "jax", "jnp", "register_record"]
+__all__ = ["at_default", "cache_folder", "jax", "jnp", "register_record", "unchecked"]
 
 T = TypeVar("T")
 
@@ -45,28 +46,51 @@ def _configure() -> None:
 _configure()
 
 
-def register_record(cls: type[T] | None = None, *, static: tuple[str, ...] = ()) -> Any:
+def unchecked(cls: type[T], fields: Mapping[str, Any]) -> T:
+    """Return a record of these fields without the checks of its constructor, which could not read tracers."""
+    record = object.__new__(cls)
+    for name, value in fields.items():
+        object.__setattr__(record, name, value)
+    return record
+
+
+def at_default(record: Any, name: str) -> bool:
+    """Say whether an optional field holds the number that switches it off, and no array that might be any."""
+    value = getattr(record, name)
+    return isinstance(value, int | float) and value == getattr(type(record), name)
+
+
+def register_record(
+    cls: type[T] | None = None, *, static: tuple[str, ...] = (), optional: tuple[str, ...] = ()
+) -> Any:
     """Make a frozen dataclass a pytree whose inner copies skip the checks of its constructor.
 
     The checks belong to the door; inside, JAX rebuilds records from tracers, which no check could read.
-    Fields named in `static` (names, counts) are part of the compiled function, all others are data.
+    Fields named in `static` (names, counts) are part of the compiled function, all others are data. One named in
+    `optional` is data only where its number is not its default: what is off costs a program nothing.
     """
     if cls is None:
-        return functools.partial(register_record, static=static)
+        return functools.partial(register_record, static=static, optional=optional)
     names = [field.name for field in dataclasses.fields(cls) if field.name not in static]  # type: ignore[arg-type]
 
+    def held(record: Any) -> tuple[list[str], tuple[Any, ...]]:
+        off = tuple(name for name in optional if at_default(record, name))
+        values = tuple(getattr(record, name) for name in static)
+        return [name for name in names if name not in off], (off, *values) if optional else values
+
     def flatten(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
-        return [getattr(record, name) for name in names], tuple(getattr(record, name) for name in static)
+        kept, aux = held(record)
+        return [getattr(record, name) for name in kept], aux
 
     def flatten_with_keys(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
-        leaves, aux = flatten(record)
-        return [(jax.tree_util.GetAttrKey(n), leaf) for n, leaf in zip(names, leaves, strict=True)], aux
+        kept, aux = held(record)
+        return [(jax.tree_util.GetAttrKey(name), getattr(record, name)) for name in kept], aux
 
     def unflatten(aux: tuple[Any, ...], leaves: Any) -> Any:
-        record = object.__new__(cls)
-        for name, value in (*zip(names, leaves, strict=True), *zip(static, aux, strict=True)):
-            object.__setattr__(record, name, value)
-        return record
+        off, values = (aux[0], aux[1:]) if optional else ((), aux)
+        fields = {name: getattr(cls, name) for name in off}
+        fields |= zip([name for name in names if name not in off], leaves, strict=True)
+        return unchecked(cls, fields | dict(zip(static, values, strict=True)))
 
     jax.tree_util.register_pytree_with_keys(cls, flatten_with_keys, unflatten, flatten)
     return cls

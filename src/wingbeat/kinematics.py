@@ -1,20 +1,29 @@
 """How the wings beat: the record of a wingbeat and its laws as functions of phase.
 
-Phase runs from 0 at the top of the stroke to 1; the downstroke is its first half.
+Phase runs from 0 at the top of the stroke to 1; the downstroke is its first half, or `downstroke_fraction` of it.
+Every law beyond the paper's is off by default, and one that is off is no part of any compiled program.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat.elementary import cos, sin
+import numpy as np
+
+from wingbeat.elementary import atan2, cos, sin
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jax, register_record
+from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, harmonic_place
+from wingbeat.jax64 import at_default, register_record, unchecked
+
+_SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
+_OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt")
 
 
-@register_record
+@register_record(optional=_OPTIONAL)
 @dataclass(frozen=True)
 class Wingbeat:
     """One periodic wingbeat; amplitudes are half of peak to peak.
@@ -28,10 +37,18 @@ class Wingbeat:
     twist_ratio : wing pitch at the tip over that at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
+    pitch_phase : by how much of a turn pitch runs ahead of flap [rad].
+    downstroke_fraction : share of the beat that the downstroke takes; all laws are stretched alike.
+    sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
+        without phase it is largest at mid-downstroke (protraction).
+    stroke_plane_tilt : is added to the wing's stroke-plane angle [rad].
+    flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
+    span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
 
     Raises
     ------
-    InvalidInputError : frequency not positive, an amplitude negative, retraction or wrist outside 0..1.
+    InvalidInputError : frequency not positive, an amplitude negative, retraction, wrist or downstroke fraction
+        outside 0..1, a sweep that reaches a right angle, harmonics not in pairs, a span that vanishes.
 
     >>> Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3).twist_ratio
     1.0
@@ -46,6 +63,15 @@ class Wingbeat:
     twist_ratio: float = 1.0
     fold_amplitude: float = 0.0
     wrist: float = 0.5
+    pitch_phase: float = 0.0
+    downstroke_fraction: float = 0.5
+    sweep_mean: float = 0.0
+    sweep_amplitude: float = 0.0
+    sweep_phase: float = 0.0
+    stroke_plane_tilt: float = 0.0
+    flap_harmonics: tuple[float, ...] = ()
+    pitch_harmonics: tuple[float, ...] = ()
+    span_harmonics: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -59,7 +85,67 @@ class Wingbeat:
         faults.number("wingbeat.twist_ratio", self.twist_ratio, fix="1 is no twist")
         faults.number("wingbeat.fold_amplitude", self.fold_amplitude, unit="rad")
         faults.number("wingbeat.wrist", self.wrist, at_least=0, at_most=1, fix="a fraction of the span")
+        faults.number("wingbeat.pitch_phase", self.pitch_phase, unit="rad")
+        even = "0.5 is as long as the upstroke"
+        faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
+        faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
+        faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
+        self._check_sweep(faults)
+        self._check_harmonics(faults)
         faults.raise_if_any()
+
+    def _check_sweep(self, faults: FaultList) -> None:
+        mean = faults.number("wingbeat.sweep_mean", self.sweep_mean, unit="rad")
+        swing = faults.number("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0, unit="rad")
+        if mean and swing and abs(self.sweep_mean) + self.sweep_amplitude >= 0.5 * math.pi:
+            rule = "must stay below a right angle together with sweep_mean"
+            faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "in rad")
+
+    def _check_harmonics(self, faults: FaultList) -> None:
+        sound = True
+        for law, first in FIRST_ORDER.items():
+            where, given = f"wingbeat.{law}_harmonics", getattr(self, f"{law}_harmonics")
+            rule = f"must be cosine and sine of order {first}, of order {first + 1} and so on up to {HIGHEST_ORDER}"
+            if not isinstance(given, list | tuple):
+                faults.add(where, given, rule, "a list of numbers; [] for none")
+                sound = False
+                continue
+            object.__setattr__(self, where.removeprefix("wingbeat."), tuple(given))
+            if len(given) % 2 or len(given) > 2 * (HIGHEST_ORDER + 1 - first):
+                faults.add(where, tuple(given), rule, "give the numbers in pairs")
+            sound &= all([faults.number(f"{where}[{i}]", value) for i, value in enumerate(given)])
+        if sound and self.span_harmonics and not faults.faults and self._least_span() <= 0:
+            least = f"vanishes: with span_retraction its least is {self._least_span():.2g} of the full span"
+            faults.add("wingbeat.span_harmonics", self.span_harmonics, least, "make them smaller")
+
+    def _least_span(self) -> float:
+        turn = np.linspace(0.0, 2 * math.pi, 721)
+        orders = 1 + np.arange(len(self.span_harmonics) // 2)[:, None]
+        swing = self.span_harmonics[::2] @ np.cos(orders * turn) + self.span_harmonics[1::2] @ np.sin(orders * turn)
+        return float((1.0 - self.span_retraction * 0.5 * (1.0 - np.sin(turn)) + swing).min())
+
+
+WINGBEAT_NAMES = tuple(field.name for field in dataclasses.fields(Wingbeat))
+# The numbers of a wingbeat by name, a harmonic's cosine and sine by names of their own such as flap_cos_2.
+PARAMETER_NAMES = (*(name for name in WINGBEAT_NAMES if not name.endswith("_harmonics")), *HARMONIC_NAMES)
+# The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
+FREE_NAMES = tuple(name for name in PARAMETER_NAMES if name != "wrist")
+
+
+def stroke_phase(wingbeat: Wingbeat, phase: Any) -> Any:
+    """Return the phase as it were if down- and upstroke took as long: 0 at the top, 1/2 at the bottom.
+
+    A Moebius map of the circle, smooth and rising for every fraction d of the downstroke: seen from mid-downstroke
+    ``tan(theta/2) = cot(pi d/2) tan(alpha/2)``, so d goes to 1/2 and 1 to 1.
+    """
+    if at_default(wingbeat, "downstroke_fraction"):
+        return phase
+    half = 0.5 * math.pi * wingbeat.downstroke_fraction
+    c, s = cos(half), sin(half)
+    pull = (c - s) / (c + s)
+    around = 2 * math.pi * phase - 2.0 * half
+    lead = atan2(pull * sin(around), 1.0 - pull * cos(around))
+    return phase + 0.25 + (lead - half) / math.pi
 
 
 def recovery(phase: Any) -> Any:
@@ -67,30 +153,95 @@ def recovery(phase: Any) -> Any:
     return 0.5 * (1.0 - sin(2 * math.pi * phase))
 
 
+def with_harmonics(base: Any, pairs: Sequence[Any], first: int, phase: Any) -> Any:
+    """Add to a law its cosines and sines of order `first` and up."""
+    total = base
+    for i in range(0, len(pairs), 2):
+        angle = 2 * math.pi * (first + i // 2) * phase
+        total = total + pairs[i] * cos(angle) + pairs[i + 1] * sin(angle)
+    return total
+
+
 def flap_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the flap angle of the arm, up positive [rad]."""
-    return wingbeat.flap_mean + wingbeat.flap_amplitude * cos(2 * math.pi * phase)
+    at = stroke_phase(wingbeat, phase)
+    base = wingbeat.flap_mean + wingbeat.flap_amplitude * cos(2 * math.pi * at)
+    return with_harmonics(base, wingbeat.flap_harmonics, FIRST_ORDER["flap"], at)
 
 
 def pitch_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the wing pitch at the root, leading edge up positive [rad]."""
-    return wingbeat.pitch_mean - wingbeat.pitch_amplitude * sin(2 * math.pi * phase)
+    at = stroke_phase(wingbeat, phase)
+    turn = 2 * math.pi * at
+    if not at_default(wingbeat, "pitch_phase"):
+        turn = turn + wingbeat.pitch_phase
+    base = wingbeat.pitch_mean - wingbeat.pitch_amplitude * sin(turn)
+    return with_harmonics(base, wingbeat.pitch_harmonics, FIRST_ORDER["pitch"], at)
 
 
 def span_ratio(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the span over the full span."""
-    return 1.0 - wingbeat.span_retraction * recovery(phase)
+    at = stroke_phase(wingbeat, phase)
+    base = 1.0 - wingbeat.span_retraction * recovery(at)
+    return with_harmonics(base, wingbeat.span_harmonics, FIRST_ORDER["span"], at)
 
 
 def fold_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     """Return the angle of the hand below the arm [rad]."""
-    return wingbeat.fold_amplitude * recovery(phase)
+    return wingbeat.fold_amplitude * recovery(stroke_phase(wingbeat, phase))
+
+
+def sweep_angle(wingbeat: Wingbeat, phase: Any) -> Any:
+    """Return the angle by which the span points ahead of the stroke plane [rad], None for a wing without sweep."""
+    if at_default(wingbeat, "sweep_mean") and at_default(wingbeat, "sweep_amplitude"):
+        return None
+    turn = 2 * math.pi * stroke_phase(wingbeat, phase) + wingbeat.sweep_phase
+    return wingbeat.sweep_mean + wingbeat.sweep_amplitude * sin(turn)
+
+
+def parameter(wingbeat: Wingbeat, name: str) -> Any:
+    """Return one number of a wingbeat by its name; a harmonic that is not there is 0.
+
+    >>> parameter(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3, flap_harmonics=(0.0, 0.05)), "flap_sin_2")
+    0.05
+    """
+    harmonic = harmonic_place(name)
+    if harmonic is None:
+        return getattr(wingbeat, name)
+    pairs = getattr(wingbeat, harmonic[0])
+    return pairs[harmonic[1]] if harmonic[1] < len(pairs) else 0.0
+
+
+def _fields(wingbeat: Wingbeat, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields that change if these parameters take these values."""
+    fields: dict[str, Any] = {}
+    for name, value in values.items():
+        harmonic = harmonic_place(name)
+        if harmonic is None:
+            fields[name] = value
+            continue
+        field, place = harmonic
+        pairs = list(fields.get(field, getattr(wingbeat, field)))
+        pairs += [0.0] * (2 * (place // 2 + 1) - len(pairs))
+        pairs[place] = value
+        fields[field] = tuple(pairs)
+    return fields
+
+
+def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
+    """Return the wingbeat with some of its numbers changed, checked as always.
+
+    Raises
+    ------
+    InvalidInputError : a wingbeat that cannot be.
+
+    >>> with_parameters(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), {"pitch_cos_2": 0.1}).pitch_harmonics
+    (0.1, 0.0)
+    """
+    return dataclasses.replace(wingbeat, **_fields(wingbeat, values))
 
 
 def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Any) -> Wingbeat:
     """Return the wingbeat with its free parameters replaced by `values`, in the order of `free`."""
-    names = vars(wingbeat)
-    replaced = {name: values[i] for i, name in enumerate(free)}
-    return jax.tree_util.tree_unflatten(
-        jax.tree_util.tree_structure(wingbeat), [replaced.get(name, names[name]) for name in names]
-    )
+    replaced = _fields(wingbeat, {name: values[i] for i, name in enumerate(free)})
+    return unchecked(Wingbeat, vars(wingbeat) | replaced)

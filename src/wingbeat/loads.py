@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from wingbeat.five_coordinates import air_forces_on
 from wingbeat.hinges import hinge_loads, hinge_motion
 from wingbeat.jax64 import jax, jnp
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
+from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.model import FlightModel, State, body_rates, motion_table
 from wingbeat.stored import stored
 from wingbeat.wing_motion import strips_of
@@ -27,6 +27,7 @@ class Loads(NamedTuple):
     wing_pitch_rate: Any
     span_ratio: Any
     fold: Any
+    sweep: Any
     acceleration: Any
     strip_position: Any
     strip_velocity: Any
@@ -80,7 +81,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
 
 
 def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
-    flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
+    flap, pitch, sweep = (law(wingbeat, phase) for law in (flap_angle, pitch_angle, sweep_angle))
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
     body = body_rates(model, motion, pitch_state)[1:]
@@ -101,6 +102,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         wing_pitch_rate=moved.pitch_rate,
         span_ratio=span_ratio(wingbeat, phase),
         fold=fold_angle(wingbeat, phase),
+        sweep=jnp.zeros_like(flap) if sweep is None else sweep,
         acceleration=body,
         strip_position=points.place.quarter_chord,
         strip_velocity=air.strip_velocity,

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.dynamics import BodyLoads, accelerations, body_drag, wing_loads
 from wingbeat.errors import FaultList
-from wingbeat.frames import from_world, stroke_pitch
+from wingbeat.frames import from_world
 from wingbeat.jax64 import jnp, register_record
 from wingbeat.kinematics import Wingbeat
 from wingbeat.slopes import by_slopes
 from wingbeat.vehicle import Air, Vehicle
-from wingbeat.wing_motion import WingMotion, wing_motion
+from wingbeat.wing_motion import WingMotion, stroke_attitude, wing_motion
 
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
@@ -77,7 +77,7 @@ def _loads(model_and_motion: tuple[FlightModel, WingMotion], forward: Any, up: A
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
     """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...); place does not enter."""
     body_pitch, u, w, pitch_rate = pitch_state
-    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     # The air feels the pitch state in three ways only, so three derivatives of the loads serve all four.
     loads = _loads((model, motion), *from_world(attitude, u, w), pitch_rate)
     ax, az, pitch_acceleration = accelerations(

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 from wingbeat.elementary import cos, sin
 from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
-from wingbeat.jax64 import jax, jnp
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio
+from wingbeat.jax64 import at_default, jax, jnp
+from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.vehicle import Vehicle, Wing
 
 _FEW = 32
@@ -32,7 +32,8 @@ class WingShape(NamedTuple):
     """Where the strips of the left wing are, stroke axes, arrays of shape (N, ...).
 
     ``ahead``, ``left`` and ``above`` place the quarter chord from the body's centre of mass. Flap turns a strip
-    about the first axis and pitch then turns it about its own span, which runs along the quarter chords.
+    about the first axis, sweep then turns its span forward in the plane of that axis and the span, and pitch turns
+    it about its own span, which runs along the quarter chords. Without sweep its sine and cosine are None.
     """
 
     ahead: Any
@@ -43,16 +44,40 @@ class WingShape(NamedTuple):
     pitch: Any
     pitch_sine: Any
     pitch_cosine: Any
+    sweep_sine: Any = None
+    sweep_cosine: Any = None
+
+    @property
+    def place(self) -> Triple:
+        """Where the quarter chord is."""
+        return self.ahead, self.left, self.above
+
+    @property
+    def level(self) -> Triple:
+        """Unit vector that is chordwise where the wing is not pitched."""
+        if self.sweep_sine is None:
+            return 1.0, 0.0, 0.0
+        inward = -self.sweep_sine
+        return self.sweep_cosine, inward * self.flap_cosine, inward * self.flap_sine
 
     @property
     def chordwise(self) -> Triple:
         """Unit vector to the leading edge."""
+        if self.sweep_sine is not None:
+            return self._pitched(self.pitch_cosine, self.pitch_sine)
         return self.pitch_cosine, -self.pitch_sine * self.flap_sine, self.pitch_sine * self.flap_cosine
 
     @property
     def normal(self) -> Triple:
         """Unit vector normal to chord and span, up at rest."""
+        if self.sweep_sine is not None:
+            return self._pitched(-self.pitch_sine, self.pitch_cosine)
         return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine
+
+    def _pitched(self, along: Any, across: Any) -> Triple:
+        """Return the vector of these parts along the unpitched chord and along the normal without pitch."""
+        forward, left, up = self.level
+        return along * forward, along * left - across * self.flap_sine, along * up + across * self.flap_cosine
 
 
 class WingMotion(NamedTuple):
@@ -62,6 +87,9 @@ class WingMotion(NamedTuple):
     ``flapping_speed`` along the normal that the strip has without pitch, the cosine of the strip's flap angle,
     its pitch and its area; ``width`` is that of all strips alike. Pitch turns a strip about its quarter chord and
     so changes no speed.
+    Where the wing sweeps, ``ahead`` is by strip, and the unpitched chord is no longer the first axis: ``level`` is
+    what it is in the plane of symmetry, ``sweeping_speed`` the quarter chord's speed along it. ``tilt`` is that of
+    the stroke plane. All three are None where there is none.
     For the balance, sums over the mass of both wings: ``first_moment`` and ``inertia`` of mass times place and
     mass times place squared, ``swirl`` of mass times (place turned by a right angle) . acceleration.
     """
@@ -79,6 +107,9 @@ class WingMotion(NamedTuple):
     inertia: Any
     inertia_rate: Any
     swirl: Any
+    level: Pair | None = None
+    sweeping_speed: Any = None
+    tilt: Any = None
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
@@ -94,6 +125,19 @@ def strips_of(wing: Wing, count: int) -> Strips:
         chord = jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
     share = (1.0 - span_fraction) ** wing.mass_exponent
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
+
+
+def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Any:
+    """Return the angle of the stroke plane from the body axis [rad]."""
+    if at_default(wingbeat, "stroke_plane_tilt"):
+        return wing.stroke_plane_angle
+    return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
+
+
+def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Any) -> Any:
+    """Return how far stroke axes are pitched nose-up from the world's [rad]."""
+    attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
+    return attitude if motion.tilt is None else attitude - motion.tilt
 
 
 def beside(strips: Strips, times: Any) -> Strips:
@@ -120,11 +164,17 @@ def wing_shape(
     hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)
     (arm_sine, arm_cosine), (hand_sine, hand_cosine) = ((sin(a), cos(a)) for a in (flap, hand_flap))
     x, left, z = wing.shoulder
-    ahead, above = from_world(stroke_pitch(wing.stroke_plane_angle), x, z)
+    ahead, above = from_world(stroke_pitch(stroke_plane(wing, wingbeat)), x, z)
     of_arm = strips.span_fraction <= wingbeat.wrist
     strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
+    ahead = jnp.full_like(strip_pitch, ahead)
+    sweep = sweep_angle(wingbeat, phase)
+    sweep_sine, sweep_cosine = (None, None) if sweep is None else (sin(sweep), cos(sweep))
+    if sweep is not None:
+        ahead = ahead + strips.span_fraction * (length * sweep_sine)
+        length = length * sweep_cosine
     return WingShape(
-        jnp.full_like(strip_pitch, ahead),
+        ahead,
         left + arm * (length * arm_cosine) + hand * (length * hand_cosine),
         above + arm * (length * arm_sine) + hand * (length * hand_sine),
         jnp.where(of_arm, arm_sine, hand_sine),
@@ -132,6 +182,8 @@ def wing_shape(
         strip_pitch,
         sin(strip_pitch),
         cos(strip_pitch),
+        sweep_sine,
+        sweep_cosine,
     )
 
 
@@ -147,8 +199,7 @@ def mass_points(shape: WingShape, strips: Strips) -> Triple:
     Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     """
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
-    places = shape.ahead, shape.left, shape.above
-    x, y, z = (place + offsets * fore for place, fore in zip(places, shape.chordwise, strict=True))
+    x, y, z = (place + offsets * fore for place, fore in zip(shape.place, shape.chordwise, strict=True))
     return x, y, z
 
 
@@ -208,8 +259,10 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) ->
         return over_strips(mass * a)
 
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
+    swept = shape.sweep_sine is not None
+    steady = at_default(wingbeat, "stroke_plane_tilt")
     return WingMotion(
-        ahead=shape.ahead[0],
+        ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
         flapping_speed=shape_rate.above * shape.flap_cosine - shape_rate.left * shape.flap_sine,
         flap_cosine=shape.flap_cosine,
@@ -222,4 +275,7 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) ->
         inertia=total(dot(place, place) + spread * dot(fore, fore)),
         inertia_rate=2.0 * total(dot(place, speed) + spread * dot(fore, fore_speed)),
         swirl=total(dot(turned(place), push) + spread * dot(turned(fore), fore_push)),
+        level=(jnp.broadcast_to(shape.level[0], shape.pitch.shape), shape.level[2]) if swept else None,
+        sweeping_speed=dot(shape_rate.place, shape.level) if swept else None,
+        tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),
     )

@@ -12,7 +12,7 @@ from wingbeat.frames import Triple, stroke_pitch, to_world
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
-from wingbeat.wing_motion import mass_points, strips_of, wing_shape
+from wingbeat.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
 
 
 class WingPoints(NamedTuple):
@@ -35,10 +35,10 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> Wi
     strips = strips_of(wing, model.strips)
     shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
     place = jnp.stack([q[0], jnp.zeros_like(q[0]), q[1]])
-    attitude = q[2] + stroke_pitch(wing.stroke_plane_angle)
+    attitude = q[2] + stroke_pitch(stroke_plane(wing, wingbeat))
     return WingPoints(
         place + _in_world(attitude, mass_points(shape, strips)),
-        place + _in_world(attitude, (shape.ahead, shape.left, shape.above)),
+        place + _in_world(attitude, shape.place),
         _in_world(attitude, shape.chordwise),
         _in_world(attitude, shape.normal),
     )

@@ -22,6 +22,13 @@ __all__ = ["flight_summary", "print_flight", "print_orbit", "read_result"]
 
 Rows = list[tuple[str, str]]
 
+_RATIOS = ("span_retraction", "twist_ratio", "wrist", "downstroke_fraction", "span_harmonics")
+# What says that a wingbeat goes without one of the laws beyond the paper's; none of them needs a line then.
+_OFF: dict[str, Any] = {
+    **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
+    **{name: [] for name in ("flap_harmonics", "pitch_harmonics", "span_harmonics")},
+    "downstroke_fraction": 0.5,
+}
 _STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
 
@@ -136,8 +143,9 @@ def _changes(changes: list[dict[str, Any]]) -> Rows:
 
 
 def _wingbeat(beat: dict[str, Any]) -> Rows:
-    units = {"frequency": "Hz", "span_retraction": "", "twist_ratio": "", "wrist": ""}
-    rows = [(name.replace("_", " "), _of(beat, name, units.get(name, "deg"))) for name in beat]
+    units = {"frequency": "Hz", **dict.fromkeys(_RATIOS, "")}
+    shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
+    rows = [(name.replace("_", " "), _of(beat, name, units.get(name, "deg"))) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
 
 
@@ -217,6 +225,8 @@ def _of(numbers: dict[str, Any], name: str, unit: str = "") -> str:
 
 
 def _number(value: Any, unit: str, factor: float) -> str:
+    if isinstance(value, list | tuple):
+        return f"{', '.join(_number(each, '', factor) for each in value)} {unit}".rstrip()
     if value is None:
         return "-"  # undefined, as a cost of transport in hover
     shown = value * factor

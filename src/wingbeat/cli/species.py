@@ -226,12 +226,12 @@ def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
 
 
 def _free_table(animal: Species) -> Table:
-    from wingbeat.species_schema import Number, display
+    from wingbeat.species_schema import FREE_UNITS, Number, display
 
     table = _table("free in an orbit, and the limits of its path", "quantity", "bounds>r", "unit", "reason")
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
     for path, limits in (bounds | {"body_pitch": animal.body_pitch_bounds}).items():
-        unit = animal.numbers[path].unit if path in animal.numbers else "rad"
+        unit = FREE_UNITS.get(path.removeprefix("wingbeat."), "rad")
         name, shown = display(path, Number(0.0, unit, range=limits))
         low, high = shown.range or limits
         short = path.removeprefix("wingbeat.")

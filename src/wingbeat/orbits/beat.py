@@ -8,13 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat.dynamics import strip_loads
-from wingbeat.frames import from_world, stroke_pitch
+from wingbeat.frames import from_world
 from wingbeat.hinges import hinge_loads, hinge_motion
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.shooting import STEPS, Flown
 from wingbeat.stored import stored
+from wingbeat.wing_motion import stroke_attitude
 
 
 class Beat(NamedTuple):
@@ -82,7 +83,7 @@ def _series(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
     body = body_rates(model, motion, path)[1:]
     body_pitch, u, w, pitch_rate = path
-    attitude = body_pitch + stroke_pitch(model.vehicle.wing.stroke_plane_angle)
+    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
     hinges = hinge_loads(model, motion, moved, path, body)
     return Beat(

@@ -13,7 +13,8 @@ import numpy as np
 
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.kinematics import Wingbeat
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, with_parameters
 from wingbeat.model import FlightModel, flight_model
 from wingbeat.orbits.quantities import (
     Constraint,
@@ -34,9 +35,6 @@ CLOSURE = ("x", "z", *PITCH_STATE)
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
 # The derivative of the pitch state at the start by itself.
 _START = np.eye(4)
-WINGBEAT_NAMES = tuple(f.name for f in dataclasses.fields(Wingbeat))
-# The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
-FREE_NAMES = tuple(name for name in WINGBEAT_NAMES if name != "wrist")
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -153,7 +151,7 @@ class OrbitProblem:
         """Hold a parameter at a value, or tighten its bounds."""
         species, name = self.species, limit.name
         if limit.sign == "=":
-            wingbeat = dataclasses.replace(species.wingbeat, **{name: limit.value})
+            wingbeat = with_parameters(species.wingbeat, {name: limit.value})
             object.__setattr__(self, "species", dataclasses.replace(species, wingbeat=wingbeat))
             object.__setattr__(self, "free", tuple(n for n in self.free or species.free if n != name))
             return
@@ -176,10 +174,16 @@ class OrbitProblem:
         for name in free:
             if name not in FREE_NAMES:
                 close = difflib.get_close_matches(str(name), FREE_NAMES, n=1)
-                fix = f"did you mean {close[0]}?" if close else f"free can be {', '.join(FREE_NAMES)}"
+                named = [known for known in FREE_NAMES if harmonic_place(known) is None]
+                fix = f"free can be {', '.join(named)}, or a harmonic such as flap_cos_2"
+                fix = f"did you mean {close[0]}?" if close else fix
                 faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
             elif name not in bounds:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
+        ahead, _, above = self.vehicle.wing.shoulder
+        if "stroke_plane_tilt" in free and ahead == 0 and above == 0:
+            rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
+            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it held")
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if isinstance(self.minimise, Frequency) and "frequency" not in free:
@@ -200,7 +204,7 @@ class OrbitProblem:
         """Note a fault where a bound lets the search reach a wingbeat that cannot be."""
         for value in pair:
             try:
-                dataclasses.replace(self.species.wingbeat, **{name: value})
+                with_parameters(self.species.wingbeat, {name: value})
             except InvalidInputError as error:
                 faults.add(f"bounds.{name}", pair, f"reaches the impossible: {error.faults[0].rule}")
                 return
@@ -237,7 +241,7 @@ class OrbitProblem:
     def wingbeat(self, unknowns: np.ndarray) -> Wingbeat:
         """Return the species' wingbeat with the free parameters taken from the unknowns."""
         values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
-        return dataclasses.replace(self.species.wingbeat, **values)
+        return with_parameters(self.species.wingbeat, values)
 
     def frequency(self, unknowns: np.ndarray) -> float:
         """Return the frequency that goes with the unknowns [Hz]."""

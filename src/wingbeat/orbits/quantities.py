@@ -13,6 +13,7 @@ import numpy as np
 
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jnp
+from wingbeat.kinematics import FREE_NAMES
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.springs import SpringCost
 
@@ -303,8 +304,8 @@ class WingbeatLimit(NamedTuple):
     value: float
 
 
-ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude")
-_PARAMETERS = (*ANGLES, "frequency", "span_retraction", "twist_ratio")
+_PLAIN = ("frequency", "span_retraction", "twist_ratio", "downstroke_fraction")
+ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith("span_"))
 _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({_NUMBER})\s*(deg)?\s*")
 
 
@@ -317,7 +318,7 @@ def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
     6.0
     """
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
-    if found is None or found[1] not in _PARAMETERS or (found[4] and found[1] not in ANGLES):
+    if found is None or found[1] not in FREE_NAMES or (found[4] and found[1] not in ANGLES):
         return None
     if found[1] == "frequency" and found[2] != "=":
         return None

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.changes import Relaxation
@@ -57,7 +57,7 @@ class Solution:
     @property
     def unknowns(self) -> np.ndarray:
         """Pitch state at the start and free parameters, as a search starts from them."""
-        free = [getattr(self.wingbeat, name) for name in self.problem.free]
+        free = [parameter(self.wingbeat, name) for name in self.problem.free]
         return np.concatenate([self.certificate.states[0, 2:], free])
 
     @property

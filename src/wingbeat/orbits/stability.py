@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.model import FlightModel
 from wingbeat.orbits.shooting import flier
 
@@ -20,7 +20,7 @@ def floquet_multipliers(
     They are the eigenvalues of the monodromy matrix, the derivative of the pitch state after a period with
     respect to that before. Not-a-number where the flight tumbles off.
     """
-    values = np.array([getattr(wingbeat, name) for name in free], dtype=float)
+    values = np.array([parameter(wingbeat, name) for name in free], dtype=float)
     monodromy = flier(model, wingbeat, free)(values, pitch_state, _BLOCKS).end_jacobian[2:, :4]
     if not np.isfinite(monodromy).all():
         return np.full(4, np.nan + 0j)

@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from wingbeat.kinematics import parameter
 from wingbeat.orbits.problem import OrbitProblem
 
 # Times the stock frequency. From 2 to 4 every pigeon and nearly every bat of +-30 % was found in one search; at 1 a
@@ -21,10 +22,13 @@ _BRISK = 2.5
 def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
     """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
     unknowns = problem.unknowns()
-    stock = vars(problem.species.wingbeat) | {"frequency": _BRISK * problem.species.wingbeat.frequency}
+    beat = problem.species.wingbeat
+    stock = {name: parameter(beat, name) for name in problem.free}
+    if "frequency" in stock:
+        stock["frequency"] *= _BRISK
     # Turning the stroke plane turns the body the other way and leaves the wings where they were.
-    pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle - 0.5 * math.pi
-    first = np.array([pitch, problem.speed, problem.climb, 0.0, *(stock[name] for name in problem.free)])
+    pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
+    first = np.array([pitch, problem.speed, problem.climb, 0.0, *stock.values()])
     if index == 0:
         return np.clip(first, unknowns.lower, unknowns.upper)
     random = np.random.default_rng([seed, index])

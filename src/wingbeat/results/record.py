@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement
+from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads
 from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
@@ -23,6 +24,11 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
     wing["shoulder"] = list(wing["shoulder"])
     return {"body": dict(vars(vehicle.body)), "wing": wing}
+
+
+def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
+    """Return the wingbeat's numbers."""
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(wingbeat).items()}
 
 
 def aero_record(aero: BladeElement) -> dict[str, Any]:
@@ -54,7 +60,7 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "objective": problem.minimise.name,
         "objective_value": solution.objective,
         "constraints": {str(c): solution.value_of(c.quantity) for c in problem.subject_to},
-        "wingbeat": dict(vars(wingbeat)),
+        "wingbeat": wingbeat_record(wingbeat),
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
 from wingbeat.species.settings import plain, settable
-from wingbeat.species_schema import Alternative, Number, Numbers, check_value, display, suggest, to_si
+from wingbeat.species_schema import FREE_UNITS, Alternative, Number, Numbers, check_value, display, suggest, to_si
 from wingbeat.vehicle import Air, Vehicle
 
 __all__ = ["DERIVED", "Species", "find_warnings"]
@@ -174,9 +174,10 @@ def find_warnings(species: Species) -> tuple[str, ...]:
                 f"{name} = {words(path, number)} is outside its plausible range {low:g} to {high:g}{unit}{source}"
             )
     for name, (low, high) in species.bounds.items():
-        if not low <= getattr(species.wingbeat, name) <= high:
+        value = parameter(species.wingbeat, name)
+        if not low <= value <= high:
             path = f"wingbeat.{name}"
-            guess = words(path, species.numbers[path])
+            guess = words(path, Number(value, FREE_UNITS[name]))
             found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer one")
     derived = [
         path.removeprefix("vehicle.")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["BODY_PITCH", "FREE", "KEYS", "Key"]
+from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
+
+__all__ = ["BODY_PITCH", "FREE", "FREE_UNITS", "KEYS", "Key"]
 
 
 class Key(NamedTuple):
@@ -14,7 +16,7 @@ class Key(NamedTuple):
     unit: str
     meaning: str
     required: bool = True
-    shape: str = "number"  # or "stations" (a number or a list), or "vector" (three numbers)
+    shape: str = "number"  # or "stations" (a number or a list), "vector" (three numbers), "list" (any count)
 
     @property
     def name(self) -> str:
@@ -47,14 +49,30 @@ KEYS = (
     Key("wingbeat.twist_ratio", "1", "pitch at the tip over that at the root; 1 is no twist", False),
     Key("wingbeat.fold_amplitude", "rad", "drop of the hand below the arm at mid-upstroke", False),
     Key("wingbeat.wrist", "1", "span fraction of the wrist", False),
+    Key("wingbeat.pitch_phase", "rad", "by how much of a turn wing pitch runs ahead of flap", False),
+    Key("wingbeat.downstroke_fraction", "1", "share of the beat that the downstroke takes", False),
+    Key("wingbeat.sweep_mean", "rad", "mean angle of the span ahead of the stroke plane", False),
+    Key("wingbeat.sweep_amplitude", "rad", "half of peak to peak; ahead at mid-downstroke (protraction)", False),
+    Key("wingbeat.sweep_phase", "rad", "by how much of a turn sweep runs ahead of that", False),
+    Key("wingbeat.stroke_plane_tilt", "rad", "is added to the wing's stroke-plane angle", False),
+    Key("wingbeat.flap_harmonics", "rad", f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}", False, "list"),
+    Key("wingbeat.pitch_harmonics", "rad", f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}", False, "list"),
+    Key("wingbeat.span_harmonics", "1", f"of span over full span: order 1, 2, .. {HIGHEST_ORDER}", False, "list"),
     Key("air.density", "kg/m3", "density of the air", False),
     Key("air.viscosity", "m2/s", "kinematic viscosity of the air", False),
     Key("air.gravity", "m/s2", "pull of the planet", False),
 )
 BODY_PITCH = Key("path.body_pitch", "rad", "body pitch, nose up, along the whole path")
 # Strips are arm or hand as a whole, so an orbit changes in steps with the wrist: no derivative, no search.
-FREE = tuple(
-    Key(f"free.{key.path.split('.')[1]}", key.unit, key.meaning)
-    for key in KEYS
-    if key.path.startswith("wingbeat.") and key.path != "wingbeat.wrist"
+FREE = (
+    *(
+        Key(f"free.{key.name}", key.unit, key.meaning)
+        for key in KEYS
+        if key.path.startswith("wingbeat.") and key.path != "wingbeat.wrist" and key.shape == "number"
+    ),
+    *(
+        Key(f"free.{name}", "1" if name.startswith("span") else "rad", "one number of the harmonics")
+        for name in HARMONIC_NAMES
+    ),
 )
+FREE_UNITS = {key.name: key.unit for key in FREE}

@@ -31,6 +31,7 @@ _SHAPES: dict[str, Any] = {
         Discriminator(_kind),
     ],
     "vector": Annotated[list[_Finite], Field(min_length=3, max_length=3)],
+    "list": list[_Finite],
 }
 ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
 

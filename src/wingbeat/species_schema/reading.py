@@ -136,7 +136,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
 def to_si(value: Any, path: str) -> Value:
     """Return a number or list of the right shape in SI units; `path` tells degrees from radians."""
     if isinstance(value, list):
-        return tuple(float(v) for v in value)
+        return tuple(float(to_si(item, path)) for item in value)  # type: ignore[arg-type]
     return math.radians(value) if path.endswith("_deg") else float(value)
 
 
@@ -149,8 +149,9 @@ def display(path: str, number: Number) -> tuple[str, Number]:
         return float(f"{math.degrees(angle):.12g}")  # 60 comes back as 60, not 59.99999999999999
 
     limits = number.range and (degrees(number.range[0]), degrees(number.range[1]))
-    assert not isinstance(number.value, tuple), "angles are single numbers"
-    return f"{path}_deg", Number(degrees(number.value), "deg", number.source, limits)
+    angles = number.value
+    shown = tuple(degrees(angle) for angle in angles) if isinstance(angles, tuple) else degrees(angles)
+    return f"{path}_deg", Number(shown, "deg", number.source, limits)
 
 
 def _line(text: Any) -> str:

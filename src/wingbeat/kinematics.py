@@ -199,6 +199,14 @@ def sweep_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     return wingbeat.sweep_mean + wingbeat.sweep_amplitude * sin(turn)
 
 
+def in_use(wingbeat: Wingbeat, name: str) -> bool:
+    """Say whether a number is part of the wingbeat's laws: a harmonic that is there, a law that is not off."""
+    harmonic = harmonic_place(name)
+    if harmonic is not None:
+        return harmonic[1] < len(getattr(wingbeat, harmonic[0]))
+    return name not in _OPTIONAL or not at_default(wingbeat, name)
+
+
 def parameter(wingbeat: Wingbeat, name: str) -> Any:
     """Return one number of a wingbeat by its name; a harmonic that is not there is 0.
 

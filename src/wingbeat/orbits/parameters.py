@@ -6,7 +6,10 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from wingbeat.orbits.problem import FREE_NAMES, OrbitProblem
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import FREE_NAMES, in_use, parameter
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import ANGLES
 
 # What of the inputs is in which unit; dimensionless if not named here.
 _UNITS = {
@@ -27,7 +30,7 @@ _UNITS = {
     "speed": "m/s",
     "climb": "m/s",
 }
-_ANGLES = ("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "fold_amplitude", "body_pitch")
+_ANGLES = (*ANGLES, "body_pitch")
 _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
@@ -78,8 +81,8 @@ def _with(record: Any, place: tuple[str | int, ...], value: float) -> Any:
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit hangs on: vehicle, held wingbeat, air, coefficients and velocity.
 
-    Left out are the wrist, which does nothing until it jumps over a strip, and the numbers of coefficients that are
-    not formulas.
+    Left out are the wrist, which does nothing until it jumps over a strip, laws of the wingbeat that are off, and
+    the numbers of coefficients that are not formulas.
 
     >>> from wingbeat.species import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
@@ -140,10 +143,11 @@ def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
 
 
 def _held(problem: OrbitProblem) -> Iterator[Parameter]:
+    wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:
-        if name not in problem.free:
-            value = getattr(problem.species.wingbeat, name)
-            yield _made(f"wingbeat.{name}", value, ("species", "wingbeat", name))
+        if name not in problem.free and in_use(wingbeat, name):
+            place = harmonic_place(name) or (name,)
+            yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", *place))
 
 
 def _air(problem: OrbitProblem) -> Iterator[Parameter]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat.aero.model_file import FittedModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
+from wingbeat.kinematics import parameter
 from wingbeat.orbits.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity, named_quantity
@@ -143,11 +144,11 @@ def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIE
         raise InvalidInputError([Fault("orbit", orbit.status.value, rule, fix)])
     known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
     problem = orbit.problem
-    free = [getattr(orbit.wingbeat, name) for name in problem.free]
+    free = [parameter(orbit.wingbeat, name) for name in problem.free]
     unknowns = np.array([*orbit.initial_state[2:], *free])
     optimum = Optimum(problem, unknowns)
-    slopes = [optimum.by(parameter, known) for parameter in parameters_of(problem)]
-    prices = [optimum.by(parameter, known) for parameter in optimum.active()]
+    slopes = [optimum.by(one, known) for one in parameters_of(problem)]
+    prices = [optimum.by(one, known) for one in optimum.active()]
     return Sensitivities(problem, unknowns, known, optimum.values(known).tolist(), slopes, prices)
 
 

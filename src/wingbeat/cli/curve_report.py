@@ -50,13 +50,18 @@ def print_curve(curve: Curve) -> None:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "on the bound of"):
         table.add_column(Text(heading), justify="left" if heading.startswith("on") else "right")
-    after = {(m["lower_speed"], m["kind"]): m for m in record["marks"]}
     for point in points:
         table.add_row(*map(Text, _row(point)))
-        if mark := after.get((point["speed"], "branch")):
-            table.add_row(*[Text("")] * 6, Text(f"-- branch changes: {mark['what']}", style="yellow"))
     console.print(table)
     console.print()
+    console.print(Text("from speed to speed", style="bold"))
+    for mark in record["marks"]:
+        where = f"{mark['lower_speed']:g} to {mark['upper_speed']:g} m/s"
+        console.print(
+            Text(f"  {mark['kind']}, {where}: {mark['what']}", style="" if mark["kind"] == "bounds" else "yellow")
+        )
+    if not record["marks"]:
+        console.print("  one branch, always on the same bounds")
     console.print(Text(f"characteristic speeds, of the {_power(record)}", style="bold"))
     for name, found in record["characteristic_speeds"].items():
         console.print(f"  {_LABELS[name]}: {_told(found)}")

@@ -20,7 +20,7 @@ from wingbeat.cli import main
 NAMES = {
     "": "status message species vehicle aero air speed climb objective objective_value "
     "constraints wingbeat initial_state active_bounds "
-    "closure optimality starts distinct_optima mean_power peak_power mean_positive_power mean_actuator_power "
+    "closure failed_balance relaxations optimality starts distinct_optima mean_power peak_power mean_positive_power mean_actuator_power "
     "peak_actuator_power cost_of_transport body_pitch_range strouhal reduced_frequency reynolds alpha_quarter_span "
     "alpha_three_quarter_span floquet_multipliers stable warnings solve_seconds version",
     "vehicle": "body wing",
@@ -268,11 +268,14 @@ def test_an_infeasible_problem_exits_with_3(
     assert (ended.code, ended.err) == (3, "")
     assert record["status"] == "infeasible"
     assert record["stable"] is None
-    assert re.search(r"no orbit within the bounds.*; widen the bounds", record["message"])
+    assert re.search(r"no orbit within the bounds.*thrust is short of drag.*changes that fly", record["message"])
     assert {path.name for path in tmp_path.iterdir()} == {"orbit.nc", "page.png"}
     assert wb.load_orbit(tmp_path / "orbit.nc").record() == record
     assert main(["show", str(tmp_path / "orbit.nc")]) == 0
-    assert capsys.readouterr().out.startswith("not certified, infeasible: no orbit within the bounds")
+    shown = capsys.readouterr().out
+    assert shown.startswith("not certified, infeasible: no orbit within the bounds")
+    assert re.search(r"short of an orbit.*\n +thrust +\S+ N, \d+ % of the weight", shown)
+    assert re.search(r"either +upper bound of flap amplitude 6 -> 20", shown)
 
 
 def test_an_interrupt_leaves_the_old_files(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

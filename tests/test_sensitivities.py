@@ -12,7 +12,7 @@ from wingbeat.cli import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.parameters import parameters_of
 from wingbeat.orbits.quantities import QUANTITIES
-from wingbeat.orbits.sensitivity import Optimum
+from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import find_orbit, settle
 from wingbeat.orbits.uncertainty import Spread, first_order
 
@@ -38,7 +38,7 @@ def solved_anew(solution, slope, share):
 
     def at(steps):
         problem = parameter.changed(solution.problem, parameter.value + steps * step)
-        return numbers(Optimum(problem, solution.unknowns + steps * step * moved))
+        return numbers(OptimumSlopes(problem, solution.unknowns + steps * step * moved))
 
     try:
         return (at(1) - at(-1)) / (2 * step)
@@ -53,7 +53,7 @@ CASES = [("pigeon", 10.0, "frequency", 1), ("bat", 10.0, "frequency", 1), ("bat"
 @pytest.mark.parametrize(("name", "speed", "minimise", "every"), CASES)
 def test_every_derivative_is_that_of_solving_anew(name, speed, minimise, every):
     solution = solved(name, speed, minimise=minimise)
-    optimum = Optimum(solution.problem, solution.unknowns)
+    optimum = OptimumSlopes(solution.problem, solution.unknowns)
     checked = 0
     for parameter in parameters_of(solution.problem)[::every]:
         slope = optimum.by(parameter, [POWER])
@@ -77,7 +77,7 @@ def test_every_derivative_is_that_of_solving_anew(name, speed, minimise, every):
 
 def test_the_derivative_is_that_of_certified_orbits():
     solution = solved("pigeon", 10.0)
-    optimum = Optimum(solution.problem, solution.unknowns)
+    optimum = OptimumSlopes(solution.problem, solution.unknowns)
     for parameter in parameters_of(solution.problem):
         if parameter.path in ("wing.mass", "air.density", "aero.drag.constant"):
             step = SHARE * parameter.size
@@ -114,7 +114,7 @@ def test_the_price_of_a_bound_is_what_widening_it_gains(pigeon):
 def test_a_limit_that_binds_has_a_price():
     limits = [46.0, 46.05]
     found = [solved("pigeon", 10.0, subject_to=[f"mean_positive_power<={limit}"]) for limit in limits]
-    optimum = Optimum(found[0].problem, found[0].unknowns)
+    optimum = OptimumSlopes(found[0].problem, found[0].unknowns)
     (limit,) = [p for p in optimum.active() if p.path.startswith("limit.")]
     anew = (found[1].objective - found[0].objective) / (limits[1] - limits[0])
     assert optimum.by(limit).objective == pytest.approx(anew, rel=0.02)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,6 +40,14 @@ class Nearest:
     closes: bool
 
 
+class Eased(NamedTuple):
+    """A change, by what share of its scale it must be made, and the unknowns of a beat that closes then."""
+
+    change: Change
+    share: float
+    unknowns: np.ndarray
+
+
 def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
     """Return the beat that comes closest to an orbit, from where the searches ended."""
     balance = Balance(programme)
@@ -63,28 +72,32 @@ def words_of(problem: OrbitProblem, shortages: Sequence[Shortage]) -> str:
     return f"{place}{f' with {limits}' if limits else ''} {' and '.join(told)}"
 
 
-def relaxations(problem: OrbitProblem, near: np.ndarray, threads: int) -> tuple[Relaxation, ...]:
-    """Return the single changes, the smallest first, with which a certified orbit was found.
+def least_changes(problem: OrbitProblem, near: np.ndarray, nearest: Nearest, threads: int) -> list[Eased]:
+    """Return the single changes with which beats close, as small as they can be, the smallest first.
 
     Parameters
     ----------
-    problem : the problem that has none.
+    problem : the problem, with which none was found.
     near : the unknowns of the beat that comes closest.
+    nearest : what that is short of.
     threads : changes that are looked at at a time.
     """
     problem = _plainly(problem)
     programme = Transcription(problem)
-    changes = list(possible_changes(problem, leaning(programme, programme.scaled(near))))
-
-    def least(change: Change) -> tuple[float, np.ndarray] | None:
-        return least_change(problem, change, near)
-
+    leans = leaning(programme, programme.scaled(near))
+    changes = list(possible_changes(problem, leans, {s.law: s.share for s in nearest.shortages}))
     with ThreadPoolExecutor(threads) as pool:
-        found = list(pool.map(least, changes))
-    met = [(*answer, change) for change, answer in zip(changes, found, strict=True) if answer is not None]
+        found = list(pool.map(lambda change: least_change(problem, change, near), changes))
+    met = [Eased(change, *answer) for change, answer in zip(changes, found, strict=True) if answer is not None]
+    return sorted(met, key=lambda m: m.share)
+
+
+def certified_changes(problem: OrbitProblem, met: Iterable[Eased]) -> tuple[Relaxation, ...]:
+    """Return the first few changes with which, rounded outward, a certified orbit is found."""
     flying: list[Relaxation] = []
-    for share, unknowns, change in sorted(met, key=lambda m: m[0]):
-        certain = _certified_change(problem, change, change.moved(share), unknowns)
+    problem = _plainly(problem)
+    for eased in met:
+        certain = _certified_change(problem, eased)
         if certain is not None:
             flying.append(certain)
         if len(flying) == _TOLD:
@@ -114,12 +127,12 @@ def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str,
             yield "body_pitch", sign
 
 
-def _certified_change(problem: OrbitProblem, change: Change, value: float, near: np.ndarray) -> Relaxation | None:
+def _certified_change(problem: OrbitProblem, eased: Eased) -> Relaxation | None:
     for more in _WIDER:
-        eased = relaxation(problem, change, value, more)
-        programme = Transcription(eased.apply(problem))
+        change = relaxation(problem, eased.change, eased.change.moved(eased.share), more)
+        programme = Transcription(change.apply(problem))
         for seek in (refine, search):
-            met = seek(programme.anew(), near)
+            met = seek(programme.anew(), eased.unknowns)
             if met.closed and met.optimal and correct(met.programme, met.scaled).is_orbit():
-                return eased
+                return change
     return None

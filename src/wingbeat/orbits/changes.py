@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import ANGLES, Constraint
+from wingbeat.orbits.shortage import LIFT, MOMENT, THRUST
 from wingbeat.species import Species
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
@@ -31,6 +32,8 @@ _FAR = 30.0
 # The lightest body, and the fastest flight, that is looked at, as a share of what was asked for.
 _LIGHTEST = 0.1
 _FASTEST = 5.0
+# Times what is short that a number is moved first.
+_MORE = 1.1
 # The least change that is worth a digit of its own, as a share of its scale.
 _LEAST = 1e-3
 # Chords that the shoulder is moved by, at most; of a speed near 0, what counts as large [m/s].
@@ -131,7 +134,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
 
 def _words(problem: OrbitProblem, change: Change) -> str:
     if any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
-        return f"{change.name}{change.sign}"
+        return f"{'upper' if change.sign == '<=' else 'lower'} limit of {change.name}"
     words = {"pitch_mean": "mean wing pitch", "pitch_amplitude": "wing pitch amplitude", "mass": "whole mass"}
     name = words.get(change.name, change.name.replace("_", " "))
     return name if change.sign == "=" else f"{'upper' if change.sign == '<=' else 'lower'} bound of {name}"
@@ -171,13 +174,17 @@ def _with_number(species: Species, part: str, name: str, value: object) -> Speci
     return dataclasses.replace(species, vehicle=dataclasses.replace(species.vehicle, **{part: record}))
 
 
-def possible_changes(problem: OrbitProblem, leaning: Iterable[tuple[str, str]]) -> Iterator[Change]:
+def possible_changes(
+    problem: OrbitProblem, leaning: Iterable[tuple[str, str]], short: Mapping[str, float]
+) -> Iterator[Change]:
     """Yield the changes that may make a problem feasible.
 
     Parameters
     ----------
     problem : the problem.
     leaning : (name, sign) of the bounds, that of body pitch along the path too, that the nearest beat leans on.
+    short : what that beat is short of, by law, as shares of the weight and of weight times chord: a vehicle lighter
+        by the lift that is short, or one that sinks by the thrust that is short, is next to an orbit.
     """
     limits = [(c.quantity.name, "<=" if c.at_most else ">=", c) for c in problem.subject_to]
     for name, sign, constraint in limits:
@@ -195,14 +202,19 @@ def possible_changes(problem: OrbitProblem, leaning: Iterable[tuple[str, str]]) 
                 yield from _towards(name, "=", old, reach, (0.1, 0.3))
     wing = problem.vehicle.wing
     mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
-    yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, (0.2, 0.5))
+    yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, _tries(short.get(LIFT), (0.3, 0.6)))
     brisk = max(problem.speed, _BRISK)
     yield Change("speed", "=", problem.speed, problem.speed + _FASTEST * brisk, brisk, (0.3, 1.0, 2.5))
     if problem.speed > 0:
         yield Change("speed", "=", problem.speed, 0.0, brisk, (0.3,))
-    yield Change("climb", "=", problem.climb, problem.climb - brisk, brisk, (0.2, 0.4))
+    yield Change("climb", "=", problem.climb, problem.climb - brisk, brisk, _tries(short.get(THRUST), (0.2, 0.4)))
     for way in (1.0, -1.0):
-        yield Change("shoulder", "=", ahead, ahead + way * _CHORDS * wing.mean_chord, wing.mean_chord, (0.2, 0.6))
+        reach, tries = ahead + way * _CHORDS * wing.mean_chord, _tries(short.get(MOMENT), (0.2, 0.6))
+        yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
+
+
+def _tries(short: float | None, others: tuple[float, ...]) -> tuple[float, ...]:
+    return others if short is None else (_MORE * abs(short), *others)
 
 
 def _towards(name: str, sign: str, old: float, reach: float, tries: tuple[float, ...] = ()) -> Iterator[Change]:

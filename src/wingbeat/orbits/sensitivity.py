@@ -47,7 +47,7 @@ class Sensitivity(NamedTuple):
     initial_state: dict[str, float]
 
 
-class Optimum:
+class OptimumSlopes:
     """An optimum taken apart: what is free, what binds, at which price.
 
     Parameters

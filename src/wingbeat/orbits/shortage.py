@@ -51,7 +51,7 @@ class Shortage:
         return "N m" if self.law == MOMENT else "N"
 
     def __str__(self) -> str:
-        share = f"{abs(100 * self.share):.2g} %"
+        share = f"{float(f'{abs(100 * self.share):.2g}'):g} %"
         if self.law == LIFT:
             return f"lift is {share} of the weight {'short' if self.share > 0 else 'too much'}"
         if self.law == THRUST:
@@ -132,12 +132,16 @@ class Balance:
     def failing(self, starts: Iterable[np.ndarray]) -> Closest:
         """Return the closest beat with the one law broken that alone will do, or with as many as must be.
 
-        Of several laws that each will do, that which is broken least.
+        Of several laws that each will do, that which is broken least; but a force too large only where no shortage
+        will do, for what is too much can mostly be spilled, and is then the price of another law.
         """
         together = [self.closest(start) for start in starts]
         best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
         alone = [self.closest(best.scaled, [law]) for law in LAWS]
-        return min((c for c in alone if c.keeps_the_rest), key=lambda c: c.size, default=best)
+        enough = [c for c in alone if c.keeps_the_rest]
+        return min(
+            enough, key=lambda c: (c.shares.get(LIFT, 0) < 0 or c.shares.get(THRUST, 0) < 0, c.size), default=best
+        )
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
         """Return what is short at a beat, the most first."""

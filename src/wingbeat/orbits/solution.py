@@ -6,6 +6,7 @@ import dataclasses
 import enum
 import functools
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,12 +31,20 @@ class Status(enum.Enum):
     NOT_CONVERGED = "not-converged"
 
 
+class Optimum(NamedTuple):
+    """Where one of the searches ended, uncorrected: the objective and the unknowns."""
+
+    objective: float
+    unknowns: np.ndarray
+
+
 @dataclass(frozen=True)
 class Solution:
     """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted.
 
-    Where there is none they are those of the beat that comes closest; `shortages` says which law of balance it
-    breaks and by how much, the most first, and `relaxations` which single changes fly, the smallest first.
+    `optima` are those that the searches met. Where there is no orbit, wingbeat and start are of the beat that comes
+    closest; `shortages` says which law of balance it breaks and by how much, the most first, and `relaxations`
+    which single changes fly, the smallest first.
     """
 
     problem: OrbitProblem
@@ -51,6 +60,7 @@ class Solution:
     seed: int
     seconds: float
     certify_seconds: float
+    optima: tuple[Optimum, ...] = ()
     shortages: tuple[Shortage, ...] = ()
     relaxations: tuple[Relaxation, ...] = ()
 
@@ -100,6 +110,7 @@ def better_of(own: Solution, other: Solution) -> Solution:
         min(converged, key=lambda s: s.objective, default=own),
         starts=own.starts + other.starts,
         distinct_optima=own.distinct_optima + (0 if own.same_as(other) else other.distinct_optima),
+        optima=own.optima + other.optima,
         seed=own.seed,
         seconds=own.seconds + other.seconds,
         certify_seconds=own.certify_seconds + other.certify_seconds,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.advice import nearest_beat, relaxations, words_of
+from wingbeat.orbits.advice import certified_changes, least_changes, nearest_beat, words_of
 from wingbeat.orbits.certify import certify
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.correction import SETTLED, Corrected, certified, correct, follow_to_certificate, size
@@ -25,8 +25,8 @@ from wingbeat.orbits.search import (
     violation,
 )
 from wingbeat.orbits.shooting import fly_part
-from wingbeat.orbits.shortage import Shortage
-from wingbeat.orbits.solution import SAME, Solution, Status
+from wingbeat.orbits.shortage import NOTHING, Shortage
+from wingbeat.orbits.solution import SAME, Optimum, Solution, Status
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
 
@@ -111,7 +111,8 @@ def find_orbit(
         best, failure = _without_orbit(transcription, found, threads or os.cpu_count() or 1, advise)
     seconds = time.perf_counter() - begun
     certifying = transcription.certify_seconds
-    return _solution(best, len(found), len(_distinct(found)), seed, seconds, certifying, failure)
+    optima = tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _distinct(found))
+    return _solution(best, len(found), optima, seed, seconds, certifying, failure)
 
 
 def _without_orbit(
@@ -120,25 +121,29 @@ def _without_orbit(
     """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to."""
     problem = programme.problem
     nearest = nearest_beat(programme, found)
-    if nearest.closes or any(c.closed for c in found):
-        led = search(programme.anew(), programme.physical(nearest.scaled))
-        orbit = _first_certified(programme, [led])
-        if orbit is not None:
-            return orbit, None
-        closest = min([led, *found], key=lambda c: c.violation)
+    near = programme.physical(nearest.scaled)
+    met = least_changes(problem, near, nearest, threads) if advise and not nearest.closes else []
+    # A change of next to nothing is none: the searches missed what was there.
+    leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
+    led = [search(programme.anew(), lead) for lead in leads]
+    orbit = _first_certified(programme, led)
+    if orbit is not None:
+        return orbit, None
+    if any(c.closed for c in (*found, *led)):
+        closest = min((*found, *led), key=lambda c: c.violation)
         message = (
             f"beats that close were met in {len(found)} searches, but none could be certified as an optimum; "
             "try more starts, another seed, or a start nearer the answer"
         )
         return certified(closest.programme, closest.scaled), _Outcome(Status.NOT_CONVERGED, message)
-    changes = relaxations(problem, programme.physical(nearest.scaled), threads) if advise else ()
+    changes = certified_changes(problem, met)
     message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
     if changes:
         message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
-    failure = _Outcome(Status.INFEASIBLE, message, nearest.shortages, changes)
-    return certified(programme.anew(), nearest.scaled), failure
+    outcome = _Outcome(Status.INFEASIBLE, message, nearest.shortages, changes)
+    return certified(programme.anew(), nearest.scaled), outcome
 
 
 def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tuple[Solution, Polish] | None:
@@ -167,7 +172,7 @@ def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tup
     if not corrected.is_orbit():
         return None
     seconds = time.perf_counter() - begun
-    return _solution(corrected, 1, 1, 0, seconds, transcription.certify_seconds), polish
+    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds), polish
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
@@ -212,13 +217,13 @@ def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
     if best is None:
         return None
     seconds += time.perf_counter() - begun
-    return _solution(best, 1, 1, 0, seconds, transcription.certify_seconds)
+    return _solution(best, 1, (), 0, seconds, transcription.certify_seconds)
 
 
 def _solution(
     best: Corrected,
     searches: int,
-    distinct_optima: int,
+    optima: tuple[Optimum, ...],
     seed: int,
     seconds: float,
     certify_seconds: float,
@@ -235,10 +240,11 @@ def _solution(
         active_bounds(best.programme, best.scaled),
         best.optimality,
         searches,
-        distinct_optima,
+        max(len(optima), 1) if told.status is Status.CONVERGED else len(optima),
         seed,
         seconds,
         certify_seconds,
+        optima,
         told.shortages,
         told.relaxations,
     )

@@ -13,7 +13,7 @@ from wingbeat.kinematics import parameter
 from wingbeat.orbits.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity, named_quantity
-from wingbeat.orbits.sensitivity import Optimum, Sensitivity
+from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.uncertainty import ErrorBar, Samples, Spread, first_order, sample_orbits, uniform_spread
@@ -146,7 +146,7 @@ def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIE
     problem = orbit.problem
     free = [parameter(orbit.wingbeat, name) for name in problem.free]
     unknowns = np.array([*orbit.initial_state[2:], *free])
-    optimum = Optimum(problem, unknowns)
+    optimum = OptimumSlopes(problem, unknowns)
     slopes = [optimum.by(one, known) for one in parameters_of(problem)]
     prices = [optimum.by(one, known) for one in optimum.active()]
     return Sensitivities(problem, unknowns, known, optimum.values(known).tolist(), slopes, prices)

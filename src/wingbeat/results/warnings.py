@@ -7,12 +7,20 @@ import math
 import numpy as np
 
 from wingbeat.loads import Loads
-from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import ANGLES
+from wingbeat.orbits.solution import Solution, Status
 from wingbeat.vehicle import Air, Vehicle
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.
 _SLOW = 3.0
 _MENTION = 0.01
+# A body that turns by this much within a beat turns a sixth of its lift into thrust and drag by turns.
+_SWING = math.radians(20.0)
+# Optima whose objectives differ by less than this share are worth the same to most.
+_RIVAL = 0.01
+# Distance in the optimiser's scale from which on two optima, of which one is not corrected, are two.
+_ELSEWHERE = 0.05
 
 
 def orbit_warnings(solution: Solution, found: Loads) -> list[str]:
@@ -23,16 +31,52 @@ def orbit_warnings(solution: Solution, found: Loads) -> list[str]:
     notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
     notes += fitted_range(solution, found)
     for name in solution.active_bounds:
-        if name in problem.species.guessed_bounds:
+        if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
             notes.append(f"the optimum leans on the bound of {name}, which is a guess: see the species file")
         if name in ("u", "w", "pitch_rate"):
             notes.append(f"the start's {name} met the limit of the search; distrust this orbit")
+    swing = float(np.ptp(solution.certificate.pitch))
+    if swing > _SWING:
+        notes.append(
+            f"body pitch swings through {math.degrees(swing):.0f} degrees in each beat: "
+            "the body rows with the wings, which flying animals were not checked to do"
+        )
+    notes += rivals(solution)
     if solution.distinct_optima > 1:
         notes.append(
             f"{solution.distinct_optima} distinct optima were met in {solution.starts} searches; "
             "this is the best of them, not proven the best of all"
         )
     return notes
+
+
+def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
+    """Return the species' bounds of a parameter, or of body pitch; a user's own are no guess."""
+    species = problem.species
+    return species.body_pitch_bounds if name == "body_pitch" else species.bounds[name]
+
+
+def rivals(solution: Solution) -> list[str]:
+    """Warn of other optima that are worth nearly the same, and say where they differ most."""
+    if solution.status is not Status.CONVERGED:
+        return []
+    best, unknowns = solution.objective, solution.problem.unknowns()
+    near = [o for o in solution.optima if o.objective - best <= _RIVAL * abs(best)]
+    away = [np.abs(o.unknowns - solution.unknowns) / unknowns.scale for o in near]
+    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > _ELSEWHERE]
+    if not others:
+        return []
+    other, apart = max(others, key=lambda pair: pair[1].max())
+    place = int(apart.argmax())
+    name, angle = unknowns.names[place], unknowns.names[place] in (*ANGLES, "body_pitch", "pitch_rate")
+    here, there = (
+        values[place] * (math.degrees(1.0) if angle else 1.0) for values in (solution.unknowns, other.unknowns)
+    )
+    unit = " degrees" if angle else ""
+    return [
+        f"other optima met within 1 % of the best: {len(others)}; they differ most in {name}, "
+        f"{there:.3g} against {here:.3g}{unit}"
+    ]
 
 
 def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
@@ -48,7 +92,10 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
 
 
 def fitted_range(solution: Solution, found: Loads) -> list[str]:
-    """Warn of the share of the beat, over all strips, outside the coefficients' Reynolds and alpha range."""
+    """Warn of the share of beat and strips outside the coefficients' Reynolds and alpha range.
+
+    Every phase and every strip counts alike; strips are of equal width.
+    """
     problem = solution.problem
     coefficients = problem.aero.coefficients
     notes = []
@@ -58,7 +105,7 @@ def fitted_range(solution: Solution, found: Loads) -> list[str]:
         share = _outside(reynolds, low, high)
         if share > _MENTION:
             notes.append(
-                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of the beat "
+                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of beat and strips "
                 f"(it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
     low, high = np.radians(coefficients.alpha_range_deg)
@@ -66,7 +113,7 @@ def fitted_range(solution: Solution, found: Loads) -> list[str]:
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of the beat: there the extension '{coefficients.extension}' decides"
+            f"{share:.0%} of beat and strips: there the extension '{coefficients.extension}' decides"
         )
     return notes
 

@@ -1,0 +1,94 @@
+"""Problems without an answer: is the right balance named, and does the change proposed fly? Prints Markdown.
+
+Run from the root of a clone::
+
+    uv run python benchmarks/infeasible.py [--kinds "too heavy" ...]
+
+Each of thirty problems is solved; the smallest change proposed is applied and the problem solved again from
+nothing, with another seed; and once more with nine tenths of the change: would a smaller one have done?
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from typing import Any
+
+from infeasible_cases import Case, cases
+
+import wingbeat as wb
+from wingbeat.orbits.changes import Relaxation, with_change
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import find_orbit
+
+# Searches for an orbit that is not expected.
+_FEW = 12
+_SHARE = 0.9
+
+
+def named_right(case: Case, found: Solution) -> bool:
+    """Say whether the law that fails most is one of those that must, and a limit is named where there is one."""
+    limits = all(str(limit) in found.message for limit in case.problem.subject_to)
+    return bool(found.shortages) and found.shortages[0].law in case.laws and limits
+
+
+def flies(case: Case, change: Relaxation) -> bool:
+    """Solve the problem with the change made, from nothing and with another seed."""
+    return find_orbit(change.apply(case.problem), seed=1, advise=False).status is wb.Status.CONVERGED
+
+
+def less_flies(case: Case, change: Relaxation) -> bool:
+    """Solve the problem with a part of the change made."""
+    value = change.old + _SHARE * (change.new - change.old)
+    problem = with_change(case.problem, change.name, change.sign, value)
+    return find_orbit(problem, seed=1, most_starts=_FEW, advise=False).status is wb.Status.CONVERGED
+
+
+def row_of(case: Case) -> tuple[tuple[Any, ...], Solution]:
+    """Return the cells of a case, and its solution."""
+    begun = time.process_time()
+    found = find_orbit(case.problem)
+    seconds = time.process_time() - begun
+    first = found.relaxations[0] if found.relaxations else None
+
+    def answer(ask: Callable[[Case, Relaxation], bool]) -> str:
+        return "-" if first is None else ("yes" if ask(case, first) else "no")
+
+    right = "yes" if named_right(case, found) else "no"
+    short = "; ".join(str(s) for s in found.shortages if abs(s.share) >= 0.2 * abs(found.shortages[0].share))
+    changes = "; ".join(r.text for r in found.relaxations)
+    cells = (case.kind, case.what, short, right, changes, answer(flies), answer(less_flies), f"{seconds:.0f}")
+    return cells, found
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--kinds", nargs="+")
+    given = arguments.parse_args()
+    chosen = [case for case in cases() if given.kinds is None or case.kind in given.kinds]
+    heads = (
+        "kind",
+        "problem",
+        "what is short",
+        "right law",
+        "changes that fly",
+        "first flies",
+        "0.9 of it",
+        "CPU s",
+    )
+    print("|", " | ".join(heads), "|")
+    print("| --- " * len(heads) + "|")
+    right = flying = infeasible = 0
+    for case in chosen:
+        cells, found = row_of(case)
+        print("|", " | ".join(cells), "|", flush=True)
+        infeasible += found.status is wb.Status.INFEASIBLE
+        right += cells[3] == "yes"
+        flying += cells[5] == "yes"
+    print(f"\n{infeasible} of {len(chosen)} are infeasible; the right law is named in {right}; ", end="")
+    print(f"the smallest change proposed flies in {flying}.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,178 @@
+"""Where there is no orbit: the law that fails, the least change that flies, and what the record keeps of them."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from infeasible_cases import LIFT, MOMENT, THRUST, cases
+
+import wingbeat as wb
+from wingbeat.loads import flight_loads
+from wingbeat.orbits.changes import Change, is_limit, relaxation, with_change
+from wingbeat.orbits.shortage import Shortage
+from wingbeat.orbits.solve import find_orbit
+from wingbeat.results.warnings import rivals
+
+CASES = list(cases())
+# One of each kind; the whole of them is benchmarks/infeasible.py.
+QUICK = [CASES[i] for i in (1, 6, 10, 16, 22, 26)]
+PIGEON = wb.load_species("pigeon")
+
+
+@pytest.fixture(scope="module")
+def solved():
+    return {case.kind: find_orbit(case.problem, 2, most_starts=6) for case in QUICK}
+
+
+def test_there_are_thirty_cases_of_six_kinds():
+    assert len(CASES) == 30
+    assert len({case.kind for case in QUICK}) == len({case.kind for case in CASES}) == 6
+
+
+@pytest.mark.parametrize("case", QUICK, ids=lambda case: case.kind)
+def test_the_right_law_is_named_and_the_smallest_change_flies(case, solved):
+    found = solved[case.kind]
+    assert found.status is wb.Status.INFEASIBLE
+    assert found.shortages[0].law in case.laws
+    assert str(found.shortages[0]) in found.message
+    assert all(str(limit) in found.message for limit in case.problem.subject_to)
+    change = found.relaxations[0]
+    assert change.text in found.message
+    again = find_orbit(change.apply(case.problem), 2, seed=1, advise=False)
+    assert again.status is wb.Status.CONVERGED, change.text
+
+
+@pytest.mark.parametrize("kind", ["too slow", "amplitude too small"])
+def test_with_the_force_that_is_short_it_flies(kind, solved):
+    """A steady force on all mass is another gravity: told shares and one percent more do, half of them do not."""
+    problem, shares = solved[kind].problem, {s.law: s.share for s in solved[kind].shortages}
+    assert len(shares) == 1
+
+    def helped(part):
+        up, ahead = (part * shares.get(law, 0.0) for law in (LIFT, THRUST))
+        pull, tilt = math.hypot(1.0 - up, ahead), math.atan2(ahead, 1.0 - up)
+        low, high = problem.bounds["body_pitch"]
+        return dataclasses.replace(
+            problem,
+            air=dataclasses.replace(problem.air, gravity=pull * problem.air.gravity),
+            speed=problem.speed * math.cos(tilt),
+            climb=-problem.speed * math.sin(tilt),
+            bounds={**problem.bounds, "body_pitch": (low - tilt, high - tilt)},
+        )
+
+    assert find_orbit(helped(1.02), 2, advise=False).status is wb.Status.CONVERGED
+    assert find_orbit(helped(0.5), 2, most_starts=4, advise=False).status is wb.Status.INFEASIBLE
+
+
+def test_the_closest_beat_misses_by_the_force_that_is_told(solved):
+    """Certified: what the flight lacks in vertical momentum over a beat is the lift that is short."""
+    found = solved["too slow"]
+    (short,) = found.shortages
+    mass = found.problem.vehicle.mass
+    force = -found.closure["w"] * mass * found.wingbeat.frequency
+    assert short.amount == pytest.approx(force, rel=0.02)
+    assert short.share == pytest.approx(short.amount / (mass * found.problem.air.gravity))
+    loads = flight_loads(
+        found.problem.model, found.wingbeat, wb.State(*found.certificate.states.T), found.certificate.phase
+    )
+    lift = np.trapezoid(loads.air_force[:, 1], found.certificate.phase)
+    assert mass * found.problem.air.gravity - lift == pytest.approx(short.amount, rel=0.05)
+
+
+def test_nobody_pays_for_advice_that_is_not_asked_for(solved):
+    case = QUICK[2]
+    (orbit,) = wb.solve_orbits([case.problem], 1, most_starts=2)
+    assert orbit.status is wb.Status.INFEASIBLE
+    assert orbit.relaxations == ()
+    assert "thrust is short of drag" in orbit.message
+    assert "changes" not in orbit.message
+    (advised,) = wb.solve_orbits([case.problem], 1, most_starts=2, advise=True)
+    assert advised.relaxations
+
+
+def test_record_and_file_keep_shortage_and_changes(solved, tmp_path):
+    case = QUICK[3]
+    orbit = wb.Orbit.of(solved[case.kind], 2)
+    record = orbit.record()
+    assert record["failed_balance"][0] | {"share": 0, "amount": 0} == {
+        "law": MOMENT,
+        "share": 0,
+        "amount": 0,
+        "unit": "N m",
+    }
+    assert record["relaxations"][0].keys() == {"name", "sign", "old", "new", "unit", "text"}
+    orbit.save(tmp_path / "none.nc")
+    back = wb.load_orbit(tmp_path / "none.nc")
+    assert back.record() == record
+    assert back.relaxations == orbit.relaxations == solved[case.kind].relaxations
+    for change in back.relaxations:  # the species of a file knows its records only
+        own, other = change.apply(case.problem), change.apply(back.problem)
+        assert (own.bounds, own.speed, own.vehicle) == (other.bounds, other.speed, other.vehicle)
+
+
+@pytest.mark.parametrize(
+    ("shortage", "words"),
+    [
+        (Shortage(LIFT, 0.123, 0.4), "lift is 12 % of the weight short"),
+        (Shortage(LIFT, -0.05, -0.2), "lift is 5 % of the weight too much"),
+        (Shortage(THRUST, 1.234, 4.0), "thrust is short of drag by 120 % of the weight"),
+        (Shortage(THRUST, -0.02, -0.1), "thrust is more than drag by 2 % of the weight"),
+        (Shortage(MOMENT, -0.5, -0.17), "a nose-down pitching moment of 0.17 N m is lacking"),
+    ],
+)
+def test_a_shortage_in_words(shortage, words):
+    assert str(shortage).startswith(words)
+
+
+@pytest.mark.parametrize(
+    ("name", "sign", "old", "reach", "value", "text", "new"),
+    [
+        ("flap_amplitude", "<=", math.radians(70), 1.5, math.radians(82.31), "70 -> 83 deg", math.radians(83)),
+        ("pitch_mean", ">=", math.radians(-30), -1.5, math.radians(-41.2), "-30 -> -42 deg", math.radians(-42)),
+        ("mass", "=", 0.316, 0.07, 0.28764, "0.316 -> 0.287 kg (-9.2 %, off the body)", 0.287),
+        ("speed", "=", 3.0, 18.0, 3.4001, "speed 3 -> 3.41 m/s", 3.41),
+        ("speed", "=", 10.0, 0.0, 4.2, "speed 10 -> 4.2 m/s", 4.2),
+        ("shoulder", "=", -0.15, 0.07, -0.0623, "shoulder -150 -> -62 mm", -0.062),
+        ("peak_flap_torque", "<=", 0.1, 3.0, 0.1371, "upper limit of peak_flap_torque 0.1 -> 0.138 N m", 0.138),
+        ("mean_power", ">=", 30.0, -900.0, -4.31, "lower limit of mean_power 30 -> -5 W", -5.0),
+    ],
+)
+def test_a_change_is_rounded_outward_and_applied(name, sign, old, reach, value, text, new):
+    problem = wb.OrbitProblem(PIGEON, speed=10.0, subject_to=["peak_flap_torque<=0.1", "mean_power>=30"])
+    change = relaxation(problem, Change(name, sign, old, reach, abs(reach - old)), value)
+    assert text in change.text
+    assert change.new == pytest.approx(new, rel=1e-12)
+    applied = change.apply(problem)
+    if name == "mass":
+        assert applied.vehicle.mass == pytest.approx(new)
+        assert applied.vehicle.wing == problem.vehicle.wing
+    elif name == "shoulder":
+        assert applied.vehicle.wing.shoulder == (new, 0.0, 0.0)
+    elif name == "speed":
+        assert applied.speed == new
+    elif name in problem.bounds:
+        assert applied.bounds[name][sign == "<="] == change.new
+    else:
+        (limit,) = (c for c in applied.subject_to if is_limit(c, name, sign))
+        assert limit.limit == change.new
+        assert len(applied.subject_to) == 2
+
+
+def test_what_is_held_is_held_elsewhere():
+    problem = wb.OrbitProblem(PIGEON, speed=10.0, subject_to="pitch_mean=0")
+    moved = with_change(problem, "pitch_mean", "=", -0.1)
+    assert moved.species.wingbeat.pitch_mean == -0.1
+    assert moved.free == problem.free
+
+
+def test_optima_worth_the_same_are_told_with_where_they_differ(bat_orbit):
+    solution = find_orbit(bat_orbit.problem, 2)
+    assert rivals(solution) == []
+    other = solution.unknowns.copy()
+    other[solution.problem.unknowns().names.index("flap_mean")] += math.radians(10)
+    near, far = (type(solution.optima[0])(solution.objective * times, other) for times in (1.005, 1.05))
+    (told,) = rivals(dataclasses.replace(solution, optima=(near, far, *solution.optima)))
+    assert "within 1 % of the best: 1;" in told
+    assert "flap_mean" in told
+    assert rivals(dataclasses.replace(solution, optima=(far,))) == []

@@ -138,10 +138,9 @@ def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_lea
 
 def test_a_constraint_out_of_reach_is_infeasible_and_named():
     problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="mean_positive_power<=5")
-    found = find_orbit(problem, 1, most_starts=2)
+    found = find_orbit(problem, 1, most_starts=2, advise=False)
     assert found.status is wb.Status.INFEASIBLE
     assert "with mean_positive_power<=5" in found.message
-    assert any(r.name == "mean_positive_power" and r.new > 5 for r in found.relaxations)
 
 
 def test_functions_of_ones_own():

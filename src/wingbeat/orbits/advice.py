@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -27,6 +27,8 @@ _AT = 1e-3
 # Changes that are told; of a short share of a law, the part of the largest that is worth telling.
 _TOLD = 3
 _MENTION = 0.2
+# Times the least change that is told: at the least itself there is one orbit only, and it is hard to certify.
+_SLACK = 1.02
 # Steps of the last digit that a change is widened by until a certified orbit is found.
 _WIDER = (0, 1, 3, 10)
 
@@ -72,7 +74,13 @@ def words_of(problem: OrbitProblem, shortages: Sequence[Shortage]) -> str:
     return f"{place}{f' with {limits}' if limits else ''} {' and '.join(told)}"
 
 
-def least_changes(problem: OrbitProblem, near: np.ndarray, nearest: Nearest, threads: int) -> list[Eased]:
+def least_changes(
+    problem: OrbitProblem,
+    near: np.ndarray,
+    nearest: Nearest,
+    threads: int,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Eased]:
     """Return the single changes with which beats close, as small as they can be, the smallest first.
 
     Parameters
@@ -81,14 +89,20 @@ def least_changes(problem: OrbitProblem, near: np.ndarray, nearest: Nearest, thr
     near : the unknowns of the beat that comes closest.
     nearest : what that is short of.
     threads : changes that are looked at at a time.
+    progress : called with (changes looked at, changes in all).
     """
     problem = _plainly(problem)
     programme = Transcription(problem)
     leans = leaning(programme, programme.scaled(near))
     changes = list(possible_changes(problem, leans, {s.law: s.share for s in nearest.shortages}))
+    met = []
     with ThreadPoolExecutor(threads) as pool:
-        found = list(pool.map(lambda change: least_change(problem, change, near), changes))
-    met = [Eased(change, *answer) for change, answer in zip(changes, found, strict=True) if answer is not None]
+        found = pool.map(lambda change: least_change(problem, change, near), changes)
+        for i, (change, answer) in enumerate(zip(changes, found, strict=True), start=1):
+            if answer is not None:
+                met.append(Eased(change, *answer))
+            if progress is not None:
+                progress(i, len(changes))
     return sorted(met, key=lambda m: m.share)
 
 
@@ -129,7 +143,7 @@ def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str,
 
 def _certified_change(problem: OrbitProblem, eased: Eased) -> Relaxation | None:
     for more in _WIDER:
-        change = relaxation(problem, eased.change, eased.change.moved(eased.share), more)
+        change = relaxation(problem, eased.change, eased.change.moved(_SLACK * eased.share), more)
         programme = Transcription(change.apply(problem))
         for seek in (refine, search):
             met = seek(programme.anew(), eased.unknowns)

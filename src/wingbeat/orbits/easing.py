@@ -17,7 +17,9 @@ _STEP = 1e-6
 _KEPT = 8
 # Iterations with the number moved far, and of moving it back.
 _BRIEFLY = 40
-_ITERATIONS = 100
+_ITERATIONS = 60
+# Times that it is moved back, each from where the last ended.
+_TIMES = 3
 
 
 class Eased(Transcription):
@@ -35,6 +37,12 @@ class Eased(Transcription):
     def start(self, unknowns: np.ndarray, share: float) -> np.ndarray:
         """Return a place to start from, in the optimiser's scale, within the bounds."""
         return np.clip(np.append(unknowns / self.unknowns.scale, share), self.lower, self.upper)
+
+    def tightened(self, scaled: np.ndarray) -> np.ndarray:
+        """Return the place with the number moved back as far as the same beat allows."""
+        slope = self.margins_jacobian(scaled)[:, -1]
+        spare = (self.margins(scaled)[slope > 0] / slope[slope > 0]).min()
+        return np.append(scaled[:-1], np.clip(scaled[-1] - spare, 0.0, self.upper[-1]))
 
     def _scaled(self, flown: Flown, unknowns: np.ndarray) -> Point:
         return _with_column(super()._scaled(flown, unknowns))
@@ -110,6 +118,10 @@ class _EasedLimit(Eased):
 class _EasedNumber(Eased):
     """With a number of vehicle, flight or wingbeat moved; derivatives by it are difference quotients."""
 
+    def tightened(self, scaled: np.ndarray) -> np.ndarray:
+        """Return the place as it is: another number makes another beat."""
+        return scaled
+
     def __init__(self, problem: OrbitProblem, change: Change) -> None:
         super().__init__(problem, change)
         self._moved: dict[float, Transcription] = {}
@@ -159,8 +171,11 @@ def least_change(problem: OrbitProblem, change: Change, near: np.ndarray) -> tup
             if not is_closed(easy, met):
                 continue
             programme = eased(problem, change)
-            far = programme.start(easy.physical(met), share)
-            scaled, _ = optimise(programme, far, iterations=_ITERATIONS)
-            kept = scaled if is_closed(programme, scaled) and scaled[-1] < far[-1] else far
+            kept = programme.tightened(programme.start(easy.physical(met), share))
+            for _ in range(_TIMES):
+                scaled, _ = optimise(programme, kept, iterations=_ITERATIONS)
+                if not is_closed(programme, scaled) or scaled[-1] >= kept[-1]:
+                    break
+                kept = scaled
             return float(kept[-1]), programme.physical(kept)
     return None

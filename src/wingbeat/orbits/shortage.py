@@ -69,6 +69,11 @@ class Closest:
     keeps_the_rest: bool
 
     @property
+    def is_excess(self) -> bool:
+        """Whether a force is too large, not too small."""
+        return any(self.shares.get(law, 0.0) < 0 for law in (LIFT, THRUST))
+
+    @property
     def size(self) -> float:
         """Root of the sum of the squares of the shares."""
         return float(np.linalg.norm(list(self.shares.values())))
@@ -139,9 +144,11 @@ class Balance:
         best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
         alone = [self.closest(best.scaled, [law]) for law in LAWS]
         enough = [c for c in alone if c.keeps_the_rest]
-        return min(
-            enough, key=lambda c: (c.shares.get(LIFT, 0) < 0 or c.shares.get(THRUST, 0) < 0, c.size), default=best
-        )
+        if not enough:
+            return best
+        law = min(enough, key=lambda c: (c.is_excess, c.size)).shares
+        others = (self.closest(c.scaled, law) for c in together if c is not best)
+        return min([*enough, *others], key=lambda c: (c.shares.keys() != law.keys(), not c.keeps_the_rest, c.size))
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
         """Return what is short at a beat, the most first."""

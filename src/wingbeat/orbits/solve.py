@@ -73,7 +73,8 @@ def find_orbit(
     problem : the orbit problem.
     starts : number of searches.
     seed : makes the random starts; the same seed gives the same orbit.
-    progress : called with (searches done, searches in all).
+    progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
+        of which counts as one more.
     threads : searches at a time, as many as there are cores if not given.
     most_starts : if none of the searches can be certified, more are made, up to this many (50 if not
         given), before giving up.
@@ -108,7 +109,7 @@ def find_orbit(
             break
     failure = None
     if best is None:
-        best, failure = _without_orbit(transcription, found, threads or os.cpu_count() or 1, advise)
+        best, failure = _without_orbit(transcription, found, threads or os.cpu_count() or 1, advise, progress)
     seconds = time.perf_counter() - begun
     certifying = transcription.certify_seconds
     optima = tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _distinct(found))
@@ -116,13 +117,18 @@ def find_orbit(
 
 
 def _without_orbit(
-    programme: Transcription, found: list[Candidate], threads: int, advise: bool
+    programme: Transcription, found: list[Candidate], threads: int, advise: bool, progress: Progress | None
 ) -> tuple[Corrected, _Outcome | None]:
     """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to."""
     problem = programme.problem
     nearest = nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
-    met = least_changes(problem, near, nearest, threads) if advise and not nearest.closes else []
+
+    def told(done: int, total: int) -> None:
+        if progress is not None:
+            progress(len(found) + done, len(found) + total)
+
+    met = least_changes(problem, near, nearest, threads, told) if advise and not nearest.closes else []
     # A change of next to nothing is none: the searches missed what was there.
     leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
     led = [search(programme.anew(), lead) for lead in leads]

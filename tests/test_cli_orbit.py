@@ -29,7 +29,8 @@ NAMES = {
     "aero": "coefficients extension blend_width_deg strips force_point",
     "air": "density viscosity gravity",
     "wingbeat": "frequency flap_mean flap_amplitude pitch_mean pitch_amplitude span_retraction twist_ratio "
-    "fold_amplitude wrist",
+    "fold_amplitude wrist pitch_phase downstroke_fraction sweep_mean sweep_amplitude sweep_phase stroke_plane_tilt "
+    "flap_harmonics pitch_harmonics span_harmonics",
     "initial_state": "x z body_pitch u w pitch_rate",
     "closure": "x z body_pitch u w pitch_rate",
     "constraints": "",

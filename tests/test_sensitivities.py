@@ -14,7 +14,7 @@ from wingbeat.orbits.parameters import parameters_of
 from wingbeat.orbits.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import find_orbit, settle
-from wingbeat.orbits.uncertainty import Spread, first_order
+from wingbeat.orbits.uncertainty import ParameterSpread, first_order
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005
@@ -186,7 +186,7 @@ def test_a_fit_brings_its_covariance_with_errors_that_go_together(pigeon):
     other = fit._replace(drag=drag._replace(terms=wb.aero.Dickinson().drag_terms))
     with pytest.raises(InvalidInputError, match="other drag terms"):
         found.error_bar("frequency", other)
-    drawn = Spread("aero.drag", tuple(s.parameter for s in found.slopes[:2]), covariance).draw(
+    drawn = ParameterSpread("aero.drag", tuple(s.parameter for s in found.slopes[:2]), covariance).draw(
         np.random.default_rng(0), 20_000
     )
     assert np.cov(drawn.T) == pytest.approx(covariance, rel=0.05)

@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from wingbeat.results.power import power_account as power_account
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
+    from wingbeat.results.spread import Spread as Spread
+    from wingbeat.results.spread import orbit_spread as orbit_spread
     from wingbeat.species import Species as Species
     from wingbeat.species import bat as bat
     from wingbeat.species import bird as bird
@@ -77,6 +79,7 @@ _HOME = {
     "PowerCost": "orbits.quantities",
     "Quantity": "orbits.quantities",
     "Species": "species",
+    "Spread": "results.spread",
     "SpringPower": "orbits.quantities",
     "State": "model",
     "Status": "orbits.solution",
@@ -95,6 +98,7 @@ _HOME = {
     "load_curve": "results.curve",
     "load_orbit": "results.orbit",
     "load_species": "species",
+    "orbit_spread": "results.spread",
     "power_account": "results.power",
     "robot": "species",
     "sensitivities": "results.sensitivities",

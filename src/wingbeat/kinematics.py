@@ -17,7 +17,7 @@ import numpy as np
 from wingbeat.elementary import atan2, cos, sin
 from wingbeat.errors import FaultList
 from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, harmonic_place
-from wingbeat.jax64 import at_default, register_record, unchecked
+from wingbeat.jax64 import at_default, jnp, register_record, unchecked
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
 _OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt")
@@ -155,11 +155,13 @@ def recovery(phase: Any) -> Any:
 
 def with_harmonics(base: Any, pairs: Sequence[Any], first: int, phase: Any) -> Any:
     """Add to a law its cosines and sines of order `first` and up."""
-    total = base
-    for i in range(0, len(pairs), 2):
-        angle = 2 * math.pi * (first + i // 2) * phase
-        total = total + pairs[i] * cos(angle) + pairs[i + 1] * sin(angle)
-    return total
+    if not pairs:
+        return base
+    # All orders at once: one sine to trace and compile, however many there are.
+    waves = jnp.reshape(jnp.stack([jnp.asarray(a, dtype=float) for a in pairs]), (-1, 2, *[1] * jnp.ndim(phase)))
+    turns = 2 * math.pi * np.arange(first, first + len(pairs) // 2).reshape(-1, *[1] * jnp.ndim(phase))
+    angles = turns * phase
+    return base + jnp.sum(waves[:, 0] * cos(angles) + waves[:, 1] * sin(angles), axis=0)
 
 
 def flap_angle(wingbeat: Wingbeat, phase: Any) -> Any:

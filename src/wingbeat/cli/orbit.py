@@ -6,12 +6,20 @@ import json as json_format
 import math
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.filmed import (
+    DRAWS,
+    Kinematics,
+    film_lines,
+    film_record,
+    spread_lines,
+    spread_record,
+)
 from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
     AeroName,
@@ -32,10 +40,16 @@ from wingbeat.cli.options import (
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
+from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solution import Status
+from wingbeat.orbits.uncertainty import ErrorBar
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
 from wingbeat.results.power import power_account
+from wingbeat.results.sensitivities import Sensitivities
 from wingbeat.results.sensitivities import sensitivities as differentiate
+from wingbeat.results.spread import Spread, orbit_spread
+from wingbeat.species import Species
 
 FIGURES = (".png", ".pdf", ".svg")
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
@@ -55,12 +69,13 @@ def orbit(
     ] = None,
     strips: Strips = 10,
     minimise: Annotated[
-        str,
+        str | None,
         Parameter(
             help="What to make least: frequency, power, positive-power, peak-power, cost-of-transport, "
-            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ..."
+            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ...; frequency if not given, or "
+            "positive-power where a film gives the frequency"
         ),
-    ] = "frequency",
+    ] = None,
     subject_to: Annotated[
         list[str] | None,
         Parameter(
@@ -73,6 +88,7 @@ def orbit(
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     payload: Payload = 0.0,
+    kinematics: Kinematics = None,
     from_: Annotated[
         Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
     ] = None,
@@ -93,21 +109,17 @@ def orbit(
 ) -> int:
     """Find the wingbeat of least frequency, or power, that flies at a speed, and certify it.
 
+    With --kinematics what was filmed is held and the rest found, with the errors that the film's noise leaves.
     Exit code 0: certified. 3: nothing certified, the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
     wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc;
-    wingbeat orbit bat --speed 8 --minimise positive-power --subject-to 'peak_power<=60'
+    wingbeat orbit bat --speed 8 --minimise positive-power --subject-to 'peak_power<=60';
+    wingbeat orbit pigeon --speed 10 --kinematics beat.csv
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
-    for option, figure in (("--plot", plot), ("--tornado", tornado)):
-        if figure is not None and figure.suffix.lower() not in FIGURES:
-            faults.add(option, str(figure), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
-        if figure and output and os.path.realpath(figure) == os.path.realpath(output):
-            faults.add(option, str(figure), "is the file of --output too", "give each its own")
-    if plot and tornado and os.path.realpath(plot) == os.path.realpath(tornado):
-        faults.add("--tornado", str(tornado), "is the file of --plot too", "give each its own")
+    _check_files(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if from_ is None and species is None:
@@ -115,6 +127,7 @@ def orbit(
     if from_ is None and speed is None:
         faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
     faults.raise_if_any()
+    beat = None
     if from_ is not None:
         saved = load_orbit(from_)
         with unpacking(from_):
@@ -123,30 +136,16 @@ def orbit(
         assert species is not None
         assert speed is not None
         animal = species_with(species, set_, payload)
-        bounds = {}
-        if flap_amplitude_max is not None:
-            least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
-            lowest = math.degrees(least)
-            faults.number(
-                "--flap-amplitude-max",
-                flap_amplitude_max,
-                above=lowest,
-                below=180,
-                unit="degrees",
-                fix=f"the flap amplitude of {animal.name} is searched from {lowest:g} degrees up",
-            )
-            faults.raise_if_any()
-            bounds = {"flap_amplitude": (least, math.radians(flap_amplitude_max))}
+        bounds = _amplitude_bounds(animal, flap_amplitude_max)
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
-        problem = OrbitProblem(
-            animal,
-            speed=speed,
-            climb=climb,
-            aero=loads,
-            bounds=bounds,
-            minimise=minimise,
-            subject_to=subject_to or (),
-        )
+        asked: dict[str, Any] = {"climb": climb, "aero": loads, "bounds": bounds, "subject_to": subject_to or ()}
+        if minimise is not None:
+            asked["minimise"] = minimise
+        if kinematics is None:
+            problem = OrbitProblem(animal, speed, **asked)
+        else:
+            beat = fit_film(read_film(kinematics))
+            problem = beat.problem(animal, speed, **asked)
     check_outputs(output, plot, tornado)
     found = _solve(problem, starts, seed)
     if output:
@@ -156,15 +155,13 @@ def orbit(
 
         save_figure(wingbeat_page(found.dataset), plot)
     record = found.record()
-    certified = record["status"] == "converged"
+    certified = found.status is Status.CONVERGED
+    spread = _spread(found, beat) if beat is not None and certified else None
+    if beat is not None and json:
+        record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
     influence, bars = None, []
     if certified and (sensitivities or tornado):
-        influence = differentiate(found)
-        bars = [influence.error_bar(name, fit_of(aero)) for name in influence.values]
-    if influence and tornado:
-        from wingbeat.plots import save_figure, tornado_page
-
-        save_figure(tornado_page(influence), tornado)
+        influence, bars = _influence(found, aero, tornado)
     if influence and sensitivities:
         record |= {"sensitivities": influence.table(), "error_bars": [bar._asdict() for bar in bars]}
     if power:
@@ -175,7 +172,52 @@ def orbit(
         print_orbit(record, Console())
         if influence and sensitivities:
             print_influence(influence, bars, Console())
+        for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
+            print(line)
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
+
+
+def _check_files(faults: FaultList, output: Path | None, **figures: Path | None) -> None:
+    """Note figures that are none, and files that two options name."""
+    taken = {} if output is None else {os.path.realpath(output): "--output"}
+    for name, figure in figures.items():
+        if figure is None:
+            continue
+        if figure.suffix.lower() not in FIGURES:
+            faults.add(f"--{name}", str(figure), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
+        other = taken.setdefault(os.path.realpath(figure), f"--{name}")
+        if other != f"--{name}":
+            faults.add(f"--{name}", str(figure), f"is the file of {other} too", "give each its own")
+
+
+def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tuple[float, float]]:
+    """Return the bounds that ``--flap-amplitude-max`` asks for."""
+    if most_deg is None:
+        return {}
+    least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
+    lowest = math.degrees(least)
+    faults = FaultList()
+    fix = f"the flap amplitude of {animal.name} is searched from {lowest:g} degrees up"
+    faults.number("--flap-amplitude-max", most_deg, above=lowest, below=180, unit="degrees", fix=fix)
+    faults.raise_if_any()
+    return {"flap_amplitude": (least, math.radians(most_deg))}
+
+
+def _influence(found: Orbit, aero: str, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
+    """Differentiate an orbit, and draw what its uncertain numbers can change."""
+    influence = differentiate(found)
+    if tornado is not None:
+        from wingbeat.plots import save_figure, tornado_page
+
+        save_figure(tornado_page(influence), tornado)
+    fit = fit_of(aero)
+    return influence, [influence.error_bar(name, fit) for name in influence.values]
+
+
+def _spread(found: Orbit, beat: FilmedBeat) -> Spread:
+    """Fly other draws of the film, for the error bars."""
+    with progress_bar("error bars") as progress:
+        return orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
 
 
 def _solve(problem: OrbitProblem, starts: int, seed: int) -> Orbit:

@@ -226,7 +226,9 @@ def _of(numbers: dict[str, Any], name: str, unit: str = "") -> str:
 
 def _number(value: Any, unit: str, factor: float) -> str:
     if isinstance(value, list | tuple):
-        return f"{', '.join(_number(each, '', factor) for each in value)} {unit}".rstrip()
+        # Of harmonics, a ten-thousandth of a degree is nothing.
+        shown = [f"{each * factor:.3g}" if abs(each * factor) >= 1e-4 else "0" for each in value]
+        return f"{', '.join(shown)} {unit}".rstrip()
     if value is None:
         return "-"  # undefined, as a cost of transport in hover
     shown = value * factor

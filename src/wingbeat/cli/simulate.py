@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
 from wingbeat.cli.options import (
     AeroName,
     BlendWidth,
@@ -28,7 +29,9 @@ from wingbeat.cli.options import (
     unpacking,
 )
 from wingbeat.errors import FaultList
+from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.model import State, flight_model
+from wingbeat.plots import check_figure_name, film_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
@@ -52,6 +55,10 @@ def simulate(
     force_point: ForcePoint = "quarter-chord",
     strips: Strips = 10,
     set_: Settings = None,
+    kinematics: Kinematics = None,
+    plot_kinematics: Annotated[
+        Path | None, Parameter(help="Draw the film, its spline and its band: .png, .pdf or .svg.")
+    ] = None,
     from_: Annotated[
         Path | None,
         Parameter(name="--from", help="Take wingbeat, vehicle, air loads and start from this orbit."),
@@ -63,8 +70,9 @@ def simulate(
 ) -> int:
     """Fly an initial state for some wingbeats with the wings prescribed.
 
-    The wingbeat is the species' own (change it with --set wingbeat.frequency=7 ...) or that of an orbit (--from),
-    whose start is then disturbed by whatever of --u, --w, --body-pitch-deg, --pitch-rate is given.
+    The wingbeat is the species' own (change it with --set wingbeat.frequency=7 ...), that of a film (--kinematics;
+    what was not filmed is the species' own) or that of an orbit (--from), whose start is then disturbed by whatever
+    of --u, --w, --body-pitch-deg, --pitch-rate is given. For a film the power has the error that its noise leaves.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)
@@ -74,7 +82,12 @@ def simulate(
         faults.add("SPECIES", None, "is missing", fix)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
+    if plot_kinematics is not None:
+        check_figure_name(faults, "--plot-kinematics", plot_kinematics)
+        if kinematics is None:
+            faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
     faults.raise_if_any()
+    beat = None
     if from_ is not None:
         orbit = load_orbit(from_)
         with unpacking(from_):
@@ -82,22 +95,45 @@ def simulate(
     else:
         assert species is not None
         animal = species_with(species, set_)
+        if kinematics is not None:
+            beat = fit_film(read_film(kinematics))
+            animal = beat.on(animal)
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
         model, wingbeat = flight_model(animal.vehicle, loads, animal.air), animal.wingbeat
         start = State(u=10.0)
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     start = start._replace(**{name: value for name, value in given.items() if value is not None})
-    check_outputs(output)
+    check_outputs(output, plot_kinematics)
     flight = fly(model, wingbeat, start, beats, samples)
     if output:
         flight.save(output)
+    if plot_kinematics and beat:
+        save_figure(film_page(beat), plot_kinematics)
     rows = beat_rows(flight, samples)
+    if beat is not None:
+        for row, error in zip(rows, _errors(flight, beat, beats, samples), strict=True):
+            row["mean_power_se"] = error
     if json:
-        print(json_format.dumps({"completed": flight.completed, "beats": rows}, indent=2, allow_nan=False))
+        film = {} if beat is None else {"kinematics": film_record(beat)}
+        print(json_format.dumps({"completed": flight.completed, "beats": rows} | film, indent=2, allow_nan=False))
     else:
         _print(rows, flight.completed)
+        for line in film_lines(beat) if beat else []:
+            print(line)
     return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
+
+
+def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[float | None]:
+    """Return the standard error of each beat's mean power: how far it is in flights of other draws of the film."""
+    power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
+    start, squares = State(*flight.states[0]), []
+    for wingbeat in beat.draws(flight.wingbeat, DRAWS):
+        other = fly(flight.model, wingbeat, start, beats, samples)
+        rows = beat_rows(other, samples)
+        squares.append((np.array([row["mean_power"] for row in rows], dtype=float) - power) ** 2)
+    errors = np.sqrt(np.mean(squares, axis=0)) if squares else np.full(beats, np.nan)
+    return [float(error) if np.isfinite(error) else None for error in errors]
 
 
 def beat_rows(flight: Flight, samples: int) -> list[dict[str, Any]]:
@@ -124,7 +160,10 @@ def _print(rows: list[dict[str, Any]], completed: bool) -> None:
     for row in rows:
         pitch = None if row["body_pitch"] is None else math.degrees(row["body_pitch"])
         values = (row["mean_u"], row["mean_w"], pitch, row["pitch_rate"], row["mean_power"])
-        table.add_row(str(row["beat"]), *("lost" if v is None else f"{v:.3f}" for v in values))
+        shown = ["lost" if v is None else f"{v:.3f}" for v in values]
+        if "mean_power_se" in row and row["mean_power"] is not None:
+            shown[-1] = plus_minus(row["mean_power"], row["mean_power_se"])
+        table.add_row(str(row["beat"]), *shown)
     console = Console(markup=False, highlight=False)  # as markup, [m/s] would vanish
     console.print(table)
     if not completed:

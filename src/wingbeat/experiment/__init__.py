@@ -1,4 +1,4 @@
-"""From load-cell records to a coefficient model with its uncertainty: reduction, fitting, model files."""
+"""From load-cell records to a coefficient model, and from a film to a wingbeat, with their uncertainty."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ from wingbeat.experiment.campaign import Campaign as Campaign
 from wingbeat.experiment.campaign import save_runs as save_runs
 from wingbeat.experiment.campaign import synthetic_runs as synthetic_runs
 from wingbeat.experiment.drawing import draw as draw
+from wingbeat.experiment.film import Film as Film
+from wingbeat.experiment.film import read_film as read_film
+from wingbeat.experiment.film import synthetic_film as synthetic_film
+from wingbeat.experiment.film_fit import FilmedBeat as FilmedBeat
+from wingbeat.experiment.film_fit import fit_film as fit_film
 from wingbeat.experiment.forms import FORMS as FORMS
 from wingbeat.experiment.forms import CurveForm as CurveForm
 from wingbeat.experiment.forms import WingForm as WingForm

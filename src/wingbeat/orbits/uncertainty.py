@@ -21,7 +21,7 @@ from wingbeat.orbits.solve import Progress, find_orbit, follow, settle
 _UNIFORM = 1 / math.sqrt(12)
 
 
-class Spread(NamedTuple):
+class ParameterSpread(NamedTuple):
     """What is not known of some parameters: deviations from their values, independent of all other spreads.
 
     ``plausible`` is the lowest and highest deviation of one parameter, all between as likely; without it the
@@ -45,11 +45,11 @@ class Spread(NamedTuple):
         return generator.multivariate_normal(np.zeros(len(self.parameters)), self.covariance, size=count)
 
 
-def uniform_spread(parameter: Parameter, share: float = 1.0) -> Spread:
+def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
     """Return the spread of a parameter over its plausible range, drawn in about its value to a share of it."""
     assert parameter.plausible is not None
     low, high = (share * (end - parameter.value) for end in parameter.plausible)
-    return Spread(parameter.path, (parameter,), np.array([[((high - low) * _UNIFORM) ** 2]]), (low, high))
+    return ParameterSpread(parameter.path, (parameter,), np.array([[((high - low) * _UNIFORM) ** 2]]), (low, high))
 
 
 class ErrorBar(NamedTuple):
@@ -68,7 +68,7 @@ class ErrorBar(NamedTuple):
 
 
 def first_order(
-    slopes: Sequence[Sensitivity], spreads: Sequence[Spread], quantity: str, unit: str, value: float
+    slopes: Sequence[Sensitivity], spreads: Sequence[ParameterSpread], quantity: str, unit: str, value: float
 ) -> ErrorBar:
     """Carry spreads to a quantity by its derivatives.
 
@@ -104,7 +104,7 @@ def sample_orbits(
     problem: OrbitProblem,
     unknowns: np.ndarray,
     slopes: Sequence[Sensitivity],
-    spreads: Sequence[Spread],
+    spreads: Sequence[ParameterSpread],
     quantities: Sequence[Quantity],
     count: int,
     seed: int = 0,

@@ -2,6 +2,7 @@
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
+from wingbeat.plots.film_page import film_page as film_page
 from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.page import wingbeat_page as wingbeat_page
@@ -16,6 +17,7 @@ __all__ = [
     "Published",
     "check_figure_name",
     "curve_page",
+    "film_page",
     "fit_page",
     "glide_page",
     "power_page",

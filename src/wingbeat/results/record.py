@@ -88,6 +88,13 @@ def beat_mean(values: np.ndarray) -> float:
     return float(np.trapezoid(values, dx=1.0 / (len(values) - 1)))
 
 
+# What `power_summary` gives.
+POWERS = (
+    *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
+    "cost_of_transport",
+)
+
+
 def power_summary(solution: Solution, found: Loads) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
     problem = solution.problem

@@ -16,7 +16,14 @@ from wingbeat.orbits.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import Progress
-from wingbeat.orbits.uncertainty import ErrorBar, Samples, Spread, first_order, sample_orbits, uniform_spread
+from wingbeat.orbits.uncertainty import (
+    ErrorBar,
+    ParameterSpread,
+    Samples,
+    first_order,
+    sample_orbits,
+    uniform_spread,
+)
 from wingbeat.results.orbit import Orbit
 
 QUANTITIES = ("frequency", "mean_positive_power")
@@ -76,7 +83,7 @@ class Sensitivities:
         """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
-    def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[Spread]:
+    def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
         """Return what is not known: every plausible range, all of it as likely, and a fit's covariance.
 
         Parameters
@@ -166,7 +173,9 @@ def _plain(slope: Sensitivity) -> dict[str, Any]:
     }
 
 
-def _of_fit(problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float) -> list[Spread]:
+def _of_fit(
+    problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float
+) -> list[ParameterSpread]:
     """Return the spreads of a fit's terms, one for each curve, for their errors go together."""
     by_path = {p.path: p for p in parameters}
     coefficients, found = problem.aero.coefficients, []
@@ -179,7 +188,7 @@ def _of_fit(problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedM
             rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that was flown"
             raise InvalidInputError([Fault("fit", fit.name, rule, fix)])
         members = tuple(by_path[path] for path in paths)
-        found.append(Spread(f"aero.{name}", members, share**2 * np.asarray(curve.covariance)))
+        found.append(ParameterSpread(f"aero.{name}", members, share**2 * np.asarray(curve.covariance)))
     return found
 
 

@@ -1,0 +1,89 @@
+"""What ``orbit`` and ``simulate`` say of a filmed wingbeat."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.experiment import FilmedBeat
+from wingbeat.species_schema import FREE_UNITS
+
+if TYPE_CHECKING:
+    from wingbeat.results.orbit import Orbit
+    from wingbeat.results.spread import Spread
+
+__all__ = ["DRAWS", "Kinematics", "film_lines", "film_record", "spread_lines", "spread_record"]
+
+# Other films of the same beat that are tried for an error bar: it is good to an eighth of itself.
+DRAWS = 32
+Kinematics = Annotated[
+    Path | None,
+    Parameter(
+        help="A filmed wingbeat (.csv): phase, or time and '# frequency = ..', with flap_deg, pitch_deg, ..."
+    ),
+]
+_POWERS = {
+    "mean_power": "hinges, mean",
+    "mean_positive_power": "hinges, mean of the positive part",
+    "peak_power": "hinges, peak",
+}
+
+
+def film_record(beat: FilmedBeat) -> dict[str, Any]:
+    """Return what the film gave, fit for JSON."""
+    laws = {
+        name: {"frames": law.frames, "residual_sd": law.residual_sd, "degrees_of_freedom": law.degrees}
+        for name, law in beat.laws.items()
+    }
+    return {"film": beat.film.name, "synthetic": beat.film.synthetic, "laws": laws, "notes": list(beat.film.notes)}
+
+
+def film_lines(beat: FilmedBeat) -> list[str]:
+    """Return what the film gave in words, a line for each column."""
+    lines = []
+    for name, law in beat.laws.items():
+        unit = "deg" if name.endswith("_deg") else "of the semi-span"
+        lines.append(
+            f"{beat.film.name}, {name}: {law.frames} frames, {law.residual_sd:.2g} {unit} about the spline, which "
+            f"spends {law.degrees:.3g} numbers"
+        )
+    return [*lines, *(f"note: {note}" for note in beat.film.notes)]
+
+
+def spread_record(spread: Spread) -> dict[str, Any]:
+    """Return the standard errors of an orbit, fit for JSON."""
+    errors = {name: spread.standard_error(name) for name in spread.values}
+    return {"draws": spread.asked, "draws_certified": spread.certified, "standard_errors": errors}
+
+
+def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
+    """Return powers and trims of an orbit with their standard errors, a line each."""
+    record, lines = orbit.record(), []
+    for name, label in _POWERS.items():
+        lines.append(f"{label}: {plus_minus(record[name], spread.standard_error(name))} W")
+    for name in orbit.problem.free:
+        error = spread.standard_error(f"wingbeat.{name}") if f"wingbeat.{name}" in spread.values else None
+        value, unit = record["wingbeat"].get(name), FREE_UNITS[name]
+        if value is None:
+            continue  # a harmonic, which stands in a list
+        factor, unit = (math.degrees(1.0), "deg") if unit == "rad" else (1.0, unit)
+        shown = plus_minus(factor * value, None if error is None else factor * error)
+        lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}")
+    edge = "; the others do not, so the beat is near the edge of what flies and errors may be larger"
+    ending = "" if spread.certified == spread.asked else edge
+    return [*lines, f"one standard error; {spread.certified} of {spread.asked} draws of the film fly{ending}"]
+
+
+def plus_minus(value: float, error: float | None) -> str:
+    """Return a value and its error, to the error's second digit.
+
+    >>> plus_minus(25.1234, 0.812)
+    '25.12 +- 0.81'
+    """
+    if error is None or not error > 0:
+        return f"{value:.4g} +- ?"
+    digits = max(1 - math.floor(math.log10(error)), 0)
+    return f"{value:.{digits}f} +- {error:.{digits}f}"

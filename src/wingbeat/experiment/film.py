@@ -1,0 +1,223 @@
+"""A wingbeat as somebody filmed it: angles and span by phase, and its CSV file."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
+from wingbeat.files import write_atomically
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+
+__all__ = ["FILMED", "Film", "read_film", "synthetic_film"]
+
+# What can be filmed, and its unit; the laws of the wingbeat in these units.
+FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""}
+_LAWS = {"flap_deg": flap_angle, "pitch_deg": pitch_angle, "span_fraction": span_ratio}
+_CLOCKS = {"phase": "", "time": "s"}
+_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz"}
+_FEWEST = 8
+# A share of the beat without a frame in which a cosine and sine may do what they like.
+_WIDEST_GAP = 0.35
+
+
+@dataclass(frozen=True)
+class Film:
+    """Angles of a wing and its span, frame by frame, of one beat or of several alike.
+
+    Parameters
+    ----------
+    name : what it is called, such as its file.
+    phase : beats since any moment, or since the top of the stroke where flap was not filmed, shape (n,).
+    columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
+        normal) and ``span_fraction`` (of the semi-span), shape (n,) each; NaN in frames where it was not seen.
+    frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
+    synthetic : whether it was made by a random generator.
+
+    Raises
+    ------
+    InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat.
+    """
+
+    name: str
+    phase: NDArray[np.float64]
+    columns: dict[str, NDArray[np.float64]]
+    frequency: float | None = None
+    frequency_se: float = 0.0
+    synthetic: bool = False
+    notes: tuple[str, ...] = field(default=(), init=False)
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if self.frequency is not None:
+            faults.number(f"{self.name}, frequency", self.frequency, above=0, unit="Hz")
+        faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
+        if not self.columns or set(self.columns) - set(FILMED):
+            shown = ", ".join(self.columns) or "nothing"
+            faults.add(f"{self.name}, columns", shown, "is not what can be filmed", f"any of {', '.join(FILMED)}")
+        if not np.isfinite(self.phase).all():
+            row = int(np.argmin(np.isfinite(self.phase)))
+            faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
+        faults.raise_if_any()
+        notes = [note for name in self.columns for note in self._check(name, faults)]
+        faults.raise_if_any()
+        if self.synthetic:
+            notes.insert(0, f"{self.name} is synthetic: made by a random generator, not filmed")
+        object.__setattr__(self, "notes", tuple(notes))
+
+    def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return phases and values of the frames in which a column was seen."""
+        there = np.isfinite(self.columns[name])
+        return self.phase[there], self.columns[name][there]
+
+    def _check(self, name: str, faults: FaultList) -> list[str]:
+        where, column = f"{self.name}, column {name}", self.columns[name]
+        if column.shape != self.phase.shape:
+            faults.add(where, f"shape {column.shape}", f"must be {self.phase.shape}, as phase")
+            return []
+        phase, values = self.seen(name)
+        if len(values) < _FEWEST:
+            faults.add(where, f"{len(values)} frames", f"must be seen in at least {_FEWEST}", "film more of it")
+            return []
+        place = np.sort(phase % 1.0)
+        gaps = np.diff(np.append(place, place[0] + 1.0))
+        if gaps.max() > _WIDEST_GAP:
+            start = place[gaps.argmax()]
+            rule = f"has no frame from phase {start:.2f} to {(start + gaps.max()) % 1.0:.2f}"
+            faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
+        largest = float(np.abs(values).max())
+        if FILMED[name] == "deg" and 0 < largest < 3.0:
+            return [f"{where}: no angle beyond {largest:.2g} degrees; if these are radians, times 57.29578"]
+        if FILMED[name] == "deg" and largest > 180:
+            faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
+        if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
+            worst = float(values.min() if values.min() <= 0 else values.max())
+            faults.add(where, worst, "is no share of the semi-span", "divide by the semi-span, not in percent")
+        return []
+
+    def save(self, path: str | Path) -> None:
+        """Write the film as a CSV file that `read_film` reads.
+
+        Raises
+        ------
+        FileError : the file cannot be written.
+        """
+        lines = []
+        if self.synthetic:
+            lines.append("# synthetic = yes, made by wingbeat's random generator from a known wingbeat, not filmed")
+        if self.frequency is not None:
+            lines += [f"# frequency [Hz] = {self.frequency!r}", f"# frequency_se [Hz] = {self.frequency_se!r}"]
+        lines.append(",".join(["phase", *self.columns]))
+        for row in zip(self.phase, *self.columns.values(), strict=True):
+            lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))
+        write_atomically(path, "\n".join(lines) + "\n")
+
+
+def read_film(path: str | Path) -> Film:
+    """Read a filmed wingbeat from CSV.
+
+    One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
+    beside it any of flap_deg, pitch_deg and span_fraction, a cell empty where the wing was not seen.
+    Others are refused.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : missing or unknown columns, other units, cells that are no numbers, and what `Film` refuses,
+        each fault with its row and column.
+    """
+    sheet, faults = read_sheet(path), FaultList()
+    names, constants = _names(faults, sheet), _constants(faults, sheet)
+    if "time" in names and "frequency" not in constants:
+        fix = "add the line '# frequency = ...' [Hz] above the table, or give phases"
+        faults.add(f"{sheet.file}, frequency", "", "is missing: times need it to become phases", fix)
+    numbers = parse_numbers(faults, sheet, names, blank=frozenset(FILMED)) if names else np.empty((0, 0))
+    faults.raise_if_any()
+    by_name = {name: numbers[:, k].copy() for k, name in enumerate(names)}
+    frequency = constants.get("frequency")
+    phase = by_name["phase"] if "phase" in by_name else by_name["time"] * (frequency or 0.0)
+    columns = {name: by_name[name] for name in FILMED if name in by_name}
+    return Film(
+        sheet.file, phase, columns, frequency, constants.get("frequency_se", 0.0), "synthetic" in sheet.constants
+    )
+
+
+def _names(faults: FaultList, sheet: Sheet) -> list[str]:
+    names: list[str] = []
+    units = _CLOCKS | FILMED
+    for k, cell in enumerate(sheet.header):
+        name, unit = split_unit(cell)
+        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
+        if name not in units:
+            angle = name.startswith(("flap", "pitch"))
+            fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
+            faults.add(where, cell, "is not a known column", fix)
+        elif name in names:
+            faults.add(where, cell, "stands there twice", "keep one")
+        else:
+            check_unit(faults, where, unit, units[name])
+        names.append(name)
+    where = f"{sheet.file} row {sheet.header_row}"
+    if len(set(names) & set(_CLOCKS)) != 1:
+        faults.add(where, ",".join(sheet.header), "must have one of phase and time", "phase in beats, time in s")
+    if not set(names) & set(FILMED):
+        fix = f"any of {', '.join(FILMED)}"
+        faults.add(where, ",".join(sheet.header), "has nothing that was filmed", fix)
+    return names
+
+
+def _constants(faults: FaultList, sheet: Sheet) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for key, (row, text) in sheet.constants.items():
+        name, unit = split_unit(key)
+        if name not in _CONSTANTS:
+            continue
+        where = f"{sheet.file} row {row}, {name}"
+        check_unit(faults, where, unit, _CONSTANTS[name])
+        try:
+            value = float(text)
+        except ValueError:
+            faults.add(where, text, "must be one number", "in Hz")
+            continue
+        if name == "frequency":
+            faults.number(where, value, above=0, unit="Hz")
+        else:
+            faults.number(where, value, at_least=0, unit="Hz")
+        found[name] = value
+    return found
+
+
+def synthetic_film(
+    wingbeat: Wingbeat,
+    frames: int = 60,
+    noise_deg: float = 1.0,
+    seed: int = 0,
+    columns: tuple[str, ...] = ("flap_deg",),
+    start: float = 0.0,
+) -> Film:
+    """Return a film of a known wingbeat with white noise, labelled synthetic; the same seed gives the same film.
+
+    Parameters
+    ----------
+    wingbeat : what is filmed, one beat of it at equal steps.
+    frames : number of frames.
+    noise_deg : standard deviation of the angles' noise [deg]; a hundredth of it is that of the span fraction.
+    seed : of the noise.
+    columns : what is seen of it.
+    start : phase of the first frame, which the film calls 0 if it sees the flap.
+    """
+    random = np.random.default_rng(seed)
+    phase = np.arange(frames) / frames
+    at = phase + (start if "flap_deg" in columns else 0.0)
+    seen = {}
+    for name in columns:
+        true = np.asarray(_LAWS[name](wingbeat, at))
+        angle = FILMED[name] == "deg"
+        noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
+        seen[name] = (np.degrees(true) if angle else true) + noise
+    return Film("synthetic film", phase, seen, float(wingbeat.frequency), synthetic=True)

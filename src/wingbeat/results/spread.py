@@ -1,0 +1,81 @@
+"""How far an orbit's numbers move with the wingbeat that was measured: the same flight for other draws of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import follow
+from wingbeat.results.dataset import evaluate
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.record import POWERS, power_summary
+
+
+class Spread(NamedTuple):
+    """Numbers of the draws that were certified, by their name in the record, shape (certified,) each.
+
+    ``estimates`` are those of the orbit that they are draws of, ``asked`` how many draws there were.
+    """
+
+    values: dict[str, np.ndarray]
+    estimates: dict[str, float | None]
+    asked: int
+
+    @property
+    def certified(self) -> int:
+        """How many orbits there are."""
+        return len(next(iter(self.values.values())))
+
+    def standard_error(self, name: str) -> float | None:
+        """Return how far the draws are from the orbit, root mean square; None if fewer than three were certified.
+
+        From the orbit, not from their own mean: what noise adds on average counts too.
+        """
+        values, estimate = self.values[name], self.estimates[name]
+        if len(values) < 3 or estimate is None or not np.isfinite(values).all():
+            return None
+        return float(np.sqrt(np.mean((values - estimate) ** 2)))
+
+
+def orbit_spread(
+    orbit: Orbit, wingbeats: Sequence[Wingbeat], progress: Callable[[int, int], None] | None = None
+) -> Spread:
+    """Trim and certify each of the wingbeats as the orbit was, starting from it, and return how its numbers spread.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    wingbeats : in place of the problem's stock wingbeat; what is free in the problem is found anew.
+    progress : called with (wingbeats done, wingbeats in all).
+
+    Returns
+    -------
+    Spread : of powers, cost of transport, and the free parameters of the wingbeat as ``wingbeat.pitch_mean``.
+    """
+    problem = orbit.problem
+    free = [parameter(orbit.wingbeat, name) for name in problem.free]
+    start = np.array([*orbit.initial_state[2:], *free])
+    rows = []
+    for i, wingbeat in enumerate(wingbeats, start=1):
+        species = dataclasses.replace(problem.species, wingbeat=wingbeat)
+        found = follow(dataclasses.replace(problem, species=species), start)
+        if found is not None:
+            rows.append(_row(found))
+        if progress is not None:
+            progress(i, len(wingbeats))
+    record, trimmed = orbit.record(), dict(zip(problem.free, free, strict=True))
+    estimates = {name: record[name] for name in POWERS} | {f"wingbeat.{n}": v for n, v in trimmed.items()}
+    columns = {name: np.array([row[name] for row in rows], dtype=float) for name in estimates}
+    return Spread(columns, estimates, len(wingbeats))
+
+
+def _row(solution: Solution) -> dict[str, float | None]:
+    certificate, problem = solution.certificate, solution.problem
+    found = evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
+    trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in problem.free}
+    return power_summary(solution, found) | trimmed

@@ -81,6 +81,26 @@ def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
             )
 
 
+ANGLE = st.floats(-1.0, 1.0)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    ANGLE,
+    st.floats(0.0, 1.2),
+    ANGLE,
+    st.floats(0.0, 1.0),
+    st.floats(0.0, 0.6),
+    st.floats(-2.0, 2.0),
+    st.integers(1, 7),
+)
+def test_harmonics_of_nothing_change_no_digit(flap_mean, flap, pitch_mean, pitch, retraction, phase, orders):
+    plain = wb.Wingbeat(8.0, flap_mean, flap, pitch_mean, pitch, retraction)
+    nothing = {f"{law}_harmonics": (0.0, 0.0) * orders for law in ("flap", "pitch", "span")}
+    for law in (flap_angle, pitch_angle, span_ratio):
+        assert float(law(dataclasses.replace(plain, **nothing), phase)) == float(law(plain, phase))
+
+
 @settings(max_examples=40, deadline=None)
 @given(st.floats(0.05, 0.95), st.floats(-2.0, 2.0))
 @example(0.5, 0.3)

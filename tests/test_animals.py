@@ -118,6 +118,10 @@ def test_every_number_is_given_derived_or_a_guess(kind: str) -> None:
     animal = MAKERS[kind](**SIZE)
     for path, number in animal.numbers.items():
         text = number.source
+        if text == "not given: the default":  # a law that is off
+            assert path.startswith("wingbeat.")
+            assert number.value in (0.0, 0.5, ())
+            continue
         told = text.startswith(("given", DERIVED, "guess: ", "first guess", "Su et al.", "vehicle.mass less"))
         assert told, (path, text)
         assert number.range or path in ("vehicle.mass", "vehicle.body.mass"), path

@@ -9,7 +9,7 @@ import wingbeat as wb
 from wingbeat.bench import mixed_problems
 from wingbeat.orbits import solve as solving
 from wingbeat.orbits.batch import find_orbits
-from wingbeat.orbits.polish import Polish, _Conditions
+from wingbeat.orbits.polish import Conditions, Polish
 from wingbeat.orbits.search import optimise, search
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
@@ -101,7 +101,7 @@ def test_conditions_that_say_the_same_twice_are_met_all_the_same():
     rows = np.random.default_rng(0).normal(size=(6, 9))
     rows[5] = 2 * rows[4]
     values = rows @ np.arange(9.0)
-    conditions = _Conditions(rows)
+    conditions = Conditions(rows)
     np.testing.assert_allclose(rows @ conditions.shortest(values), values, rtol=1e-10)
     np.testing.assert_allclose(rows @ conditions.null, 0, atol=1e-12)
     np.testing.assert_allclose(conditions.multipliers(rows[0]) @ rows, rows[0], atol=1e-12)

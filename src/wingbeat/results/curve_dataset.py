@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._version import __version__
-from wingbeat.kinematics import Wingbeat
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import PARAMETER_NAMES, in_use
 from wingbeat.model import State
 from wingbeat.orbits.marks import Mark, certified, families
 from wingbeat.orbits.problem import OrbitProblem
@@ -49,6 +50,12 @@ _WINGBEAT = {
     "twist_ratio": ("1", "pitch at the tip over that at the root"),
     "fold_amplitude": ("rad", "largest fold of the hand"),
     "wrist": ("1", "span fraction of the wrist"),
+    "pitch_phase": ("rad", "by how much of a turn pitch runs ahead of flap"),
+    "downstroke_fraction": ("1", "share of the beat that the downstroke takes"),
+    "sweep_mean": ("rad", "mean sweep of the span ahead of the stroke plane"),
+    "sweep_amplitude": ("rad", "sweep amplitude, half of peak to peak"),
+    "sweep_phase": ("rad", "by how much of a turn sweep runs ahead of the downstroke"),
+    "stroke_plane_tilt": ("rad", "tilt added to the stroke-plane angle"),
 }
 _STATE = {
     "x": ("m", "forward position"),
@@ -58,6 +65,12 @@ _STATE = {
     "w": ("m s-1", "upward velocity"),
     "pitch_rate": ("rad s-1", "pitch rate"),
 }
+
+
+def _harmonic(wingbeat: dict[str, Any], law: str, place: int) -> float:
+    """Return one number of a harmonic, 0 where it is not there."""
+    pairs = wingbeat[law]
+    return pairs[place] if place < len(pairs) else 0.0
 
 
 def curve_dataset(
@@ -80,8 +93,15 @@ def curve_dataset(
         table.add(
             name, problem.minimise.unit if name == "objective_value" else unit, meaning, lambda r, n=name: r[n]
         )
-    for name in Wingbeat.__dataclass_fields__:
-        table.add(name, *_WINGBEAT[name], lambda r, n=name: r["wingbeat"][n])
+    for name in PARAMETER_NAMES:
+        harmonic = harmonic_place(name)
+        if harmonic is None:
+            table.add(name, *_WINGBEAT[name], lambda r, n=name: r["wingbeat"][n])
+        elif in_use(problem.species.wingbeat, name) or name in problem.free:
+            unit = "1" if name.startswith("span_") else "rad"
+            table.add(
+                name, unit, f"harmonic {name} of the wingbeat", lambda r, at=harmonic: _harmonic(r["wingbeat"], *at)
+            )
     for name in State._fields:
         unit, meaning = _STATE[name]
         table.add(
@@ -175,7 +195,7 @@ def _attributes(
         "Conventions": "CF-1.11",
         KIND: "curve",
         "species": problem.species.name,
-        "vehicle": json.dumps(vehicle_record(problem)),
+        "vehicle": json.dumps(vehicle_record(problem.vehicle)),
         "aero": json.dumps(aero_record(problem.aero)),
         "air": json.dumps(dict(vars(problem.air))),
         "climb": float(problem.climb),

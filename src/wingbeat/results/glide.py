@@ -167,7 +167,7 @@ def _best(solver: GlideSolver, glides: tuple[Glide, ...], cost: Any) -> Glide | 
     if not 0 < least < len(glides) - 1 or not np.isfinite(costs[[least - 1, least + 1]]).all():
         return None
     ends = glides[least - 1].angle_of_attack, glides[least + 1].angle_of_attack
-    found = minimize_scalar(lambda angle: cost(solver.at(angle)), bounds=ends, options={"xatol": 1e-9})
+    found: Any = minimize_scalar(lambda angle: cost(solver.at(angle)), bounds=ends, options={"xatol": 1e-9})
     return solver.at(float(found.x))
 
 

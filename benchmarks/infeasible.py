@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from infeasible_cases import Case, cases
+from infeasible_cases import Case, cases, drawn
 
 import wingbeat as wb
 from wingbeat.orbits.changes import Relaxation, with_change
@@ -24,6 +24,7 @@ from wingbeat.orbits.solve import find_orbit
 
 # Searches for an orbit that is not expected.
 _FEW = 12
+SEED = 20
 _SHARE = 0.9
 
 
@@ -62,10 +63,27 @@ def row_of(case: Case) -> tuple[tuple[Any, ...], Solution]:
     return cells, found
 
 
+def name_drawn(count: int) -> None:
+    """Print what is named for problems drawn at random, and how often it is what their kind is made to fail by."""
+    right = infeasible = 0
+    for case in drawn(count, SEED):
+        found = find_orbit(case.problem, 2, most_starts=_FEW, advise=False)
+        if found.status is wb.Status.INFEASIBLE:
+            infeasible += 1
+            right += named_right(case, found)
+            short = "; ".join(str(s) for s in found.shortages[:2])
+            print("|", " | ".join((case.kind, case.what, short, str(named_right(case, found)))), "|", flush=True)
+    print(f"\n{infeasible} of {6 * count} are infeasible; the law of their kind is named in {right}.")
+
+
 def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--kinds", nargs="+")
+    arguments.add_argument("--drawn", type=int, help="name the law only, of so many drawn at random of each kind")
     given = arguments.parse_args()
+    if given.drawn:
+        name_drawn(given.drawn)
+        return
     chosen = [case for case in cases() if given.kinds is None or case.kind in given.kinds]
     heads = (
         "kind",

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+import numpy as np
+
 import wingbeat as wb
 
 LIFT, THRUST, MOMENT = "lift", "thrust", "pitching moment"
@@ -73,7 +75,7 @@ def cases() -> Iterator[Case]:
         (10.0, 0.08, 20.0),
         (12.0, 0.10, 20.0),
         (8.0, 0.09, 15.0),
-        (14.0, 0.09, 15.0),
+        (9.0, 0.09, 12.0),
         (11.0, 0.10, 15.0),
     ):
         what = f"pigeon at {speed:g} m/s, shoulders {1000 * back:g} mm back, body pitch within {swing:g} deg"
@@ -102,3 +104,41 @@ def cases() -> Iterator[Case]:
         what = f"{species.name} at {speed:g} m/s, flap torque up to {torque:g} N m"
         limit = [f"peak_flap_torque<={torque:g}"]
         yield Case("torque limit", what, (LIFT, THRUST), problem(species, speed, subject_to=limit))
+
+
+def drawn(count: int, seed: int) -> Iterator[Case]:
+    """Yield so many cases of each kind with numbers drawn at random, infeasible or not."""
+    random = np.random.default_rng(seed)
+    animals = [wb.load_species(name) for name in ("pigeon", "bat")]
+    for i in range(count):
+        species = animals[i % 2]
+        slow, cruise = random.uniform(1.0, 4.0), random.uniform(8.0, 14.0)
+        most, times = random.uniform(3.0, 8.0), random.uniform(2.0, 5.0)
+        amplitude, back, torque = random.uniform(6.0, 12.0), random.uniform(0.06, 0.15), random.uniform(0.05, 0.5)
+        swing = random.uniform(10.0, 30.0)
+        bent = species.with_values({"wing.shoulder": [-back, 0.0, 0.0]})
+        still = _degrees(pitch_amplitude=(0.0, 0.5), pitch_mean=(0.0, 0.5), flap_mean=(-0.5, 0.5))
+        for kind, laws, who, speed, how in (
+            ("too heavy", (LIFT,), _loaded(species, times), slow + 3.0, {"bounds": {"frequency": (1.0, most)}}),
+            ("too slow", (LIFT,), species, slow, {"bounds": {"frequency": (1.0, most)}}),
+            (
+                "amplitude too small",
+                (THRUST,),
+                species,
+                cruise,
+                {"bounds": _degrees(flap_amplitude=(5.0, amplitude))},
+            ),
+            ("shoulder too far back", (MOMENT,), bent, cruise, {"bounds": _degrees(body_pitch=(-swing, swing))}),
+            ("no pitch freedom", (MOMENT,), species, cruise, {"bounds": still}),
+            ("torque limit", (LIFT, THRUST), species, cruise, {"subject_to": [f"peak_flap_torque<={torque:.2g}"]}),
+        ):
+            what = f"{species.name} at {speed:.3g} m/s: {times:.2g} times its mass, up to {most:.2g} Hz"
+            others = {
+                "too slow": f"{species.name} at {speed:.3g} m/s, up to {most:.2g} Hz",
+                "amplitude too small": f"{species.name} at {speed:.3g} m/s, amplitude up to {amplitude:.3g} deg",
+                "shoulder too far back": f"{species.name} at {speed:.3g} m/s, shoulders {1000 * back:.0f} mm back, "
+                f"body pitch within {swing:.2g} deg",
+                "no pitch freedom": f"{species.name} at {speed:.3g} m/s",
+                "torque limit": f"{species.name} at {speed:.3g} m/s, up to {torque:.2g} N m",
+            }
+            yield Case(kind, others.get(kind, what), laws, wb.OrbitProblem(who, speed=speed, **how))

@@ -141,14 +141,9 @@ class Balance:
         will do, for what is too much can mostly be spilled, and is then the price of another law.
         """
         together = [self.closest(start) for start in starts]
+        alone = [self.closest(c.scaled, [law]) for c in together for law in LAWS]
         best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
-        alone = [self.closest(best.scaled, [law]) for law in LAWS]
-        enough = [c for c in alone if c.keeps_the_rest]
-        if not enough:
-            return best
-        law = min(enough, key=lambda c: (c.is_excess, c.size)).shares
-        others = (self.closest(c.scaled, law) for c in together if c is not best)
-        return min([*enough, *others], key=lambda c: (c.shares.keys() != law.keys(), not c.keeps_the_rest, c.size))
+        return min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=best)
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
         """Return what is short at a beat, the most first."""

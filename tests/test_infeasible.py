@@ -9,7 +9,7 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.loads import flight_loads
-from wingbeat.orbits.changes import Change, is_limit, relaxation, with_change
+from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
 from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.results.warnings import rivals
@@ -164,6 +164,50 @@ def test_what_is_held_is_held_elsewhere():
     moved = with_change(problem, "pitch_mean", "=", -0.1)
     assert moved.species.wingbeat.pitch_mean == -0.1
     assert moved.free == problem.free
+
+
+@pytest.mark.parametrize(("name", "value"), [("mass", 0.25), ("shoulder", 0.01)])
+def test_what_is_held_stays_held_when_the_vehicle_changes(name, value):
+    problem = wb.OrbitProblem(PIGEON, speed=10.0, subject_to="flap_amplitude=40 deg")
+    moved = with_change(problem, name, "=", value)
+    for species in (problem.species, moved.species, moved.species.with_values({"air.density": 1.0})):
+        assert species.wingbeat.flap_amplitude == pytest.approx(math.radians(40))
+        assert species.numbers["wingbeat.flap_amplitude"].value == pytest.approx(math.radians(40))
+    assert moved.species.numbers["vehicle.mass"].value == moved.vehicle.mass
+
+
+def test_every_law_of_the_wingbeat_can_be_advised_on():
+    """No bound is moved to where no wingbeat is: a sweep of a right angle, a span that vanishes."""
+    bounds = {
+        "downstroke_fraction": (0.4, 0.6),
+        "pitch_phase": (-0.1, 0.1),
+        "sweep_mean": (-0.1, 0.1),
+        "sweep_amplitude": (0.0, 0.2),
+        "flap_sin_2": (-0.1, 0.1),
+        "span_cos_1": (-0.1, 0.1),
+    }
+    problem = wb.OrbitProblem(PIGEON, speed=10.0, free=(*PIGEON.free, *bounds), bounds=bounds)
+    leaning = [(name, sign) for name in bounds for sign in ("<=", ">=")]
+    changes = [c for c in possible_changes(problem, leaning, {}) if c.name in bounds]
+    assert {c.name for c in changes} == bounds.keys()
+    for change in changes:
+        applied = with_change(problem, change.name, change.sign, change.reach)
+        assert applied.bounds[change.name][change.sign == "<="] == change.reach
+        assert relaxation(problem, change, change.moved(0.1)).text
+
+
+def test_a_harmonic_that_was_held_is_moved():
+    flapping = dataclasses.replace(PIGEON.wingbeat, flap_harmonics=(0.0, 0.05))
+    species = dataclasses.replace(
+        PIGEON.with_record(flapping),
+        bounds={**PIGEON.bounds, "flap_sin_2": (-0.1, 0.1)},
+        free=("frequency", "pitch_mean"),
+    )
+    problem = wb.OrbitProblem(species, speed=10.0)
+    changes = [c for c in possible_changes(problem, [], {}) if c.name == "flap_sin_2"]
+    assert {(c.sign, c.old) for c in changes} == {("=", 0.05)}
+    moved = with_change(problem, "flap_sin_2", "=", -0.02)
+    assert moved.species.wingbeat.flap_harmonics == (0.0, -0.02)
 
 
 def test_optima_worth_the_same_are_told_with_where_they_differ(bat_orbit):

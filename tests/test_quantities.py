@@ -7,7 +7,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.quantities import QUANTITIES, named_objective, named_quantity, parse_constraint
+from wingbeat.orbits.limits import parse_constraint
+from wingbeat.orbits.quantities import QUANTITIES, named_objective, named_quantity
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription

@@ -5,7 +5,8 @@ import pytest
 from scipy.optimize import linprog
 
 import wingbeat as wb
-from wingbeat.orbits.quantities import QUANTITIES, named_objective, parse_constraint
+from wingbeat.orbits.limits import parse_constraint
+from wingbeat.orbits.quantities import QUANTITIES, named_objective
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.springs import best_spring
 from wingbeat.results.provenance import problem_from

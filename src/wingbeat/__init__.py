@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from wingbeat.model import State as State
     from wingbeat.model import flight_model as flight_model
     from wingbeat.orbits.beat import Beat as Beat
+    from wingbeat.orbits.limits import Constraint as Constraint
     from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
-    from wingbeat.orbits.quantities import Constraint as Constraint
     from wingbeat.orbits.quantities import Frequency as Frequency
     from wingbeat.orbits.quantities import PowerCost as PowerCost
     from wingbeat.orbits.quantities import Quantity as Quantity
@@ -66,7 +66,7 @@ _HOME = {
     "Air": "vehicle",
     "Beat": "orbits.beat",
     "Body": "vehicle",
-    "Constraint": "orbits.quantities",
+    "Constraint": "orbits.limits",
     "Curve": "results.curve",
     "FileError": "errors",
     "Flight": "results.flight",

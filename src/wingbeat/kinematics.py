@@ -130,6 +130,8 @@ WINGBEAT_NAMES = tuple(field.name for field in dataclasses.fields(Wingbeat))
 PARAMETER_NAMES = (*(name for name in WINGBEAT_NAMES if not name.endswith("_harmonics")), *HARMONIC_NAMES)
 # The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
 FREE_NAMES = tuple(name for name in PARAMETER_NAMES if name != "wrist")
+_PLAIN = ("frequency", "span_retraction", "twist_ratio", "downstroke_fraction")
+ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith("span_"))
 
 
 def stroke_phase(wingbeat: Wingbeat, phase: Any) -> Any:

@@ -106,8 +106,8 @@ OUTPUTS = {
     "-o": "-o requires an argument",
 }
 FIGURES = {
-    "--plot page.txt": "--plot = 'page.txt': is not a figure's name; end it in .png, .pdf, .svg",
-    "--plot page": "--plot = 'page': is not a figure's name",
+    "--plot page.txt": "--plot = 'page.txt': is no kind of figure; end it in .png, .pdf, .svg",
+    "--plot page": "--plot = 'page': is no kind of figure",
     "--plot missing/page.png": "cannot write 'missing/page.png': no such file or directory",
     "--plot kept.png/page.png": "cannot write 'kept.png/page.png': not a directory",
     "--plot kept.png -o ./kept.png": "--plot = 'kept.png': is the file of --output too; give each its own",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json as json_format
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -20,6 +19,7 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     aero_with,
+    check_files,
     check_outputs,
     species_with,
 )
@@ -27,7 +27,7 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.plots.saving import check_figure_name, save_figure
+from wingbeat.plots.saving import save_figure
 from wingbeat.results.curve import solve_curve
 
 
@@ -72,10 +72,7 @@ def curve(
     wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc
     """
     faults = FaultList()
-    if plot is not None:
-        check_figure_name(faults, "--plot", plot)
-    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
-        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    check_files(faults, output, plot=plot)
     faults.raise_if_any()
     row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))
     problem = OrbitProblem(

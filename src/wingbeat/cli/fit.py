@@ -10,10 +10,10 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat.cli.options import check_outputs
+from wingbeat.cli.options import check_files, check_outputs
 from wingbeat.errors import FaultList
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
-from wingbeat.plots import check_figure_name, fit_page, save_figure
+from wingbeat.plots import fit_page, save_figure
 
 
 def fit(
@@ -39,8 +39,7 @@ def fit(
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".toml":
         faults.add("--output", str(output), "is no model file", "end it in .toml")
-    if plot is not None:
-        check_figure_name(faults, "--plot", plot)
+    check_files(faults, output, plot=plot)
     bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
     if all(bounds) and alpha_min > alpha_max:
         faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "turn them round")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json as json_format
 import math
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -21,13 +20,14 @@ from wingbeat.cli.options import (
     Settings,
     Strips,
     aero_with,
+    check_files,
     check_outputs,
     species_with,
 )
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.glide import Glide
-from wingbeat.plots import check_figure_name, glide_page, save_figure
+from wingbeat.plots import glide_page, save_figure
 from wingbeat.results.glide import GlidePolar, glide_polar
 
 _HEADS = {"alpha": "deg", "speed": "m/s", "sink": "m/s", "ratio": "-", "path": "deg", "body": "deg", "wing": "deg"}
@@ -64,10 +64,7 @@ def glide(
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
     """
     faults = FaultList()
-    if plot is not None:
-        check_figure_name(faults, "--plot", plot)
-    if plot and output and os.path.realpath(plot) == os.path.realpath(output):
-        faults.add("--plot", str(plot), "is the file of --output too", "give each its own")
+    check_files(faults, output, plot=plot)
     faults.raise_if_any()
     angles = parse_range(alpha, "--alpha")
     if not 0 < angles[0] <= angles[-1] <= 90 or (np.diff(angles) < 0).any():

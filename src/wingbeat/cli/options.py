@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -99,6 +100,21 @@ def unpacking(path: Path) -> Iterator[None]:
 
 class _Enough(Exception):
     """A path can be written; there is nothing to write yet."""
+
+
+def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
+    """Note figures that are none, and files that two options name; a figure by the name of its option."""
+    from wingbeat.plots import check_figure_name
+
+    taken = {} if output is None else {os.path.realpath(output): "--output"}
+    for name, figure in figures.items():
+        if figure is None:
+            continue
+        option = f"--{name.replace('_', '-')}"
+        check_figure_name(faults, option, figure)
+        other = taken.setdefault(os.path.realpath(figure), option)
+        if other != option:
+            faults.add(option, str(figure), f"is the file of {other} too", "give each its own")
 
 
 def check_outputs(*paths: Path | None) -> None:

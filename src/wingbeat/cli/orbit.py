@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json as json_format
 import math
-import os
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -31,6 +30,7 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     aero_with,
+    check_files,
     check_outputs,
     fit_of,
     given_beside,
@@ -51,7 +51,6 @@ from wingbeat.results.sensitivities import sensitivities as differentiate
 from wingbeat.results.spread import Spread, orbit_spread
 from wingbeat.species import Species
 
-FIGURES = (".png", ".pdf", ".svg")
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
 
 
@@ -119,7 +118,7 @@ def orbit(
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
-    _check_files(faults, output, plot=plot, tornado=tornado)
+    check_files(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if from_ is None and species is None:
@@ -175,19 +174,6 @@ def orbit(
         for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
             print(line)
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
-
-
-def _check_files(faults: FaultList, output: Path | None, **figures: Path | None) -> None:
-    """Note figures that are none, and files that two options name."""
-    taken = {} if output is None else {os.path.realpath(output): "--output"}
-    for name, figure in figures.items():
-        if figure is None:
-            continue
-        if figure.suffix.lower() not in FIGURES:
-            faults.add(f"--{name}", str(figure), "is not a figure's name", f"end it in {', '.join(FIGURES)}")
-        other = taken.setdefault(os.path.realpath(figure), f"--{name}")
-        if other != f"--{name}":
-            faults.add(f"--{name}", str(figure), f"is the file of {other} too", "give each its own")
 
 
 def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tuple[float, float]]:

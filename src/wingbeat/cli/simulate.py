@@ -23,6 +23,7 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     aero_with,
+    check_files,
     check_outputs,
     given_beside,
     species_with,
@@ -31,7 +32,7 @@ from wingbeat.cli.options import (
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.model import State, flight_model
-from wingbeat.plots import check_figure_name, film_page, save_figure
+from wingbeat.plots import film_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
@@ -82,10 +83,9 @@ def simulate(
         faults.add("SPECIES", None, "is missing", fix)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
-    if plot_kinematics is not None:
-        check_figure_name(faults, "--plot-kinematics", plot_kinematics)
-        if kinematics is None:
-            faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
+    check_files(faults, output, plot_kinematics=plot_kinematics)
+    if plot_kinematics is not None and kinematics is None:
+        faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
     faults.raise_if_any()
     beat = None
     if from_ is not None:

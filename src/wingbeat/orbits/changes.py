@@ -2,29 +2,36 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from wingbeat.errors import InvalidInputError
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import ANGLES, parameter, with_parameters
+from wingbeat.orbits.limits import Constraint
+from wingbeat.orbits.parameters import Place, unit_of, with_number
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import ANGLES, Constraint
 from wingbeat.orbits.shortage import LIFT, MOMENT, THRUST
-from wingbeat.species import Species
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
 _QUARTER_TURN = 0.5 * math.pi
+_ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
+_AMPLITUDE = (0.0, _QUARTER_TURN)
 _REACH = {
     "frequency": (0.1, 200.0),
-    "flap_mean": (-_QUARTER_TURN, _QUARTER_TURN),
-    "flap_amplitude": (0.0, _QUARTER_TURN),
-    "pitch_mean": (-_QUARTER_TURN, _QUARTER_TURN),
-    "pitch_amplitude": (0.0, _QUARTER_TURN),
+    "flap_amplitude": _AMPLITUDE,
+    "pitch_amplitude": _AMPLITUDE,
+    "sweep_amplitude": _AMPLITUDE,
     "span_retraction": (0.0, 0.9),
     "twist_ratio": (0.0, 4.0),
-    "fold_amplitude": (-_QUARTER_TURN, _QUARTER_TURN),
-    "body_pitch": (-_QUARTER_TURN, _QUARTER_TURN),
+    "downstroke_fraction": (0.1, 0.9),
+    "body_pitch": _ANY_ANGLE,
 }
+# Of a harmonic, an angle or a share of the span.
+_HARMONIC = (-0.5, 0.5)
+# How often a reach beyond what can be is halved.
+_HALVED = 6
 # A change of an angle by this much counts as large as a change of any other number by all of itself.
 _LARGE_ANGLE = math.radians(60.0)
 # Times itself that a limit is raised, or divided by, in looking for an orbit.
@@ -103,14 +110,17 @@ class Relaxation:
 
 
 _SHOWN = {"rad": (math.degrees(1.0), "deg"), "m": (1e3, "mm")}
-_UNITS = {"mass": "kg", "speed": "m/s", "climb": "m/s", "shoulder": "m", "frequency": "Hz"}
+_PLACES: dict[str, Place] = {
+    "mass": ("species", "vehicle", "body", "mass"),
+    "shoulder": ("species", "vehicle", "wing", "shoulder", 0),
+    "speed": ("speed",),
+    "climb": ("climb",),
+}
 
 
-def unit_of(problem: OrbitProblem, change: Change) -> str:
-    """Return the SI unit of the number that changes."""
+def _unit(problem: OrbitProblem, change: Change) -> str:
     limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
-    plain = "rad" if change.name in (*ANGLES, "body_pitch") else "1"
-    return limits[0] if limits else _UNITS.get(change.name, plain)
+    return limits[0] if limits else unit_of(change.name)
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
@@ -122,7 +132,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     value : what it must at least be changed to, SI.
     more : further steps of the last digit.
     """
-    unit = unit_of(problem, change)
+    unit = _unit(problem, change)
     factor, shown = _SHOWN.get(unit, (1.0, unit))
     new = rounded_outward(change, value, factor, more)
     text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
@@ -143,35 +153,24 @@ def _words(problem: OrbitProblem, change: Change) -> str:
 def with_change(problem: OrbitProblem, name: str, sign: str, value: float) -> OrbitProblem:
     """Return the problem with one number set, named as in `Change`."""
     if name == "mass":
-        wings = 2.0 * problem.vehicle.wing.mass
-        return dataclasses.replace(problem, species=_with_number(problem.species, "body", "mass", value - wings))
-    if name == "shoulder":
-        shoulder = (value, *problem.vehicle.wing.shoulder[1:])
-        return dataclasses.replace(problem, species=_with_number(problem.species, "wing", "shoulder", shoulder))
-    if name in ("speed", "climb"):
-        return dataclasses.replace(problem, **{name: value})
+        value -= 2.0 * problem.vehicle.wing.mass
+    return with_number(problem, _place(problem, name, sign), value)
+
+
+def _place(problem: OrbitProblem, name: str, sign: str) -> Place:
+    if name in _PLACES:
+        return _PLACES[name]
+    limits = [i for i, c in enumerate(problem.subject_to) if is_limit(c, name, sign)]
+    if limits:
+        return "subject_to", limits[0], "limit"
     if sign == "=":
-        wingbeat = dataclasses.replace(problem.species.wingbeat, **{name: value})
-        return dataclasses.replace(problem, species=dataclasses.replace(problem.species, wingbeat=wingbeat))
-    if any(is_limit(c, name, sign) for c in problem.subject_to):
-        limits = [dataclasses.replace(c, limit=value) if is_limit(c, name, sign) else c for c in problem.subject_to]
-        return dataclasses.replace(problem, subject_to=limits)
-    low, high = problem.bounds[name]
-    pair = (low, value) if sign == "<=" else (value, high)
-    return dataclasses.replace(problem, bounds={**problem.bounds, name: pair})
+        return "species", "wingbeat", name
+    return "bounds", name, int(sign == "<=")
 
 
 def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
     """Say whether a constraint is the limit of this name and sign."""
     return constraint.quantity.name == name and constraint.at_most is (sign == "<=")
-
-
-def _with_number(species: Species, part: str, name: str, value: object) -> Species:
-    """Set a number of body or wing; a species of an orbit's file knows no numbers beside its records."""
-    if species.numbers:
-        return species.with_values({f"{part}.{name}": value})
-    record = dataclasses.replace(getattr(species.vehicle, part), **{name: value})
-    return dataclasses.replace(species, vehicle=dataclasses.replace(species.vehicle, **{part: record}))
 
 
 def possible_changes(
@@ -194,12 +193,13 @@ def possible_changes(
     for name, sign in leaning:
         if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
             upper = sign == "<="
-            yield from _towards(name, sign, float(problem.bounds[name][upper]), _REACH[name][upper])
+            old = float(problem.bounds[name][upper])
+            yield from _towards(name, sign, old, _reach(problem, name, old, upper))
     for name in problem.species.bounds:
         if name not in problem.free:
-            old = float(getattr(problem.species.wingbeat, name))
-            for reach in _REACH[name]:
-                yield from _towards(name, "=", old, reach, (0.1, 0.3))
+            old = float(parameter(problem.species.wingbeat, name))
+            for upper in (False, True):
+                yield from _towards(name, "=", old, _reach(problem, name, old, upper), (0.1, 0.3))
     wing = problem.vehicle.wing
     mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
     yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, _tries(short.get(LIFT), (0.3, 0.6)))
@@ -211,6 +211,20 @@ def possible_changes(
     for way in (1.0, -1.0):
         reach, tries = ahead + way * _CHORDS * wing.mean_chord, _tries(short.get(MOMENT), (0.2, 0.6))
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
+
+
+def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
+    """Return how far a number of the wingbeat may go, up or down, for there still to be a wingbeat."""
+    reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
+    far = reach[upper]
+    for _ in range(_HALVED):
+        try:
+            with_parameters(problem.species.wingbeat, {} if name == "body_pitch" else {name: far})
+        except InvalidInputError:
+            far = 0.5 * (old + far)
+        else:
+            return far
+    return old
 
 
 def _tries(short: float | None, others: tuple[float, ...]) -> tuple[float, ...]:

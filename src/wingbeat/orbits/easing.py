@@ -9,7 +9,7 @@ from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import is_closed, optimise
 from wingbeat.orbits.shooting import Flown
 from wingbeat.orbits.starts import start_point
-from wingbeat.orbits.transcription import Point, Transcription
+from wingbeat.orbits.transcription import Point, Transcription, with_column
 
 # Step of the difference quotient by a number of the vehicle or the flight, as a share of the number's scale.
 _STEP = 1e-6
@@ -45,7 +45,7 @@ class Eased(Transcription):
         return np.append(scaled[:-1], np.clip(scaled[-1] - spare, 0.0, self.upper[-1]))
 
     def _scaled(self, flown: Flown, unknowns: np.ndarray) -> Point:
-        return _with_column(super()._scaled(flown, unknowns))
+        return with_column(super()._scaled(flown, unknowns))
 
     def objective(self, scaled: np.ndarray) -> float:
         """Return how far the number is moved."""
@@ -54,16 +54,6 @@ class Eased(Transcription):
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
         """Return its derivative."""
         return np.eye(1, scaled.size, scaled.size - 1)[0]
-
-
-def _with_column(point: Point) -> Point:
-    """Return the point with one more unknown, which nothing that was flown hangs on."""
-    wider = {
-        name: np.pad(value, [(0, 0)] * (value.ndim - 1) + [(0, 1)])
-        for name, value in point._asdict().items()
-        if name.endswith("jacobian")
-    }
-    return point._replace(**wider)
 
 
 class _EasedBound(Eased):
@@ -138,7 +128,7 @@ class _EasedNumber(Eased):
         share, unknowns = float(scaled[-1]), scaled[: self.own]
         step = _STEP if share + _STEP <= self.upper[-1] else -_STEP
         here, beside = (self._with_number(s)._at(unknowns) for s in (share, share + step))
-        point = _with_column(here)
+        point = with_column(here)
         for name in ("closure", "pitch", "rows"):
             jacobian = getattr(point, f"{name}_jacobian")
             jacobian[:, -1] = (getattr(beside, name) - getattr(here, name)) / step

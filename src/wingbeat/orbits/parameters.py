@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import FREE_NAMES, in_use, parameter
+from wingbeat.kinematics import ANGLES, FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import ANGLES
+from wingbeat.species import Species
 
 # What of the inputs is in which unit; dimensionless if not named here.
 _UNITS = {
@@ -35,6 +35,9 @@ _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
 
+# The way from a problem to one of its numbers: names of records, places in tuples.
+Place = tuple[str | int, ...]
+
 
 class Parameter(NamedTuple):
     """One number of a problem.
@@ -53,7 +56,7 @@ class Parameter(NamedTuple):
     unit: str
     value: float
     size: float
-    place: tuple[str | int, ...]
+    place: Place
     plausible: tuple[float, float] | None = None
 
     def changed(self, problem: OrbitProblem, value: float) -> OrbitProblem:
@@ -63,19 +66,29 @@ class Parameter(NamedTuple):
         ------
         InvalidInputError : the impossible, as the records refuse it.
         """
-        return _with(problem, self.place, value)
+        return with_number(problem, self.place, value)
 
 
-def _with(record: Any, place: tuple[str | int, ...], value: float) -> Any:
-    """Return a copy of nested records with the number at one place replaced."""
+def unit_of(name: str) -> str:
+    """Return the SI unit of a number by the last part of its name, ``1`` if it has none."""
+    return _UNITS.get(name, "rad" if name in _ANGLES else "1")
+
+
+def with_number(record: Any, place: Place, value: float) -> Any:
+    """Return a copy of a problem, or of what it holds, with the number at one place replaced."""
     if not place:
         return value
     head, rest = place[0], place[1:]
+    if isinstance(record, Wingbeat):
+        return with_parameters(record, {str(head): value})
     if isinstance(record, dict):
-        return record | {head: _with(record[head], rest, value)}
+        return record | {head: with_number(record[head], rest, value)}
     if isinstance(head, int):
-        return (*record[:head], _with(record[head], rest, value), *record[head + 1 :])
-    return dataclasses.replace(record, **{head: _with(getattr(record, head), rest, value)})
+        return (*record[:head], with_number(record[head], rest, value), *record[head + 1 :])
+    changed = with_number(getattr(record, head), rest, value)
+    if isinstance(record, Species):
+        return record.with_record(changed)
+    return dataclasses.replace(record, **{head: changed})
 
 
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
@@ -107,9 +120,13 @@ def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, floa
     A parameter that the species leaves free and the user holds is one that was measured: it has none.
     """
     numbers = problem.species.numbers
-    if parameter.place[-1] in problem.species.free:
+    last = str(parameter.place[-1])
+    if last in problem.species.free:
         return None
     keys = [str(key) for key in parameter.place if not isinstance(key, int) and key != "species"]
+    harmonic = harmonic_place(last)
+    if harmonic is not None:
+        keys[-1] = harmonic[0]
     number = numbers.get(".".join(keys))
     if parameter.path == "body.mass" and (number is None or number.range is None):
         whole = numbers.get("vehicle.mass")
@@ -120,11 +137,10 @@ def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, floa
     return None if number is None else number.range
 
 
-def _made(path: str, value: float, place: tuple[str | int, ...], size: float = 1.0) -> Parameter:
+def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter:
     names = path.split(".")
     last = names[-1].split("[")[0]
-    kind = last if last not in (*_AXES, *SIDES) else names[-2]
-    unit = _UNITS.get(kind, "rad" if kind in _ANGLES else "1")
+    unit = unit_of(last if last not in (*_AXES, *SIDES) else names[-2])
     return Parameter(path, unit, float(value), abs(value) or size, place)
 
 
@@ -146,8 +162,7 @@ def _held(problem: OrbitProblem) -> Iterator[Parameter]:
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:
         if name not in problem.free and in_use(wingbeat, name):
-            place = harmonic_place(name) or (name,)
-            yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", *place))
+            yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", name))
 
 
 def _air(problem: OrbitProblem) -> Iterator[Parameter]:

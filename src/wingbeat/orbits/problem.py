@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import difflib
 import functools
 from collections.abc import Callable, Mapping, Sequence
@@ -14,17 +13,10 @@ import numpy as np
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import FREE_NAMES, Wingbeat, with_parameters
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.model import FlightModel, flight_model
-from wingbeat.orbits.quantities import (
-    Constraint,
-    Frequency,
-    Quantity,
-    WingbeatLimit,
-    named_objective,
-    parse_constraint,
-    parse_wingbeat_limit,
-)
+from wingbeat.orbits.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.quantities import Frequency, Quantity, named_objective
 from wingbeat.orbits.readings import check_quantities
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
@@ -151,8 +143,8 @@ class OrbitProblem:
         """Hold a parameter at a value, or tighten its bounds."""
         species, name = self.species, limit.name
         if limit.sign == "=":
-            wingbeat = with_parameters(species.wingbeat, {name: limit.value})
-            object.__setattr__(self, "species", dataclasses.replace(species, wingbeat=wingbeat))
+            held = species.with_record(with_parameters(species.wingbeat, {name: limit.value}))
+            object.__setattr__(self, "species", held)
             object.__setattr__(self, "free", tuple(n for n in self.free or species.free if n != name))
             return
         bounds = dict(self.bounds or {})
@@ -242,6 +234,10 @@ class OrbitProblem:
         """Return the species' wingbeat with the free parameters taken from the unknowns."""
         values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
         return with_parameters(self.species.wingbeat, values)
+
+    def unknowns_of(self, state: np.ndarray, wingbeat: Wingbeat) -> np.ndarray:
+        """Return the unknowns that stand for a state at the start, as in `State`, and a wingbeat."""
+        return np.array([*state[2:], *(parameter(wingbeat, name) for name in self.free)], dtype=float)
 
     def frequency(self, unknowns: np.ndarray) -> float:
         """Return the frequency that goes with the unknowns [Hz]."""

@@ -17,7 +17,8 @@ import numpy as np
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.jax64 import jax, jnp
 from wingbeat.orbits.beat import Beat
-from wingbeat.orbits.quantities import Constraint, Quantity
+from wingbeat.orbits.limits import Constraint
+from wingbeat.orbits.quantities import Quantity
 
 PARTS = 4
 # Of a beat that is only looked at for its shapes.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,7 +89,6 @@ def is_closed(problem: Transcription, scaled: np.ndarray) -> bool:
 
 def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
     """Reduce closure and path violation in least squares within the bounds (an elastic solve)."""
-    inside = 1e-6 * (problem.upper - problem.lower)
 
     def misses(x: np.ndarray) -> np.ndarray:
         return np.concatenate([problem.closure(x), np.minimum(problem.margins(x), 0.0)])
@@ -97,19 +97,31 @@ def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
         broken = problem.margins(x)[:, None] < 0
         return np.concatenate([problem.closure_jacobian(x), broken * problem.margins_jacobian(x)])
 
+    return least_misses(problem, misses, jacobian, scaled, _APPROACH)
+
+
+def least_misses(
+    problem: Transcription,
+    misses: Callable[[np.ndarray], np.ndarray],
+    jacobian: Callable[[np.ndarray], np.ndarray],
+    scaled: np.ndarray,
+    evaluations: int,
+    settled: float = 1e-9,
+) -> np.ndarray:
+    """Return where, within the bounds, the misses are least in squares; they end when they shrink by `settled`."""
+    inside = 1e-6 * (problem.upper - problem.lower)
     # Flights that run off overflow in what it squares; such a lead is given up by its violation.
     with np.errstate(over="ignore", invalid="ignore"):
-        found = least_squares(
+        return least_squares(
             misses,
             np.clip(scaled, problem.lower + inside, problem.upper - inside),
             jac=jacobian,  # type: ignore[arg-type]
             bounds=(problem.lower, problem.upper),
-            max_nfev=_APPROACH,
+            max_nfev=evaluations,
             xtol=1e-9,
-            ftol=1e-9,
+            ftol=settled,
             gtol=1e-9,
-        )
-    return found.x
+        ).x
 
 
 def optimise(

@@ -11,11 +11,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from wingbeat.jax64 import jnp
 from wingbeat.model import motion_table
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
+from wingbeat.orbits.search import least_misses
 from wingbeat.orbits.transcription import Transcription
 
 THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
@@ -116,19 +116,7 @@ class Balance:
             passed = programme.margins(x)[:, None] < 0
             return np.concatenate([by_closure, _WEIGHT * passed * programme.margins_jacobian(x)])
 
-        inside = 1e-6 * (programme.upper - programme.lower)
-        # Flights that run off overflow in what it squares.
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = least_squares(
-                misses,
-                np.clip(scaled, programme.lower + inside, programme.upper - inside),
-                jac=jacobian,  # type: ignore[arg-type]
-                bounds=(programme.lower, programme.upper),
-                max_nfev=_EVALUATIONS,
-                xtol=1e-9,
-                ftol=1e-7,
-                gtol=1e-9,
-            ).x
+        found = least_misses(programme, misses, jacobian, scaled, _EVALUATIONS, settled=1e-7)
         short = -(weights(found) * programme.closure(found))[rows]
         rest = np.abs(np.delete(programme.closure(found), rows)).max()
         keeps = max(rest, -programme.margins(found).min()) <= _KEPT

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.changes import Relaxation
@@ -67,8 +67,7 @@ class Solution:
     @property
     def unknowns(self) -> np.ndarray:
         """Pitch state at the start and free parameters, as a search starts from them."""
-        free = [parameter(self.wingbeat, name) for name in self.problem.free]
-        return np.concatenate([self.certificate.states[0, 2:], free])
+        return self.problem.unknowns_of(self.certificate.states[0], self.wingbeat)
 
     @property
     def place(self) -> np.ndarray:

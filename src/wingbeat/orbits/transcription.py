@@ -129,7 +129,7 @@ class Transcription:
         if not tame:
             # A flight that tumbles off to infinity must still be a number for the line search to back away from.
             point = Point(*(np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in point))
-        return point if not self.has_level else _with_level(point)
+        return point if not self.has_level else with_column(point)
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""
@@ -267,10 +267,10 @@ def peak_weights(values: np.ndarray) -> np.ndarray:
     return weights
 
 
-def _with_level(point: Point) -> Point:
+def with_column(point: Point) -> Point:
     """Return the point with one more unknown, which nothing that was flown hangs on."""
     wider = {
-        name: np.concatenate([value, np.zeros((len(value), 1))], axis=1)
+        name: np.pad(value, [(0, 0)] * (value.ndim - 1) + [(0, 1)])
         for name, value in point._asdict().items()
         if name.endswith("jacobian")
     }

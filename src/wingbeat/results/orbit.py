@@ -118,6 +118,11 @@ class Orbit:
         return self._summary.initial_state
 
     @property
+    def unknowns(self) -> np.ndarray:
+        """Pitch state at phase 0 and free parameters, as a search starts from them."""
+        return self.problem.unknowns_of(np.array(self.initial_state), self.wingbeat)
+
+    @property
     def problem(self) -> OrbitProblem:
         """The problem this orbit answers, set up again from its inputs."""
         return problem_from(self._inputs)

@@ -9,7 +9,6 @@ import numpy as np
 
 from wingbeat.aero.model_file import FittedModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
-from wingbeat.kinematics import parameter
 from wingbeat.orbits.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity, named_quantity
@@ -151,12 +150,10 @@ def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIE
         raise InvalidInputError([Fault("orbit", orbit.status.value, rule, fix)])
     known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
     problem = orbit.problem
-    free = [parameter(orbit.wingbeat, name) for name in problem.free]
-    unknowns = np.array([*orbit.initial_state[2:], *free])
-    optimum = OptimumSlopes(problem, unknowns)
+    optimum = OptimumSlopes(problem, orbit.unknowns)
     slopes = [optimum.by(one, known) for one in parameters_of(problem)]
     prices = [optimum.by(one, known) for one in optimum.active()]
-    return Sensitivities(problem, unknowns, known, optimum.values(known).tolist(), slopes, prices)
+    return Sensitivities(problem, orbit.unknowns, known, optimum.values(known).tolist(), slopes, prices)
 
 
 def _plain(slope: Sensitivity) -> dict[str, Any]:

@@ -58,17 +58,14 @@ def orbit_spread(
     Spread : of powers, cost of transport, and the free parameters of the wingbeat as ``wingbeat.pitch_mean``.
     """
     problem = orbit.problem
-    free = [parameter(orbit.wingbeat, name) for name in problem.free]
-    start = np.array([*orbit.initial_state[2:], *free])
     rows = []
     for i, wingbeat in enumerate(wingbeats, start=1):
-        species = dataclasses.replace(problem.species, wingbeat=wingbeat)
-        found = follow(dataclasses.replace(problem, species=species), start)
+        found = follow(dataclasses.replace(problem, species=problem.species.with_record(wingbeat)), orbit.unknowns)
         if found is not None:
             rows.append(_row(found))
         if progress is not None:
             progress(i, len(wingbeats))
-    record, trimmed = orbit.record(), dict(zip(problem.free, free, strict=True))
+    record, trimmed = orbit.record(), dict(zip(problem.free, orbit.unknowns[4:], strict=True))
     estimates = {name: record[name] for name in POWERS} | {f"wingbeat.{n}": v for n, v in trimmed.items()}
     columns = {name: np.array([row[name] for row in rows], dtype=float) for name in estimates}
     return Spread(columns, estimates, len(wingbeats))

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
+from wingbeat.kinematics import ANGLES
 from wingbeat.loads import Loads
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import ANGLES
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.vehicle import Air, Vehicle
 

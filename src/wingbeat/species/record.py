@@ -87,12 +87,29 @@ class Species:
                 other = given.written[key.path][0]
                 faults.add(path, value, f"is given as {other} too", "keep one of the two")
                 continue
-            old = self.numbers[key.path]
-            source = old.source
-            if not source.startswith(_SET_BY_HAND):
-                source = f"{_SET_BY_HAND} {words(key.path, old)}" + (f": {source}" if source else "")
-            given.put(key, Number(to_si(value, path), key.unit, source, old.range), path, value)
+            number = Number(to_si(value, path), key.unit, self._by_hand(key.path), self.numbers[key.path].range)
+            given.put(key, number, path, value)
         return self._rebuilt(self.numbers | given, given, faults)
+
+    def with_record(self, record: Vehicle | Wingbeat) -> Species:
+        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` in step."""
+        section, parts = "wingbeat", {"wingbeat": record}
+        if isinstance(record, Vehicle):
+            section, body, wing = "vehicle", record.body, record.wing
+            parts = {"vehicle": record, "vehicle.body": body, "vehicle.wing": wing}
+        numbers = dict(self.numbers)
+        for path, number in self.numbers.items():
+            part, _, name = path.rpartition(".")
+            if part in parts and getattr(parts[part], name) != number.value:
+                numbers[path] = number._replace(value=getattr(parts[part], name), source=self._by_hand(path))
+        return dataclasses.replace(self, numbers=numbers, **{section: record})
+
+    def _by_hand(self, path: str) -> str:
+        """Return the source of a number that is set in place of this species' own."""
+        old = self.numbers[path]
+        if old.source.startswith(_SET_BY_HAND):
+            return old.source
+        return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
 
     def with_payload(self, payload: float) -> Species:
         """Return this species carrying a load at its body's centre of mass: a heavier body, and nothing else.

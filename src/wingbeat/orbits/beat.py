@@ -9,13 +9,14 @@ import numpy as np
 
 from wingbeat.dynamics import strip_loads
 from wingbeat.frames import from_world
-from wingbeat.hinges import hinge_loads, hinge_motion
+from wingbeat.hinges import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.shooting import STEPS, Flown
+from wingbeat.slopes import settled
 from wingbeat.stored import stored
-from wingbeat.wing_motion import stroke_attitude
+from wingbeat.wing_motion import WingMotion, stroke_attitude
 
 
 class Beat(NamedTuple):
@@ -79,16 +80,38 @@ def mean_positive(values: Any) -> Any:
 _NUMBERS = ("frequency", "speed", "climb", "weight")
 
 
-def _series(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_velocity: Any) -> Beat:
-    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
-    body = body_rates(model, motion, path)[1:]
+class _Tables(NamedTuple):
+    """What the wing does at given phases, whatever the body does."""
+
+    phase: Any
+    motion: WingMotion
+    hinges: HingeMotion
+    flap: Any
+    wing_pitch: Any
+    frequency: Any
+
+
+def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> _Tables:
+    return _Tables(
+        phase,
+        motion_table(model, wingbeat, phase),
+        hinge_motion(model.vehicle, wingbeat, phase, model.strips),
+        flap_angle(wingbeat, phase),
+        pitch_angle(wingbeat, phase),
+        jnp.asarray(wingbeat.frequency, dtype=float),
+    )
+
+
+def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) -> Beat:
+    motion = tables.motion
+    body = settled(body_rates(model, motion, path)[1:])
     body_pitch, u, w, pitch_rate = path
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
-    hinges = hinge_loads(model, motion, moved, path, body)
+    hinges = hinge_loads(model, motion, tables.hinges, path, body)
     return Beat(
-        phase=phase,
-        time=phase / wingbeat.frequency,
+        phase=tables.phase,
+        time=tables.phase / tables.frequency,
         body_pitch=body_pitch,
         u=u,
         w=w,
@@ -96,15 +119,15 @@ def _series(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_
         u_rate=body[0],
         w_rate=body[1],
         pitch_acceleration=body[2],
-        flap=flap_angle(wingbeat, phase),
-        flap_rate=moved.flap_rate,
-        wing_pitch=pitch_angle(wingbeat, phase),
-        wing_pitch_rate=moved.pitch_rate,
+        flap=tables.flap,
+        flap_rate=tables.hinges.flap_rate,
+        wing_pitch=tables.wing_pitch,
+        wing_pitch_rate=tables.hinges.pitch_rate,
         **hinges._asdict(),
         alpha=strips.alpha.T,
         lift=strips.lift.T,
         drag=strips.drag.T,
-        frequency=jnp.asarray(wingbeat.frequency, dtype=float),
+        frequency=tables.frequency,
         speed=mean_velocity[0],
         climb=mean_velocity[1],
         weight=model.vehicle.mass * model.air.gravity,
@@ -126,12 +149,12 @@ def _part(
     """Return the beat between two phases, and its derivatives: directions are the first axis."""
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
-    def series(at: Any, along: Any) -> Beat:
-        return _series(model, unpack(free, wingbeat, at), along, phase, mean_velocity)
-
-    found, change = jax.linearize(series, values, path)
+    tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
-    return found, jax.vmap(change)(directions, tangents)
+    # Tables are settled so that each direction reads them and does not make them anew.
+    tables, table_tangents = settled((tables, jax.vmap(along)(directions)))
+    found, change = jax.linearize(lambda table, a: _series(model, table, a, mean_velocity), tables, path)
+    return found, jax.vmap(change)(table_tangents, tangents)
 
 
 def beat_reader(
@@ -174,7 +197,7 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 @stored
 def _flown(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_velocity: Any) -> Beat:
-    return _series(model, wingbeat, path, phase, mean_velocity)
+    return _series(model, _tabulate(model, wingbeat, phase), path, mean_velocity)
 
 
 def flown_beat(

@@ -1,68 +1,124 @@
-"""Can random restarts better the optima of each objective? Prints a table in Markdown.
+"""Can 30 random restarts, or CasADi and IPOPT, better the optima of each objective and within each limit?
 
-Run from the root of a clone::
+Run from the root of a clone. Each problem is a line of JSON as it is done, of which the other makes tables::
 
-    uv run python benchmarks/objectives.py [--speeds 10] [--objectives peak_power] [--starts 12] [--restarts 30]
+    uv run --group bench python benchmarks/objectives.py [--animals bat] [--only peak_power] -o found.jsonl
+    uv run --group bench python benchmarks/objectives_table.py found.jsonl
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import time
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator
+from pathlib import Path
 
-import numpy as np
+from bettering import Ipopt, by_restarts
 
 import wingbeat as wb
-from wingbeat.orbits.quantities import QUANTITIES
-from wingbeat.orbits.search import search
-from wingbeat.orbits.solve import find_orbit, follow
-from wingbeat.orbits.starts import start_point
-from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.quantities import QUANTITIES, named_quantity
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import find_orbit
 
-# The searches' own seed is 0.
-SEED = 1
+# More starts, tried where something else found less.
+MORE_STARTS = (12, 24, 48)
+BETTER = 1e-3
 
 
-def least_of_restarts(problem: wb.OrbitProblem, restarts: int) -> tuple[float, int]:
-    """Return the least certified objective of random restarts, and how many ended in an optimum."""
-    programme = Transcription(problem)
-    with ThreadPoolExecutor(2) as pool:
-        starts = [start_point(problem, 1 + i, SEED) for i in range(restarts)]
-        found = list(pool.map(lambda start: search(programme.anew(), start), starts))
-    good = sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective)
-    for candidate in good:
-        certified = follow(problem, programme.physical(candidate.scaled))
-        if certified is not None:
-            return certified.objective, len(good)
-    return np.nan, len(good)
+class Solver:
+    """Solves a problem once with so many starts."""
+
+    def __init__(self, starts: int) -> None:
+        self.starts = starts
+        self._known: dict[tuple, Solution] = {}
+
+    def __call__(self, animal: str, speed: float, minimise: str, limit: str = "") -> Solution:
+        asked = animal, speed, minimise, limit
+        if asked not in self._known:
+            limits = [limit] if limit else []
+            problem = wb.OrbitProblem(wb.load_species(animal), speed=speed, minimise=minimise, subject_to=limits)
+            self._known[asked] = find_orbit(problem, self.starts, advise=False)
+        return self._known[asked]
+
+
+def limits_of(solver: Solver, animal: str, speed: float, only: list[str]) -> Iterator[tuple[str, str]]:
+    """Yield pairs of an objective and a limit that costs it something.
+
+    Each quantity may be half way at most from its least value to what it is where the frequency is least; the
+    frequency likewise where the positive power is least.
+    """
+    for name in (name for name in QUANTITIES if name in only):
+        minimise = "mean_positive_power" if name == "frequency" else "frequency"
+        least, free = solver(animal, speed, name), solver(animal, speed, minimise)
+        if wb.Status.CONVERGED is least.status is free.status:
+            half = 0.5 * (least.objective + free.value_of(named_quantity(name)))
+            yield minimise, f"{name}<={half:.6g}"
+            if name == "frequency":
+                yield minimise, f"{name}={half:.6g}"
+    if "flap_amplitude" in only:
+        yield "frequency", "flap_amplitude<=50 deg"
+        yield "mean_positive_power", "flap_amplitude=45 deg"
+
+
+def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: int, ipopt: Ipopt) -> dict:
+    """Solve a problem, try to better it, and return what came of it."""
+    begun = time.perf_counter()
+    best = solver(*asked)
+    spent = {"solved": best.seconds}
+    row = dict(zip(("animal", "speed", "minimise", "limit"), asked, strict=True)) | {
+        "unit": best.problem.minimise.unit,
+        "starts": solver.starts,
+        "status": best.status.value,
+        "objective": best.objective,
+        "closure": max(map(abs, best.closure.values())),
+        "optimality": best.optimality,
+        "active": list(best.active_bounds),
+    }
+    if best.status is wb.Status.CONVERGED:
+        row["by_restarts"], spent["restarts"] = _timed(by_restarts, best, restarts)
+        row["by_ipopt"], spent["ipopt"] = _timed(ipopt, best)
+        others = [row["by_restarts"]["least"], *(found["certified"] for found in row["by_ipopt"])]
+        least = min((value for value in others if value is not None), default=best.objective)
+        row["lower_by"] = (best.objective - least) / abs(best.objective)
+        if row["lower_by"] > BETTER:
+            row["more_starts"] = {n: Solver(n)(*asked).objective for n in MORE_STARTS if n > solver.starts}
+    return row | {"seconds": spent | {"all": time.perf_counter() - begun}}
+
+
+def _timed(function, *given) -> tuple:
+    begun = time.perf_counter()
+    return function(*given), time.perf_counter() - begun
 
 
 def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--animals", nargs="+", default=["pigeon", "bat"])
     arguments.add_argument("--speeds", type=float, nargs="+", default=[6.0, 10.0, 14.0])
-    arguments.add_argument("--objectives", nargs="+", default=list(QUANTITIES))
-    arguments.add_argument("--starts", type=int, default=12)
+    arguments.add_argument("--only", nargs="+", default=[*QUANTITIES, "flap_amplitude"], help="quantities")
+    arguments.add_argument("--of", nargs="+", default=["objectives", "limits"])
+    arguments.add_argument("--starts", type=int, default=6, help="of wingbeat's own search")
     arguments.add_argument("--restarts", type=int, default=30)
+    arguments.add_argument(
+        "--guesses", type=int, default=2, help="random ones of IPOPT, besides wingbeat's optimum"
+    )
+    arguments.add_argument("-o", "--output", type=Path, required=True)
     given = arguments.parse_args()
-    print("| animal | m/s | objective | least | of restarts | lower by, % | restarts ending in an optimum | s |")
-    print("| --- " * 8 + "|")
-    for animal in ("pigeon", "bat"):
-        for speed in given.speeds:
-            for name in given.objectives:
-                begun = time.perf_counter()
-                problem = wb.OrbitProblem(wb.load_species(animal), speed=speed, minimise=name)
-                best = find_orbit(problem, given.starts)
-                other, ended = least_of_restarts(problem, given.restarts)
-                lower = 100 * (1 - other / best.objective)
-                shown = (
-                    f"{best.objective:.4g} {QUANTITIES[name].unit}"
-                    if best.status is wb.Status.CONVERGED
-                    else best.status.value
-                )
-                cells = (animal, f"{speed:g}", name, shown, f"{other:.4g}", f"{lower:.2f}", ended)
-                spent = time.perf_counter() - begun
-                print("|", " | ".join(str(cell) for cell in (*cells, f"{spent:.0f}")), "|", flush=True)
+    solver, ipopt = Solver(given.starts), Ipopt(given.guesses)
+    for animal in given.animals:
+        asked = []
+        if "objectives" in given.of:
+            asked += [(animal, v, name, "") for name in QUANTITIES if name in given.only for v in given.speeds]
+        if "limits" in given.of:
+            limited = [
+                (animal, v, *pair) for v in given.speeds for pair in limits_of(solver, animal, v, given.only)
+            ]
+            # Problems that differ in numbers only follow one another: IPOPT's statement of them is built once.
+            asked += sorted(limited, key=lambda each: each[3].rstrip("0123456789.e-"))
+        for each in asked:
+            row = attempt(solver, each, given.restarts, ipopt)
+            with given.output.open("a") as file:
+                print(json.dumps(row), file=file)
 
 
 if __name__ == "__main__":

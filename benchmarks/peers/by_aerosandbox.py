@@ -13,8 +13,9 @@ import aerosandbox as asb
 import aerosandbox.numpy as anp
 import casadi as cs
 import numpy as np
-from by_casadi import IPOPT, STATE_SCALE
+from by_casadi import IPOPT
 from cases import Answer, Solve
+from collocation import STATE_SCALE
 from physics import NUMPY, Flier, accelerations
 
 import wingbeat as wb

@@ -9,8 +9,9 @@ from functools import partial
 import casadi as cs
 import numpy as np
 import rockit
-from by_casadi import IPOPT, STATE_SCALE
+from by_casadi import IPOPT
 from cases import Answer, Solve
+from collocation import STATE_SCALE
 from physics import Flier, accelerations, casadi_ops
 
 import wingbeat as wb

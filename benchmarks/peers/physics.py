@@ -103,10 +103,19 @@ def _limb(ops: Any, span: tuple[Any, ...], angle: tuple[Any, ...]) -> dict[str, 
     }
 
 
-def accelerations(
-    ops: Any, flier: Flier, beat: dict[str, Any], phase: Any, psi: Any, u: Any, w: Any, rate: Any
-) -> tuple[Any, Any, Any]:
-    """Return (x'', z'', body_pitch'') with the wing motion prescribed."""
+@dataclass(frozen=True)
+class Wing:
+    """The wing's motion: flap, root pitch and span, each with two rates; its limbs inside and beyond the wrist."""
+
+    flap: tuple[Any, ...]
+    tilt: tuple[Any, ...]
+    span: tuple[Any, ...]
+    arm: dict[str, Any]
+    hand: dict[str, Any]
+
+
+def wing_at(ops: Any, flier: Flier, beat: dict[str, Any], phase: Any) -> Wing:
+    """Return the wing's motion at phases of the beat."""
     omega = 2 * math.pi * beat["frequency"]
     s, c = ops.sin(2 * math.pi * phase), ops.cos(2 * math.pi * phase)
     law, law1, law2 = (1 - s) / 2, -omega * c / 2, omega * omega * s / 2
@@ -116,40 +125,70 @@ def accelerations(
     tilt = beat["pitch_mean"] - turn * s, -turn * omega * c, turn * omega * omega * s
     drawn_in = flier.wing.semi_span * beat["span_retraction"]
     span = flier.wing.semi_span - drawn_in * law, -drawn_in * law1, -drawn_in * law2
-    arm, hand = _limb(ops, span, flap), _limb(ops, span, hand)
+    return Wing(flap, tilt, span, _limb(ops, span, flap), _limb(ops, span, hand))
 
+
+@dataclass(frozen=True)
+class Strip:
+    """A strip seen from the shoulder: its quarter chord, and its chord's direction in the plane, with two rates."""
+
+    place: dict[str, Any]
+    flap: tuple[Any, ...]  # its limb's sine, cosine and two rates
+    pitch: tuple[Any, ...]  # its own sine, cosine and two rates
+    chord_c: tuple[Any, ...]
+    chord_d: tuple[Any, ...]
+
+
+def strip_at(ops: Any, lane: Strips, wing: Wing) -> Strip:
+    """Return where a strip is and how it lies."""
+    arm, hand, tilt = wing.arm, wing.hand, wing.tilt
+    place = {key: lane.inner * arm[key] + lane.outer * hand[key] for key in ("y1", "d", "d1", "d2")}
+    own = {key: (1 - lane.hand) * arm[key] + lane.hand * hand[key] for key in ("s", "c", "turn1", "turn2")}
+    so, co, p1, p2 = own["s"], own["c"], own["turn1"], own["turn2"]
+    st, ct = ops.sin(lane.twist * tilt[0]), ops.cos(lane.twist * tilt[0])
+    t1, t2 = lane.twist * tilt[1], lane.twist * tilt[2]
+    ec, ed = ct, st * co
+    ec1, ed1 = -t1 * st, t1 * ct * co - p1 * st * so
+    ec2 = -t2 * st - t1 * t1 * ct
+    ed2 = (t2 * ct - (t1 * t1 + p1 * p1) * st) * co - (2 * t1 * p1 * ct + p2 * st) * so
+    return Strip(place, (so, co, p1, p2), (st, ct, t1, t2), (ec, ec1, ec2), (ed, ed1, ed2))
+
+
+def air_load(
+    ops: Any, flier: Flier, wing: Wing, strip: Strip, body_c: Any, body_d: Any, rate: Any
+) -> tuple[Any, Any]:
+    """Return the air's force on a strip along its chord and along its normal."""
+    (so, co, *_), (st, ct, *_), place = strip.flap, strip.pitch, strip.place
+    ahead, above = flier.shoulder
+    pressure_area = 0.5 * flier.air.density * flier.chord * wing.span[0] / flier.count
+    vc_, vy, vd = body_c - rate * (above + place["d"]), place["y1"], body_d + rate * ahead + place["d1"]
+    vc = vc_ * strip.chord_c[0] - vy * st * so + vd * strip.chord_d[0]
+    vn = -vc_ * st - vy * ct * so + vd * ct * co
+    speed = ops.sqrt(vc * vc + vn * vn)
+    lift, drag = flier.coefficients(ops, ops.arctan2(-vn, vc))
+    return -speed * (lift * vn + drag * vc) * pressure_area, speed * (lift * vc - drag * vn) * pressure_area
+
+
+def accelerations(
+    ops: Any, flier: Flier, beat: dict[str, Any], phase: Any, psi: Any, u: Any, w: Any, rate: Any
+) -> tuple[Any, Any, Any]:
+    """Return (x'', z'', body_pitch'') with the wing motion prescribed."""
+    wing = wing_at(ops, flier, beat, phase)
     sin_psi, cos_psi = ops.sin(psi + flier.pitched), ops.cos(psi + flier.pitched)
     body_c, body_d = u * cos_psi + w * sin_psi, w * cos_psi - u * sin_psi
     chord, (ahead, above) = flier.chord, flier.shoulder
-    pressure_area = 0.5 * flier.air.density * chord * span[0] / flier.count
     second = chord * chord / 12
 
     sums = [0.0] * 12
     for lane in flier.lanes:
-        place = {key: lane.inner * arm[key] + lane.outer * hand[key] for key in ("y1", "d", "d1", "d2")}
-        own = {key: (1 - lane.hand) * arm[key] + lane.hand * hand[key] for key in ("s", "c", "turn1", "turn2")}
-        so, co, p1, p2 = own["s"], own["c"], own["turn1"], own["turn2"]
-        st, ct = ops.sin(lane.twist * tilt[0]), ops.cos(lane.twist * tilt[0])
-        t1, t2 = lane.twist * tilt[1], lane.twist * tilt[2]
-
-        # The chord's unit vector with two rates, and the quarter chord.
-        ec, ed = ct, st * co
-        ec1, ed1 = -t1 * st, t1 * ct * co - p1 * st * so
-        ec2 = -t2 * st - t1 * t1 * ct
-        ed2 = (t2 * ct - (t1 * t1 + p1 * p1) * st) * co - (2 * t1 * p1 * ct + p2 * st) * so
-        bd = above + place["d"]
-
-        # Air.
-        vc_, vy, vd = body_c - rate * bd, place["y1"], body_d + rate * ahead + place["d1"]
-        vc = vc_ * ec - vy * st * so + vd * ed
-        vn = -vc_ * st - vy * ct * so + vd * ct * co
-        speed = ops.sqrt(vc * vc + vn * vn)
-        lift, drag = flier.coefficients(ops, ops.arctan2(-vn, vc))
-        along = -speed * (lift * vn + drag * vc) * pressure_area
-        across = speed * (lift * vc - drag * vn) * pressure_area
+        strip = strip_at(ops, lane, wing)
+        (ec, ec1, ec2), (ed, ed1, ed2), place = strip.chord_c, strip.chord_d, strip.place
+        along, across = air_load(ops, flier, wing, strip, body_c, body_d, rate)
+        (_, co, *_), (st, ct, *_) = strip.flap, strip.pitch
         fc, fd = along * ec - across * st, along * ed + across * ct * co
 
         # Mass, at mid-chord with its second moment along the chord.
+        bd = above + place["d"]
         mc, mc1, mc2 = ahead - chord / 4 * ec, -chord / 4 * ec1, -chord / 4 * ec2
         md, md1, md2 = bd - chord / 4 * ed, place["d1"] - chord / 4 * ed1, place["d2"] - chord / 4 * ed2
         terms = (

@@ -6,14 +6,17 @@ from types import SimpleNamespace
 
 import numpy as np
 from cases import Case, first_start
+from hinge_work import HingeWork, hinge_work
 from physics import NUMPY, Flier, accelerations
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
 from wingbeat.flights import state_rates
 from wingbeat.jax64 import jax
+from wingbeat.orbits.beat import flown_beat
 
 _rates = jax.jit(state_rates)
+OURS = "u_rate", "w_rate", "pitch_acceleration", *HingeWork._fields
 SCALARS = SimpleNamespace(**vars(NUMPY) | {"total": lambda strip: strip})
 
 
@@ -41,7 +44,7 @@ def refly(problem: wb.OrbitProblem, unknowns: np.ndarray) -> tuple[float, float]
 
 
 def model_gap(case: Case, points: int = 50) -> float:
-    """Return the largest relative gap between the peers' accelerations and wingbeat's at random states."""
+    """Return the largest relative gap of accelerations, torques and powers to wingbeat's at random states."""
     problem = case.problem()
     ways = (NUMPY, Flier(problem, one_by_one=False)), (SCALARS, Flier(problem, one_by_one=True))
     random = np.random.default_rng(0)
@@ -52,8 +55,11 @@ def model_gap(case: Case, points: int = 50) -> float:
         values[4] = first_start(problem)[4]
         phase, (psi, u, w, q) = random.uniform(), values[:4]
         beat = problem.wingbeat(values)
-        ours = np.asarray(_rates(problem.model, beat, phase, np.array([0.0, 0.0, psi, u, w, q])))[3:]
+        flown = flown_beat(problem.model, beat, np.array([phase]), values[None, :4], (problem.speed, problem.climb))
+        ours = np.array([getattr(flown, name)[0] for name in OURS])
         for ops, flier in ways:
-            theirs = np.array(accelerations(ops, flier, vars(beat), phase, psi, u, w, q))
+            bent = accelerations(ops, flier, vars(beat), phase, psi, u, w, q)
+            work = hinge_work(ops, flier, vars(beat), phase, (psi, u, w, q), bent)
+            theirs = np.array([*bent, *work])
             worst = max(worst, float(np.abs((theirs - ours) / (1 + np.abs(ours))).max()))
     return worst

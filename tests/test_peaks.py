@@ -1,10 +1,13 @@
-"""The peak of a sampled path: smooth in the samples, its weights its derivative, and near the true one."""
+"""The peak of a sampled path: smooth in the samples, its derivative exact, and near the true one."""
 
 import numpy as np
 import pytest
 
+from wingbeat.jax64 import jax
+from wingbeat.orbits.peaks import PARTS, highest, peaks, spread
 from wingbeat.orbits.transcription import peak_weights
 
+PEAKS = jax.jit(peaks)
 PHASE = np.linspace(0.0, 1.0, 33)
 
 
@@ -36,3 +39,31 @@ def test_the_weights_are_the_derivative(shift):
 def test_a_level_path_has_its_level_as_peak():
     level = np.full(33, 0.2)
     assert peak_weights(level) @ level == pytest.approx(0.2)
+
+
+def test_peaks_of_quarters_slide_along_the_curve_and_through_the_ends():
+    fine = 2 * np.pi * np.linspace(0, 1, 100_001)
+    true = (np.cos(fine) + 0.3 * np.sin(2 * fine + 1)).max()
+    found = np.array([PEAKS(path(s)).max() for s in np.linspace(0, 1, 1001)])
+    assert np.abs(found - true).max() < 2e-3
+    assert np.abs(np.diff(found)).max() < 1e-4
+
+
+def test_the_peaks_of_several_series_have_their_derivatives():
+    series = np.stack([path(0.013), -path(0.4)], axis=1)
+    found = jax.jit(jax.jacobian(peaks))(series).reshape(PARTS, 2, -1)
+    step = 1e-6
+    for i, moved in enumerate(np.eye(series.size).reshape(-1, *series.shape)):
+        change = (PEAKS(series + step * moved) - PEAKS(series - step * moved)) / (2 * step)
+        assert np.abs(change - found[..., i]).max() < 1e-8
+
+
+def test_a_peak_is_never_below_the_samples_and_a_level_series_has_its_level():
+    assert (peaks(path(0.1)) >= highest(path(0.1))).all()
+    assert np.array_equal(peaks(np.full(33, 0.2)), np.full(PARTS, 0.2))
+
+
+def test_the_largest_spread_is_the_range():
+    fine = np.cos(2 * np.pi * np.linspace(0, 1, 257))
+    assert spread(fine).shape == (257, PARTS)
+    assert float(spread(fine).max()) == pytest.approx(2.0, rel=1e-4)

@@ -161,7 +161,7 @@ def test_functions_of_ones_own():
     [
         (lambda beat: beat.power, "fails: AttributeError"),
         (lambda beat: float(beat.u[0]), "fails: ConcretizationTypeError"),
-        (lambda beat: beat.alpha, "one value for each phase"),
+        (lambda beat: beat.alpha.T, "one value for each phase"),
         (lambda beat: "much", "fails: TypeError"),
     ],
 )

@@ -8,7 +8,7 @@ from wingbeat.orbits.beat import beat_reader, flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
-from wingbeat.orbits.readings import PARTS, Readings
+from wingbeat.orbits.readings import Readings
 from wingbeat.orbits.shooting import Flown
 
 # An unknown this near to a bound, as a share of its range, is at the bound; margins likewise, in their own scale.
@@ -25,7 +25,7 @@ class Asked:
         self._readings = Readings(objective, problem.subject_to, problem.aero.strips)
         self._reader = beat_reader(problem.model, problem.species.wingbeat, problem.free, self._velocity)
         self.objective_rows = self._readings.counts[0] if objective else 0
-        self.has_peaks_to_lower = self.objective_rows == PARTS
+        self.has_peaks_to_lower = self.objective_rows > 1
         self.count = sum(self._readings.counts)
         self.limits = self._readings.limits
 
@@ -45,7 +45,7 @@ class Asked:
         beat = flown_beat(
             self._problem.model, wingbeat, certificate.phase, certificate.states[:, 2:], self._velocity
         )
-        return self._readings.of(beat)
+        return self._readings.of(beat, sampled=True)
 
     def rows_of(self, place: int) -> range:
         """Return which of the constraints' rows are those of one of them, by its place among them."""

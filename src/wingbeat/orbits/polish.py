@@ -116,9 +116,9 @@ class Conditions:
     def __init__(self, jacobian: np.ndarray) -> None:
         rows = jacobian.shape[0]
         left, sizes, right = np.linalg.svd(jacobian)
-        self.null = right[rows:].T
         # Conditions that say the same twice have no size of their own.
         told = sizes > _SAME_TWICE * sizes[0]
+        self.null = right[told.sum() :].T
         self._inverse = right[:rows][told].T @ (left[:, told] / sizes[told]).T
 
     def shortest(self, values: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ import numpy as np
 from wingbeat.errors import FaultList
 from wingbeat.jax64 import jnp
 from wingbeat.orbits.beat import Beat
+from wingbeat.orbits.peaks import spread
 from wingbeat.orbits.springs import SpringCost
 
 
@@ -40,12 +41,12 @@ class Frequency:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number read off one beat, or a series along it of which the largest value counts.
+    """A number read off one beat, or a series along it, or several in columns, of which the largest value counts.
 
     Parameters
     ----------
     name : what it is called in records and messages.
-    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array along the phases.
+    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or (K, m) of K phases.
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
 
@@ -162,8 +163,8 @@ def _cost_of_transport(beat: Beat) -> Any:
     return beat.mean_positive(beat.hinge_power) / (beat.weight * beat.speed)
 
 
-def _above_least_pitch(beat: Beat) -> Any:
-    return beat.body_pitch - jnp.min(beat.body_pitch)
+def _pitch_spread(beat: Beat) -> Any:
+    return spread(beat.body_pitch)
 
 
 def _roughness(beat: Beat) -> Any:
@@ -182,7 +183,7 @@ QUANTITIES = {
         Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
         Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
         Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
-        Quantity("body_pitch_range", _above_least_pitch, "rad", 0.1),
+        Quantity("body_pitch_range", _pitch_spread, "rad", 0.1),
         Quantity("roughness", _roughness, "m s-2", 5.0),
     )
 }

@@ -1,13 +1,13 @@
 """What a problem asks of the beat, read off flights: values with derivatives, in the optimiser's scale.
 
 A quantity that is a number has one row. One that is a series has a row for the largest value in each quarter of the
-beat: a path seldom has two peaks in one quarter, and a search that saw the largest only would go to and fro between
-peaks of equal height.
+beat; one of several series, in columns, has those of each.
 """
 
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,9 +18,9 @@ from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.jax64 import jax, jnp
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.limits import Constraint
+from wingbeat.orbits.peaks import PARTS, highest, peaks
 from wingbeat.orbits.quantities import Quantity
 
-PARTS = 4
 # Of a beat that is only looked at for its shapes.
 _SAMPLES = 1 + 2 * PARTS
 
@@ -31,10 +31,13 @@ def _rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
 
 
 def _of_one(value: Any) -> Any:
-    if value.ndim == 0:
-        return value[None]
-    part = (value.shape[0] - 1) // PARTS
-    return jnp.stack([jnp.max(value[i * part : (i + 1) * part + 1]) for i in range(PARTS)])
+    return peaks(value).ravel() if value.ndim else value[None]
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _sampled_rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+    values = [jnp.asarray(function(beat), dtype=float) for function in functions]
+    return tuple(highest(value).ravel() if value.ndim else value[None] for value in values)
 
 
 @functools.partial(jax.jit, static_argnums=0)
@@ -66,14 +69,14 @@ class Readings:
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
 
-    def of(self, beat: Beat) -> np.ndarray:
-        """Return the rows.
+    def of(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
+        """Return the rows, of a series the peaks of a smooth curve through it, or its highest samples.
 
         Raises
         ------
         InvalidInputError : a quantity gives what is no number where the beat is finite.
         """
-        rows = [np.asarray(a) for a in _rows(self._functions, beat)]
+        rows = [np.asarray(a) for a in (_sampled_rows if sampled else _rows)(self._functions, beat)]
         for name, row in zip(self._names, rows, strict=True):
             if not np.isfinite(row).all() and all(np.isfinite(a).all() for a in beat):
                 fix = "its function must be finite for every flight"
@@ -87,7 +90,8 @@ class Readings:
 
 
 def _row_count(function: Callable[[Beat], Any], strips: int) -> int:
-    return PARTS if jax.eval_shape(function, _any_beat(strips)).shape else 1
+    shape = jax.eval_shape(function, _any_beat(strips)).shape
+    return PARTS * math.prod(shape[1:]) if shape else 1
 
 
 def _any_beat(strips: int) -> Beat:
@@ -110,7 +114,8 @@ def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]
             reason = f"fails: {type(error).__name__}: {error}".split("\n")[0]
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))
             continue
-        if getattr(found, "shape", None) not in ((), (_SAMPLES,)):
+        shape = getattr(found, "shape", None)
+        if shape is None or shape[:1] not in ((), (_SAMPLES,)) or len(shape) > 2:
             rule = "must give a number or one value for each phase"
-            faults.append(Fault(where, getattr(found, "shape", type(found).__name__), rule, fix))
+            faults.append(Fault(where, shape if shape is not None else type(found).__name__, rule, fix))
     return faults

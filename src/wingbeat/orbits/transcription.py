@@ -114,6 +114,11 @@ class Transcription:
         return self._points[key]
 
     def _scaled(self, flown: Flown, unknowns: np.ndarray) -> Point:
+        # A flight that runs off may overflow here; what is wild is tamed below.
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._tamed(flown, unknowns)
+
+    def _tamed(self, flown: Flown, unknowns: np.ndarray) -> Point:
         problem, scale = self.problem, self.unknowns.scale
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE

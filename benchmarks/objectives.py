@@ -1,6 +1,7 @@
 """Can 30 random restarts, or CasADi and IPOPT, better the optima of each objective and within each limit?
 
-Run from the root of a clone. Each problem is a line of JSON as it is done, of which the other makes tables::
+Run from the root of a clone. Each problem is a line of JSON as it is done, of which the other makes tables;
+those that the file has already are not done again::
 
     uv run --group bench python benchmarks/objectives.py [--animals bat] [--only peak_power] -o found.jsonl
     uv run --group bench python benchmarks/objectives_table.py found.jsonl
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,7 +31,7 @@ BETTER = 1e-3
 class Solver:
     """Solves a problem once with so many starts."""
 
-    def __init__(self, starts: int) -> None:
+    def __init__(self, starts: int | None) -> None:
         self.starts = starts
         self._known: dict[tuple, Solution] = {}
 
@@ -38,7 +40,7 @@ class Solver:
         if asked not in self._known:
             limits = [limit] if limit else []
             problem = wb.OrbitProblem(wb.load_species(animal), speed=speed, minimise=minimise, subject_to=limits)
-            self._known[asked] = find_orbit(problem, self.starts, advise=False)
+            self._known[asked] = find_orbit(problem, self.starts, threads=1, advise=False)
         return self._known[asked]
 
 
@@ -68,7 +70,7 @@ def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: int, i
     spent = {"solved": best.seconds}
     row = dict(zip(("animal", "speed", "minimise", "limit"), asked, strict=True)) | {
         "unit": best.problem.minimise.unit,
-        "starts": solver.starts,
+        "starts": best.starts,
         "status": best.status.value,
         "objective": best.objective,
         "closure": max(map(abs, best.closure.values())),
@@ -82,8 +84,23 @@ def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: int, i
         least = min((value for value in others if value is not None), default=best.objective)
         row["lower_by"] = (best.objective - least) / abs(best.objective)
         if row["lower_by"] > BETTER:
-            row["more_starts"] = {n: Solver(n)(*asked).objective for n in MORE_STARTS if n > solver.starts}
+            row["more_starts"] = _with_more_starts(asked, best.starts, least + BETTER * abs(least))
     return row | {"seconds": spent | {"all": time.perf_counter() - begun}}
+
+
+def _with_more_starts(asked: tuple[str, float, str, str], starts: int, enough: float) -> dict[int, float]:
+    """Return what more starts lead to, up to as many as are enough."""
+    found: dict[int, float] = {}
+    for more in MORE_STARTS:
+        if more > starts and min(found.values(), default=math.inf) > enough:
+            found[more] = Solver(more)(*asked).objective
+    return found
+
+
+def done(output: Path) -> set[tuple[str, float, str, str]]:
+    """Return which problems a file has already."""
+    rows = [json.loads(text) for text in output.read_text().splitlines()] if output.exists() else []
+    return {(row["animal"], row["speed"], row["minimise"], row["limit"]) for row in rows}
 
 
 def _timed(function, *given) -> tuple:
@@ -97,10 +114,10 @@ def main() -> None:
     arguments.add_argument("--speeds", type=float, nargs="+", default=[6.0, 10.0, 14.0])
     arguments.add_argument("--only", nargs="+", default=[*QUANTITIES, "flap_amplitude"], help="quantities")
     arguments.add_argument("--of", nargs="+", default=["objectives", "limits"])
-    arguments.add_argument("--starts", type=int, default=6, help="of wingbeat's own search")
+    arguments.add_argument("--starts", type=int, help="of wingbeat's own search; if not given, as many as it makes")
     arguments.add_argument("--restarts", type=int, default=30)
     arguments.add_argument(
-        "--guesses", type=int, default=2, help="random ones of IPOPT, besides wingbeat's optimum"
+        "--guesses", type=int, default=1, help="random ones of IPOPT, besides wingbeat's optimum"
     )
     arguments.add_argument("-o", "--output", type=Path, required=True)
     given = arguments.parse_args()
@@ -115,7 +132,7 @@ def main() -> None:
             ]
             # Problems that differ in numbers only follow one another: IPOPT's statement of them is built once.
             asked += sorted(limited, key=lambda each: each[3].rstrip("0123456789.e-"))
-        for each in asked:
+        for each in (each for each in asked if each not in done(given.output)):
             row = attempt(solver, each, given.restarts, ipopt)
             with given.output.open("a") as file:
                 print(json.dumps(row), file=file)

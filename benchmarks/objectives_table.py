@@ -35,7 +35,7 @@ def line(row: dict) -> str:
         f"{row['objective']:.5g} {row['unit']}",
         f"{100 * row['lower_by']:.2f}",
         _shown(restarts["least"]),
-        f"{restarts['ended_in_an_optimum']} / {restarts['within_a_thousandth']}",
+        f"{restarts['ended_in_an_optimum']} / {restarts.get('as_good', '-')}",
         f"{_shown(min(certified, default=None))} ({len(certified)} of {len(row['by_ipopt'])})",
         _shown(min(own, default=None)),
         f"{row['seconds']['all']:.0f}",

@@ -11,13 +11,15 @@ from typing import Any, NamedTuple
 
 import casadi as cs
 import numpy as np
-from by_casadi import IPOPT
+from by_casadi import IPOPT as FOR_FREQUENCY
 from collocation import Collocation
 from hinge_work import hinge_work
 
 import wingbeat as wb
 
 INTERVALS = 40
+# A guess that has not led to an optimum by then costs more than it is worth.
+IPOPT = {**FOR_FREQUENCY, "max_iter": 250}
 
 
 # The guess of a body's path: of the phases, shape (points, 4).
@@ -65,6 +67,12 @@ class Nlp:
         self.at_most.append((power - part).T / 10.0)
         return part @ self.orbits.weights
 
+    def root(self, mean: Any, scale: float) -> Any:
+        """Return the root of a mean; taken of the mean itself it would fill the Hessian."""
+        root = self._more(cs.sqrt(mean), scale, 0.0)
+        self.at_most.append((mean - root * root) / scale**2)
+        return root
+
     def size(self, torque: Any, scale: float) -> Any:
         """Return the largest size of a series."""
         return self.level(cs.horzcat(torque, -torque), scale)
@@ -85,7 +93,7 @@ class Nlp:
             "peak_flap_torque": lambda: self.size(self.work.flap_torque, 0.1),
             "peak_pitch_torque": lambda: self.size(self.work.pitch_torque, 0.01),
             "body_pitch_range": lambda: self.level(pitch, 0.2) + self.level(-pitch, 0.2),
-            "roughness": lambda: cs.sqrt((self.bent[0] ** 2 + self.bent[1] ** 2) @ weights),
+            "roughness": lambda: self.root((self.bent[0] ** 2 + self.bent[1] ** 2) @ weights, 5.0),
         }
         return measures[name]()
 

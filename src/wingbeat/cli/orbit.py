@@ -83,7 +83,12 @@ def orbit(
             help="Limits to keep: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
         ),
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Number of searches; more find better optima.")] = 6,
+    starts: Annotated[
+        Whole | None,
+        Parameter(
+            help="Number of searches; more find better optima. 6 if not given, 12 with limits or for powers."
+        ),
+    ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     payload: Payload = 0.0,
@@ -206,6 +211,6 @@ def _spread(found: Orbit, beat: FilmedBeat) -> Spread:
         return orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
 
 
-def _solve(problem: OrbitProblem, starts: int, seed: int) -> Orbit:
+def _solve(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
     with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
         return solve_orbit(problem, starts, seed, progress)

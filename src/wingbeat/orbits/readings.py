@@ -116,6 +116,6 @@ def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]
             continue
         shape = getattr(found, "shape", None)
         if shape is None or shape[:1] not in ((), (_SAMPLES,)) or len(shape) > 2:
-            rule = "must give a number or one value for each phase"
+            rule = "must give a number, or one value or row for each phase"
             faults.append(Fault(where, shape if shape is not None else type(found).__name__, rule, fix))
     return faults

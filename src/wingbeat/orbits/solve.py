@@ -27,7 +27,7 @@ from wingbeat.orbits.search import (
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.shortage import NOTHING, Shortage
 from wingbeat.orbits.solution import SAME, Optimum, Solution, Status
-from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
@@ -59,7 +59,7 @@ def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None
 
 def find_orbit(
     problem: OrbitProblem,
-    starts: int = 6,
+    starts: int | None = None,
     seed: int = 0,
     progress: Progress | None = None,
     threads: int | None = None,
@@ -71,7 +71,7 @@ def find_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches.
+    starts : number of searches; 6 if not given, 12 where objective or limits are read off the beat.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
         of which counts as one more.
@@ -88,6 +88,7 @@ def find_orbit(
     ------
     InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
+    starts = usual_starts(problem) if starts is None else starts
     most = MOST_STARTS if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()

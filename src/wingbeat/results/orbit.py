@@ -20,6 +20,7 @@ from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
+from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import orbit_record
@@ -151,7 +152,9 @@ class Orbit:
         save_dataset(self.dataset, path)
 
 
-def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress: Progress | None = None) -> Orbit:
+def solve_orbit(
+    problem: OrbitProblem, starts: int | None = None, seed: int = 0, progress: Progress | None = None
+) -> Orbit:
     """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
 
     A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
@@ -160,7 +163,8 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches from different starts; more find better optima.
+    starts : number of searches from different starts; more find better optima. If not given 6, or 12 where the
+        objective or a limit is read off the beat: such problems have more optima.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
 
@@ -176,6 +180,7 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
+    starts = usual_starts(problem) if starts is None else starts
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flight_loads.loaded:  # read or compiled while the search goes on
@@ -187,7 +192,7 @@ def solve_orbit(problem: OrbitProblem, starts: int = 6, seed: int = 0, progress:
 
 def solve_orbits(
     problems: Sequence[OrbitProblem],
-    starts: int = 6,
+    starts: int | None = None,
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
@@ -225,7 +230,7 @@ def solve_orbits(
     ['converged', 'converged', 'converged']
     """
     found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise)
-    return [Orbit.of(solution, starts, seed) for solution in found]
+    return [Orbit.of(s, usual_starts(s.problem) if starts is None else starts, seed) for s in found]
 
 
 def solve_series(

@@ -57,6 +57,8 @@ if TYPE_CHECKING:
     from wingbeat.species import load_species as load_species
     from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
+    from wingbeat.studies.study import Study as Study
+    from wingbeat.studies.study import study as study
     from wingbeat.vehicle import Air as Air
     from wingbeat.vehicle import Body as Body
     from wingbeat.vehicle import Vehicle as Vehicle
@@ -83,6 +85,7 @@ _HOME = {
     "SpringPower": "orbits.quantities",
     "State": "model",
     "Status": "orbits.solution",
+    "Study": "studies.study",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
@@ -109,6 +112,7 @@ _HOME = {
     "solve_orbits": "results.orbit",
     "solve_series": "results.orbit",
     "species_names": "species",
+    "study": "studies.study",
     "uncertainty_by_samples": "results.sensitivities",
 }
 _MODULES = ("aero", "experiment", "plots")

@@ -33,6 +33,7 @@ COMMANDS = {
     "uncertainty": "Say how sure an orbit's frequency and power are.",
     "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
     "curve": "Find power and frequency along speed, and the characteristic speeds.",
+    "study": "Solve many problems, a grid or a cloud of them: in pieces that survive, nothing lost.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the animals in the box, or a file of your own, with the source of every number.",
     "polar": "Print or save the lift and drag coefficients over angle of attack.",

@@ -5,6 +5,10 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from wingbeat.studies.driver import Tally
 
 
 @contextlib.contextmanager
@@ -24,3 +28,36 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
             bar.update(task, completed=done, total=total)
 
         yield update
+
+
+@contextlib.contextmanager
+def study_bar() -> Iterator[Callable[[Tally], None] | None]:
+    """Give a function to tell a study's tally to, which shows it on stderr; None if that is no terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+    columns = (BarColumn(), MofNCompleteColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=None)
+
+        def update(tally: Tally) -> None:
+            left = tally.seconds_left
+            parts = [f"{tally.certified} converged", f"{tally.uncertified} infeasible", f"{tally.failed} failed"]
+            parts += [f"{tally.rate:.1f}/s", "" if left is None else f"{duration(left)} left"]
+            bar.update(task, completed=tally.done, total=tally.total, description=", ".join(filter(None, parts)))
+
+        yield update
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that suits it.
+
+    >>> duration(40), duration(600), duration(9000)
+    ('40 s', '10 min', '2.5 h')
+    """
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"

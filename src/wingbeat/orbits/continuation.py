@@ -61,10 +61,22 @@ def find_series(
 
 def _hand_on(best: list[Solution], giver: int, taker: int) -> bool:
     """Search from a neighbour's answer; put it in the place of one's own if it is better."""
-    own = best[taker]
+    best[taker], better = hand_on(best[giver], best[taker])
+    return better
+
+
+def hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
+    """Return one's own answer, or that of a search from a neighbour's if it is better, and whether it is.
+
+    Parameters
+    ----------
+    giver : the certified answer of a problem that is much alike.
+    own : the answer so far.
+    """
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - _BETTER * abs(own.objective)
-    found = follow(own.problem, best[giver].unknowns, below)
-    best[taker] = dataclasses.replace(own, starts=own.starts + 1) if found is None else better_of(own, found)
-    return found is not None
+    found = follow(own.problem, giver.unknowns, below)
+    if found is None:
+        return dataclasses.replace(own, starts=own.starts + 1), False
+    return better_of(own, found), True

@@ -79,16 +79,38 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
     """
-    known, vehicle, aero = inputs["species"], inputs["vehicle"], inputs["aero"]
-    wing = dict(vehicle["wing"])
-    air = Air(**inputs["air"])
-    species = Species(
+    species = species_from(inputs)
+    return OrbitProblem(
+        species,
+        speed=inputs["speed"],
+        climb=inputs["climb"],
+        aero=aero_from(inputs["aero"]),
+        free=tuple(inputs["free"]),
+        bounds=_pairs(inputs["bounds"]),
+        minimise=_brought_back(named_objective, inputs["objective"]),
+        subject_to=[
+            Constraint(_brought_back(named_quantity, c["quantity"]), c["limit"], c["at_most"])
+            for c in inputs["constraints"]
+        ],
+        air=species.air,
+    )
+
+
+def species_from(inputs: dict[str, Any]) -> Species:
+    """Set up the species of what `inputs_of` described; its reasons and alternatives are not in it.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
+    """
+    known, vehicle = inputs["species"], inputs["vehicle"]
+    return Species(
         name=known["name"],
         common_name=known["common_name"],
         scientific_name=known["scientific_name"],
-        vehicle=Vehicle(Body(**vehicle["body"]), Wing(**wing)),
+        vehicle=Vehicle(Body(**vehicle["body"]), Wing(**vehicle["wing"])),
         wingbeat=Wingbeat(**inputs["stock_wingbeat"]),
-        air=air,
+        air=Air(**inputs["air"]),
         free=tuple(known["free"]),
         bounds=_pairs(known["bounds"]),
         guessed_bounds=frozenset(known["guessed_bounds"]),
@@ -98,20 +120,16 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         alternatives={},
         warnings=tuple(known["warnings"]),
     )
-    return OrbitProblem(
-        species,
-        speed=inputs["speed"],
-        climb=inputs["climb"],
-        aero=BladeElement(_coefficients(aero), aero["strips"], aero["force_point"]),
-        free=tuple(inputs["free"]),
-        bounds=_pairs(inputs["bounds"]),
-        minimise=_brought_back(named_objective, inputs["objective"]),
-        subject_to=[
-            Constraint(_brought_back(named_quantity, c["quantity"]), c["limit"], c["at_most"])
-            for c in inputs["constraints"]
-        ],
-        air=air,
-    )
+
+
+def aero_from(aero: dict[str, Any]) -> BladeElement:
+    """Set up the air loads from the table ``aero`` of `inputs_of`.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
+    """
+    return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"])
 
 
 def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:

@@ -14,7 +14,19 @@ from wingbeat.errors import FaultList
 from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, SpeciesFile
 
-__all__ = ["NOTHING", "Shown", "check_shape", "check_value", "dotted", "has_shape", "shown", "spoken", "suggest"]
+__all__ = [
+    "MAX_FAULTS",
+    "NOTHING",
+    "Shown",
+    "check_shape",
+    "check_value",
+    "dotted",
+    "has_shape",
+    "rule_of",
+    "shown",
+    "spoken",
+    "suggest",
+]
 
 MAX_FAULTS = 100
 
@@ -100,7 +112,7 @@ def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
     found = error.errors(include_url=False)
     for fault in found[:MAX_FAULTS]:
         value, loc = fault["input"], fault["loc"]
-        rule, fix = _rule(fault["type"], value, fault.get("ctx", {}))
+        rule, fix = rule_of(fault["type"], value, fault.get("ctx", {}))
         if fault["type"] == "missing":
             value = NOTHING
         elif fault["type"] == "extra_forbidden":
@@ -110,7 +122,8 @@ def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
         faults.add("file", Shown(f"{len(found)} faults"), "too many to list", "is it a species file?")
 
 
-def _rule(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
+def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
+    """Return rule and fix for one of pydantic's kinds of fault."""
     match kind:
         case "missing":
             return "must be given", ""

@@ -1,0 +1,144 @@
+"""``wingbeat study``: run a study, look at it, take its table and its figure."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_INTERRUPTED, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import Whole, check_outputs
+from wingbeat.cli.progress import duration, study_bar
+from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat.studies.driver import Tally
+    from wingbeat.studies.study import Study, Summary
+
+study = App(
+    name="study", help="Solve many problems, a grid or a cloud of them: in pieces that survive, nothing lost."
+)
+
+EXIT_TERMINATED = 143  # 128 + SIGTERM
+# Failures that are listed by name.
+_LISTED = 10
+
+File = Annotated[Path, Parameter(help="The study file, .toml; its store lies beside it.")]
+Output = Annotated[Path | None, Parameter(name=["--output", "-o"], help="The file to write.")]
+
+
+@study.default
+@study.command(name="run")
+def run(
+    file: File,
+    *,
+    processes: Annotated[
+        Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; as many as there are cores.")
+    ] = None,
+    timeout: Annotated[float, Parameter(help="Longest time for one point [s].")] = 600.0,
+    retry_failed: Annotated[
+        bool, Parameter(negative="", help="Try points again that failed: errors, crashes, time-outs.")
+    ] = False,
+    allow_failures: Annotated[
+        bool, Parameter(negative="", help="Exit with 0 though points are not certified.")
+    ] = False,
+) -> int:
+    """Solve what has no answer yet, and keep every answer in the store beside the file.
+
+    Ctrl-C finishes the batches in flight, a second one stops at once; run it again and it goes on from there.
+    Exit codes: 0 all certified, 2 bad input, 3 some points are not, 130 interrupted, 143 terminated.
+    Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
+
+    Examples: wingbeat study designs.toml; wingbeat study run designs.toml --processes 8 --retry-failed
+    """
+    from wingbeat.studies.driver import listening
+    from wingbeat.studies.engine import LocalProcesses
+    from wingbeat.studies.study import check_run, cores
+
+    check_run(processes, timeout)
+    asked = _read(file)
+    processes = processes or cores()
+    print(_announcement(asked, processes), file=sys.stderr)
+    with listening(_say_stopping) as stop:
+        with study_bar() as progress:
+            tally = asked.run_on(LocalProcesses(processes, timeout), stop, retry_failed, progress)
+        print(_told(tally), file=sys.stderr)
+    _print_summary(asked, asked.status())
+    if stop.level:
+        return EXIT_TERMINATED if stop.by == signal.SIGTERM else EXIT_INTERRUPTED
+    return EXIT_GOOD if tally.certified == tally.total or allow_failures else EXIT_NOT_CERTIFIED
+
+
+@study.command
+def status(file: File) -> None:
+    """Say how many points have which status, and why those without a certified orbit have none."""
+    asked = _read(file)
+    _print_summary(asked, asked.status())
+
+
+@study.command
+def export(file: File, *, output: Output = None) -> None:
+    """Write a table with a row for each point: .nc, .csv or .parquet; columns are the record's dotted names."""
+    from wingbeat.studies.table import check_table_name
+
+    faults = FaultList()
+    if output is None:
+        faults.add("--output", None, "is missing", "give a file: -o table.csv, table.nc or table.parquet")
+    else:
+        check_table_name(faults, "--output", output)
+    faults.raise_if_any()
+    assert output is not None
+    check_outputs(output)
+    _read(file).export(output)
+    print(f"wrote {output}", file=sys.stderr)
+
+
+def _read(file: Path) -> Study:
+    from wingbeat.studies.study import study as plan
+
+    return plan(file)
+
+
+def _announcement(asked: Study, processes: int) -> str:
+    """Return how many points there are, and about how long they will take."""
+    total, summary = len(asked), asked.status()
+    waiting = summary.waiting if summary.total == total else total
+    seconds = asked.estimate(processes)
+    many = "processes" if processes > 1 else "process"
+    return f"{total} points, {waiting} without an answer: about {duration(seconds)} with {processes} {many}"
+
+
+def _say_stopping(level: int) -> None:
+    words = "finishing what is in flight; once more stops at once" if level == 1 else "stopping"
+    print(words, file=sys.stderr)
+
+
+def _told(tally: Tally) -> str:
+    return f"{tally.here} points solved, {tally.rate:.1f} a second" if tally.here else "nothing left to solve"
+
+
+def _print_summary(asked: Study, summary: Summary) -> None:
+    """Print counts by status and the first points that are not certified, with their reasons."""
+    from wingbeat.studies.outcome import STATUSES
+
+    print(f"{summary.total} points in {asked.store}")
+    for name in (*STATUSES, "waiting"):
+        if count := summary.counts.get(name, 0):
+            print(f"  {name:<14}{count:>9}")
+    if summary.kept:
+        print(f"  {summary.kept} answers of points that the study no longer asks for are kept")
+    if summary.changed:
+        print("  the study has changed since it was run: these are the points as they were")
+    troubled = sum(summary.counts.get(name, 0) for name in STATUSES[1:])
+    for row in asked.uncertified(_LISTED) if troubled else []:
+        where = ", ".join(
+            f"{name} = {value:.5g}" if isinstance(value, float) else f"{name} = {value}"
+            for name, value in row.items()
+            if name not in ("status", "reason")
+        )
+        print(f"{row['status']}: {where}: {row['reason']}")
+    if troubled > _LISTED:
+        print(f"... and {troubled - _LISTED} more, all of them in the table of `wingbeat study export`")

@@ -1,0 +1,252 @@
+"""The driver of a study: hands out what has no answer yet, and keeps every answer before it asks for more."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from wingbeat.studies.engine import Ended, Engine
+from wingbeat.studies.outcome import CERTIFIED, FAILED, UNCERTIFIED, Outcome, failed
+from wingbeat.studies.store import Store, Waiting
+from wingbeat.studies.work import Unit
+
+__all__ = ["Progress", "Stop", "Tally", "drive", "listening"]
+
+# Seconds of work that make a batch: long beside what handing it out costs, short beside a user's patience.
+_BATCH_SECONDS = 1.5
+_MOST = 256
+# Processes that a point may take along, by how they ended, before it is given up: a kill from outside is no fault
+# of the point, and hardly meets the same one three times.
+_TRIES = {"crashed": 3, "timeout": 2}
+
+
+@dataclass
+class Stop:
+    """Whether to stop: 1 after the batches in flight, 2 now; `by` is the signal that said so."""
+
+    level: int = 0
+    by: int = 0
+
+    def ask(self, level: int, by: int = signal.SIGINT) -> None:
+        """Ask to stop; whoever asked for more before is not taken back."""
+        if level > self.level:
+            self.level, self.by = level, by
+
+
+@contextmanager
+def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
+    """Let SIGINT ask to stop, a second one and SIGTERM to stop now; `told` hears the level that was asked for."""
+    stop = Stop()
+    if threading.current_thread() is not threading.main_thread():
+        yield stop
+        return
+
+    def hear(number: int, frame: Any) -> None:
+        stop.ask(2 if number != signal.SIGINT else stop.level + 1, number)
+        if told is not None:
+            told(stop.level)
+
+    before = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@dataclass
+class Tally:
+    """How far a run is.
+
+    Parameters
+    ----------
+    total : points of the study.
+    counts : points by status.
+    here : points that this run has solved.
+    begun : when it began, in seconds of a monotonic clock.
+    """
+
+    total: int
+    counts: dict[str, int]
+    here: int = 0
+    begun: float = field(default_factory=time.monotonic)
+
+    @property
+    def done(self) -> int:
+        """Points with an answer."""
+        return sum(count for status, count in self.counts.items() if status != "waiting")
+
+    @property
+    def certified(self) -> int:
+        """Points with a certified orbit."""
+        return self.counts.get(CERTIFIED, 0)
+
+    @property
+    def failed(self) -> int:
+        """Points without an answer of the search: errors, crashes, time-outs."""
+        return sum(self.counts.get(status, 0) for status in FAILED)
+
+    @property
+    def uncertified(self) -> int:
+        """Points that were searched in vain."""
+        return sum(self.counts.get(status, 0) for status in UNCERTIFIED)
+
+    @property
+    def rate(self) -> float:
+        """Points a second in this run."""
+        return self.here / max(time.monotonic() - self.begun, 1e-9)
+
+    @property
+    def seconds_left(self) -> float | None:
+        """At this rate, None before there is one."""
+        return (self.total - self.done) / self.rate if self.here else None
+
+    def add(self, outcomes: list[Outcome]) -> None:
+        """Count new outcomes of points that waited."""
+        for outcome in outcomes:
+            self.counts[outcome.status] = self.counts.get(outcome.status, 0) + 1
+        self.here += len(outcomes)
+        self.counts["waiting"] = self.counts.get("waiting", 0) - len(outcomes)
+
+
+Progress = Callable[[Tally], None]
+
+
+class _Job(NamedTuple):
+    """A unit on its way: which of its points are asked for, and how often it was lost."""
+
+    unit: Unit
+    wanted: frozenset[str]
+    losses: int = 0
+
+
+class _Queue:
+    """Jobs in the order in which they are handed out: those that were lost one by one, then those of the plan."""
+
+    def __init__(self, waiting: Iterator[Waiting], workers: int, points: int) -> None:
+        self._waiting = waiting
+        self._lost: deque[_Job] = deque()
+        self._ahead: deque[_Job] = deque()
+        self._workers = workers
+        self._left = points
+        self._seconds: float | None = None
+
+    def learn(self, points: int, seconds: float) -> None:
+        """Note how long points took."""
+        if points:
+            mean = seconds / points
+            self._seconds = mean if self._seconds is None else 0.7 * self._seconds + 0.3 * mean
+
+    def give_back(self, jobs: list[_Job]) -> None:
+        """Take jobs back whose process was lost, to be handed out one by one."""
+        self._lost.extend(jobs)
+
+    def take(self) -> list[_Job]:
+        """Return the next batch, empty where nothing waits."""
+        if self._lost:
+            return [self._lost.popleft()]
+        # Small ones first, to see how long a point takes; small ones last, so that all processes end together.
+        wanted = 1 if self._seconds is None else _BATCH_SECONDS / max(self._seconds, 1e-6)
+        wanted = max(1, min(wanted, _MOST, self._left / (2 * self._workers)))
+        batch: list[_Job] = []
+        while sum(len(job.unit.tasks) for job in batch) < int(wanted):
+            found = next(self._waiting, None)
+            if found is None:
+                break
+            batch.append(_Job(found.unit, frozenset(found.wanted)))
+            self._left -= len(found.wanted)
+        return batch
+
+
+def drive(
+    store: Store,
+    engine: Engine,
+    stop: Stop,
+    progress: Progress | None = None,
+    retry_failed: bool = False,
+) -> Tally:
+    """Solve what has no answer in a store, and keep each batch's answers at once.
+
+    Parameters
+    ----------
+    store : holds the plan; this is its only writer.
+    engine : does the work; it is closed at the end, however that comes.
+    stop : asked between batches.
+    progress : called with the tally whenever it changes.
+    retry_failed : points that failed before are tried again.
+    """
+    run = store.begin_run()
+    counts = store.counts()
+    tally = Tally(sum(counts.values()), counts)
+    if retry_failed:
+        for status in FAILED:
+            counts["waiting"] = counts.get("waiting", 0) + counts.pop(status, 0)
+    jobs = _Queue(store.waiting(run if retry_failed else 0), engine.workers, counts.get("waiting", 0))
+    flying: dict[int, list[_Job]] = {}
+    number = 0
+    try:
+        while True:
+            while stop.level == 0 and engine.free > 0 and (batch := jobs.take()):
+                number += 1
+                flying[number] = batch
+                engine.submit(number, [job.unit for job in batch])
+            if not flying or stop.level >= 2:
+                break
+            ended = engine.wait(0.2)
+            if ended is not None:
+                _settle(ended, flying.pop(ended.batch), store, jobs, tally, run)
+            if progress is not None:
+                progress(tally)
+    finally:
+        engine.close()
+    return tally
+
+
+def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: Tally, run: int) -> None:
+    """Keep what a batch gave; of one that was lost hand out the rest again, and give up what was lost too often."""
+    jobs.learn(len(ended.outcomes), sum(outcome.seconds for outcome in ended.outcomes))
+    wanted = frozenset().union(*(job.wanted for job in batch))
+    outcomes = [outcome for outcome in ended.outcomes if outcome.key in wanted]
+    if ended.lost is not None:
+        given_up, again = _after_loss(ended, batch)
+        outcomes += given_up
+        jobs.give_back(again)
+    store.save(outcomes, ended.worker, 1 + max(job.losses for job in batch), run)
+    tally.add(outcomes)
+
+
+def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
+    """Return the points to give up, and the jobs to hand out again.
+
+    The first point that nobody told of is the one to blame. Where an engine tells nothing before a batch's end,
+    each unit goes into a process of its own before any is blamed.
+    """
+    told = {outcome.key for outcome in ended.outcomes}
+    given_up: list[Outcome] = []
+    again: list[_Job] = []
+    blamed = not ended.told and len(batch) > 1
+    for job in batch:
+        left = [task.key for task in job.unit.tasks if task.key not in told and task.key not in job.unit.skip]
+        if not left:
+            continue
+        if blamed:
+            # Of a chain all is asked for again, for an answer hangs on the one before it.
+            again.append(job._replace(wanted=job.wanted - told))
+            continue
+        blamed = True
+        if job.losses + 1 < _TRIES[ended.lost or "crashed"]:
+            again.append(job._replace(wanted=job.wanted - told, losses=job.losses + 1))
+            continue
+        at_fault = left if not ended.told else left[:1]
+        given_up += [failed(key, ended.lost or "crashed", ended.text) for key in at_fault if key in job.wanted]
+        rest = job.wanted - told - set(at_fault)
+        if rest:
+            unit = job.unit._replace(skip=(*job.unit.skip, *at_fault))
+            again.append(_Job(unit, rest))
+    return given_up, again

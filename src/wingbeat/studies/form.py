@@ -1,0 +1,247 @@
+"""The form of a study: what a TOML file, or a Python dictionary of the same keys, may hold."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+
+from wingbeat.errors import FaultList
+from wingbeat.files import read_text, toml_tables
+from wingbeat.species_schema import shown, suggest
+from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
+
+__all__ = ["METHODS", "SPREADS", "Sample", "StudyForm", "Vary", "check_form", "read_form"]
+
+_STRICT = ConfigDict(strict=True, extra="forbid")
+METHODS = ("sobol", "latin-hypercube")
+# How the values of a varied parameter may be given.
+SPREADS = ("grid", "relative", "list", "range", "relative_range")
+
+
+def _listed(value: Any) -> Any:
+    return value if isinstance(value, list) else [value]
+
+
+def _twice_listed(value: Any) -> Any:
+    """Return limits as a list of sets of limits: one text is a set of one, a list of texts one set."""
+    listed = _listed(value)
+    return listed if listed and all(isinstance(item, list) for item in listed) else [listed]
+
+
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Text = Annotated[str, Field(min_length=1)]
+_Some = Field(min_length=1)
+_Texts = Annotated[list[_Text], BeforeValidator(_listed), _Some]
+_Numbers = Annotated[list[_Finite], BeforeValidator(_listed), _Some]
+_Counts = Annotated[list[int], BeforeValidator(_listed), _Some]
+_Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
+_Values = Annotated[list[Any], _Some]
+
+
+class Vary(BaseModel):
+    """The values of one varied parameter: exactly one of the five."""
+
+    model_config = _STRICT
+    # Named otherwise than in the file where Python has the name already.
+    grid: _Values | None = None
+    relative: Annotated[list[_Finite], _Some] | None = None
+    rows: _Values | None = Field(default=None, alias="list")
+    ends: _Pair | None = Field(default=None, alias="range")
+    relative_range: _Pair | None = None
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """Which of the five are given."""
+        return tuple(self.model_dump(by_alias=True, exclude_none=True))
+
+    @property
+    def how(self) -> str:
+        """Which of them it is, once there is exactly one."""
+        return self.given[0]
+
+    @property
+    def values(self) -> list[Any]:
+        """The values, factors or ends that are given."""
+        return self.model_dump(by_alias=True)[self.how]
+
+
+class Sample(BaseModel):
+    """How ranges are sampled."""
+
+    model_config = _STRICT
+    n: int
+    method: str = "sobol"
+    seed: int | None = None
+
+
+class StudyForm(BaseModel):
+    """A study. Every key above `vary` may be a list, and lists multiply; one limit set or ``free`` is a list."""
+
+    model_config = _STRICT
+    species: _Texts
+    aero: _Texts = Field(default=["su-fan"])
+    extension: _Texts = Field(default=["mirrored"])
+    blend_width_deg: _Numbers = Field(default=[1.0])
+    strips: _Counts = Field(default=[10])
+    force_point: _Texts = Field(default=["quarter-chord"])
+    speed: _Numbers | None = None
+    climb: _Numbers = Field(default=[0.0])
+    payload: _Numbers = Field(default=[0.0])
+    minimise: _Texts = Field(default=["frequency"])
+    subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = Field(default=[[]])
+    starts: _Counts = Field(default=[6])
+    seed: _Counts = Field(default=[0])
+    most_starts: _Counts | None = None
+    free: list[_Text] | None = None
+    bounds: dict[str, _Pair] = Field(default={})
+    settings: dict[str, Any] = Field(default={}, alias="set")
+    advise: bool = False
+    chain: str | None = None
+    vary: dict[str, Vary] = Field(default={})
+    sample: Sample | None = None
+
+
+def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:
+    """Return the form of a study file, None where its shape is wrong, and the faults of its shape.
+
+    Raises
+    ------
+    FileError : the file is missing, unreadable, or not TOML.
+    """
+    return check_form(toml_tables(read_text(source, limit=1 << 18), os.fspath(source)))
+
+
+def check_form(raw: Mapping[str, Any]) -> tuple[StudyForm | None, FaultList]:
+    """Return the form of a dictionary, None where its shape is wrong, and the faults of its shape."""
+    faults = FaultList()
+    try:
+        form = StudyForm.model_validate(_plain(raw))
+    except ValidationError as error:
+        _translate(error, raw, faults)
+        return None, faults
+    _check_vary(form, faults)
+    _check_numbers(form, faults)
+    return form, faults
+
+
+def _plain(value: Any) -> Any:
+    """Return a value with lists and tables in place of tuples, arrays, paths and other mappings."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, Path):
+        return str(value)
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList) -> None:
+    found = error.errors(include_url=False)
+    for fault in found[:MAX_FAULTS]:
+        loc, value = fault["loc"], fault["input"]
+        # One value in the place of a list has no index of its own.
+        *place, last = loc
+        if place and isinstance(last, int) and not isinstance(_at(raw, tuple(place)), list | tuple):
+            loc = tuple(place)
+        rule, fix = rule_of(fault["type"], value, fault.get("ctx", {}))
+        if fault["type"] == "missing":
+            value = NOTHING
+        elif fault["type"] == "extra_forbidden":
+            fix = suggest(str(loc[-1]), _known(loc[:-1]))
+        elif fault["type"] == "int_type":
+            rule = "must be a whole number"
+        elif fault["type"] == "list_type":
+            rule = "must be a list"
+        elif fault["type"] in ("model_type", "dict_type") and loc[:1] == ("vary",) and len(loc) == 2:
+            fix = "for example { grid = [6.0, 8.0] }"
+        faults.add(dotted(map(_word, loc)), shown(value), rule.replace("numbers", "values"), fix)
+    if len(found) > MAX_FAULTS:
+        faults.add("file", f"{len(found)} faults", "too many to list", "is it a study file?")
+
+
+def _word(part: Any) -> Any:
+    return part if isinstance(part, int) else str(part)
+
+
+def _at(raw: Any, loc: tuple[Any, ...]) -> Any:
+    for part in loc:
+        try:
+            raw = raw[part]
+        except (LookupError, TypeError):
+            return None
+    return raw
+
+
+def _known(loc: tuple[Any, ...]) -> list[str]:
+    if loc[:1] == ("vary",):
+        return list(SPREADS)
+    fields = (Sample if loc[:1] == ("sample",) else StudyForm).model_fields
+    return [field.alias or name for name, field in fields.items()]
+
+
+def _check_vary(form: StudyForm, faults: FaultList) -> None:
+    """Note what is wrong between the ways in which values are given."""
+    ranged, rows = [], {}
+    for path, vary in form.vary.items():
+        where, given = dotted(("vary", path)), vary.given
+        if len(given) != 1:
+            rule = f"must be given by exactly one of {', '.join(SPREADS)}"
+            faults.add(where, ", ".join(given) or NOTHING, rule, "for example { grid = [6.0, 8.0] }")
+            continue
+        values = vary.values
+        if given[0] == "list":
+            rows[path] = len(values)
+        elif "range" in given[0]:
+            ranged.append(path)
+            if not values[0] < values[1]:
+                faults.add(f"{where}.{given[0]}", values, "must be [lowest, highest]", "turn them round")
+        if "range" not in given[0] and len({repr(_number(v)) for v in values}) < len(values) and given[0] != "list":
+            faults.add(f"{where}.{given[0]}", shown(values), "names a value twice", "keep one of them")
+    if len(set(rows.values())) > 1:
+        lengths = ", ".join(f"{path} {count}" for path, count in rows.items())
+        faults.add("vary", lengths, "lists go row by row and must be equally long", "or give grid in place of list")
+    if ranged and form.sample is None:
+        fix = 'add [sample] with method = "sobol" and n = 256'
+        faults.add("sample", NOTHING, f"must be given, since {ranged[0]} has a range", fix)
+    if form.sample is not None:
+        if not ranged:
+            fix = "give a parameter range = [lowest, highest], or leave sample out"
+            faults.add("sample", form.sample.method, "has no range to sample", fix)
+        faults.choice("sample.method", form.sample.method, METHODS)
+        for name, count, least in (("n", form.sample.n, 1), ("seed", form.sample.seed, 0)):
+            if count is not None and not least <= count <= 1_000_000:
+                faults.add(f"sample.{name}", shown(count), f"must be a whole number from {least} to 1000000")
+    if form.chain is not None and (form.chain not in form.vary or "range" in "".join(form.vary[form.chain].given)):
+        gridded = [path for path, vary in form.vary.items() if vary.given in (("grid",), ("relative",))]
+        fix = f"chain along {' or '.join(gridded)}" if gridded else "leave chain out"
+        faults.add("chain", form.chain, "is not a parameter varied by grid or relative", fix)
+    elif form.chain is not None and form.vary[form.chain].given == ("list",):
+        faults.add("chain", form.chain, "goes with its list row by row", "give it as grid")
+
+
+def _number(value: Any) -> Any:
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+def _check_numbers(form: StudyForm, faults: FaultList) -> None:
+    """Note counts out of range, and keys whose list names a value twice."""
+    for name, least in (("starts", 1), ("seed", 0), ("most_starts", 1)):
+        for count in getattr(form, name) or ():
+            if not least <= count <= 100_000:
+                faults.add(name, shown(count), f"must be a whole number from {least} to 100000")
+    for name in StudyForm.model_fields:
+        values = getattr(form, name)
+        listed = isinstance(values, list) and name != "free"
+        if listed and len({repr(_number(value)) for value in values}) < len(values):
+            faults.add(name, shown(values), "names a value twice", "keep one of them")
+    for name in ("speed", "climb", "payload"):
+        if name in form.vary and name in form.model_fields_set:
+            faults.add(name, shown(getattr(form, name)), "is varied, too", "keep one of the two")
+    if form.speed is None and "speed" not in form.vary:
+        faults.add(
+            "speed", NOTHING, "must be given", "speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
+        )

@@ -1,0 +1,60 @@
+"""One driver at a time: a lock of the operating system, which ends with its process however that ends."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from wingbeat.errors import FileError
+
+__all__ = ["only_one"]
+
+
+def _take(descriptor: int) -> None:
+    """Lock a file for this process alone, or raise `OSError` where another one holds it."""
+    if os.name == "nt":
+        import msvcrt
+
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+    else:
+        import fcntl
+
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+@contextmanager
+def only_one(store: Path) -> Iterator[None]:
+    """Hold the lock beside a store.
+
+    Raises
+    ------
+    FileError : another process holds it, or the folder cannot be written to.
+    """
+    path = store.with_name(store.name + ".lock")
+    while True:
+        try:
+            descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            fix = "copy the study to a folder that you can write to"
+            raise FileError(f"cannot write beside {str(store)!r}: {reason}; {fix}") from None
+        try:
+            _take(descriptor)
+        except OSError:
+            os.close(descriptor)
+            fix = "wait for it, or look at it with `wingbeat study status`"
+            raise FileError(f"another process is running the study of {str(store)!r}; {fix}") from None
+        # Whoever ended just now took the name away between our opening it and our locking it.
+        with suppress(OSError):
+            if os.path.samestat(os.fstat(descriptor), os.stat(path)):
+                break
+        os.close(descriptor)
+    try:
+        yield
+    finally:
+        with suppress(OSError):
+            if os.name != "nt":  # there an open file keeps its name
+                path.unlink()
+        os.close(descriptor)

@@ -1,0 +1,62 @@
+"""Objectives of a study: names that wingbeat knows, or a function in a Python file, ``mine.py:mean_lift``."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+from typing import Any
+
+from wingbeat.errors import FaultList
+from wingbeat.files import read_text
+from wingbeat.orbits.quantities import Frequency, Quantity, named_objective
+
+__all__ = ["as_inputs", "from_inputs"]
+
+_MARK = ".py:"
+
+
+def as_inputs(text: str, folder: Path) -> dict[str, str]:
+    """Return all that brings an objective back on any machine; a function's file goes along as text.
+
+    Raises
+    ------
+    InvalidInputError, FileError : an unknown name, a file that cannot be read or run, no such function.
+    """
+    if _MARK not in text:
+        return {"name": named_objective(text).name}
+    file, _, name = text.rpartition(":")
+    found = {"name": name, "file": Path(file).name, "code": read_text(folder / file)}
+    from_inputs(found)
+    return found
+
+
+def from_inputs(inputs: dict[str, str]) -> Frequency | Quantity:
+    """Return the objective that `as_inputs` described.
+
+    Raises
+    ------
+    InvalidInputError : its code cannot be run or does not hold it.
+    """
+    if "code" not in inputs:
+        return named_objective(inputs["name"])
+    return _run(inputs["name"], inputs["file"], inputs["code"])
+
+
+@functools.cache
+def _run(name: str, file: str, code: str) -> Quantity:
+    """Return a quantity of a file's code, once a process: JAX compiles a function anew for each that it meets."""
+    faults, space = FaultList(), {"__name__": Path(file).stem, "__file__": file}
+    where = f"minimise {file}:{name}"
+    try:
+        exec(compile(code, file, "exec"), space)
+    except Exception as error:  # whatever a user's file raises
+        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        faults.add(where, file, f"cannot be run: {reason}", "mend the file; it may import wingbeat and jax")
+        faults.raise_if_any()
+    found: Any = space.get(name)
+    if isinstance(found, Quantity):
+        return found
+    if not callable(found):
+        faults.add(where, name, "is not a function or a Quantity of that file", "see docs/objectives.md")
+        faults.raise_if_any()
+    return Quantity(name, found)

@@ -1,0 +1,43 @@
+"""How a point ended: what a worker sends and a store keeps."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+__all__ = ["CERTIFIED", "FAILED", "STATUSES", "UNCERTIFIED", "Outcome"]
+
+CERTIFIED = "converged"
+# Answers of the search itself, which would be the same again.
+UNCERTIFIED = ("infeasible", "not-converged")
+# No answer: an exception, a process that died, one that had to be stopped. `--retry-failed` tries them again.
+FAILED = ("error", "crashed", "timeout")
+STATUSES = (CERTIFIED, *UNCERTIFIED, *FAILED)
+
+
+class Outcome(NamedTuple):
+    """How one point ended.
+
+    Parameters
+    ----------
+    key : of the point.
+    status : one of `STATUSES`.
+    record : the orbit record as JSON without its times, None where there is none.
+    certificate : largest miss of the certifier's own flight (m, rad, m/s, rad/s), None where nothing was flown.
+    text : what the search says of itself where nothing is certified, or the error.
+    seconds : that the point took.
+    """
+
+    key: str
+    status: str
+    record: str | None
+    certificate: float | None
+    text: str
+    seconds: float
+
+
+def failed(key: str, status: str, text: str, seconds: float = 0.0) -> Outcome:
+    """Return the outcome of a point that gave no answer."""
+    return Outcome(key, status, None, None, text, seconds)
+
+
+Bookkeeping = dict[str, Any]

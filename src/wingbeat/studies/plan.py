@@ -1,0 +1,307 @@
+"""From the form of a study to its points, every fault of it found before anything runs."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import itertools
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
+from wingbeat.species import load_species
+from wingbeat.species.settings import settable
+from wingbeat.species_schema import shown
+from wingbeat.species_schema.faults import dotted
+from wingbeat.studies.form import StudyForm
+from wingbeat.studies.objective import as_inputs
+from wingbeat.studies.recipe import MOTION, Recipe
+from wingbeat.studies.sampling import unit_points
+
+__all__ = ["MOST_POINTS", "Base", "Plan", "Point", "canonical", "make_plan"]
+
+MOST_POINTS = 10_000_000
+# Faults of a plan after which it is not looked for more.
+_ENOUGH = 100
+# What multiplies, in the order of its loops.
+_TOP = (
+    *("species", "aero", "extension", "blend_width_deg", "strips", "force_point", "minimise", "subject_to"),
+    *("speed", "climb", "payload", "starts", "seed", "most_starts"),
+)
+
+
+class Base(NamedTuple):
+    """One combination of the top level: its recipe, the hash of the recipe's inputs, and what tells it apart."""
+
+    recipe: Recipe
+    hash: str
+    told: dict[str, Any]
+    motion: dict[str, float]
+
+
+class Point(NamedTuple):
+    """A point: its key, which base it changes, which chain it is of, the changes, and the varied values."""
+
+    key: str
+    base: int
+    unit: int
+    changes: dict[str, Any]
+    values: list[Any]
+
+
+def canonical(value: Any) -> str:
+    """Return the one JSON text of a value: keys sorted, numbers as floats, no blanks."""
+    return json.dumps(_floats(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _floats(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _floats(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_floats(item) for item in value]
+    # Adding 0 takes the sign off a zero.
+    return float(value) + 0.0 if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All points of a study, made when asked for.
+
+    Parameters
+    ----------
+    form : the study's form, without faults.
+    bases : the combinations of the top level.
+    """
+
+    form: StudyForm
+    bases: tuple[Base, ...]
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The varied parameters; a chain's is the last."""
+        chain = self.form.chain
+        return (*(path for path in self.form.vary if path != chain), *([] if chain is None else [chain]))
+
+    @functools.cached_property
+    def _kinds(self) -> dict[str, list[str]]:
+        """Paths by how their values are combined: by grid, row by row, by sample."""
+        kinds: dict[str, list[str]] = {"grid": [], "list": [], "range": []}
+        for path in self.paths:
+            given = self.form.vary[path].how
+            kinds["range" if "range" in given else "list" if given == "list" else "grid"].append(path)
+        return kinds
+
+    @property
+    def chain_length(self) -> int:
+        """Points of one unit of work: 1 without a chain."""
+        return len(_values_of(self.form, self.form.chain)) if self.form.chain else 1
+
+    def __len__(self) -> int:
+        kinds, form = self._kinds, self.form
+        rows = len(_values_of(form, kinds["list"][0])) if kinds["list"] else 1
+        grid = math.prod(len(_values_of(form, path)) for path in kinds["grid"])
+        return len(self.bases) * (form.sample.n if form.sample else 1) * rows * grid
+
+    @functools.cached_property
+    def digest(self) -> str:
+        """Tells whether two plans are of the same points."""
+        vary = [[path, self.form.vary[path].model_dump(by_alias=True, exclude_none=True)] for path in self.paths]
+        sample = self.form.sample.model_dump() if self.form.sample else None
+        bases = [[base.hash, base.motion] for base in self.bases]
+        told = [NUMERICAL_VERSION, bases, vary, sample, self.form.seed[0], self.form.chain]
+        return hashlib.sha256(canonical(told).encode()).hexdigest()
+
+    def points(self) -> Iterator[Point]:
+        """Yield the points one by one, those of a chain in its order."""
+        kinds, form = self._kinds, self.form
+        samples = np.zeros((1, 0))
+        if form.sample is not None:
+            seed = form.seed[0] if form.sample.seed is None else form.sample.seed
+            samples = unit_points(form.sample.method, form.sample.n, len(kinds["range"]), seed)
+        order = [*kinds["range"], *kinds["list"], *kinds["grid"]]
+        places = [order.index(path) for path in self.paths]
+        unit = 0
+        for index, base in enumerate(self.bases):
+            stock = {path: base.recipe.value(path) for path in self.paths}
+            rows = list(zip(*(_values_of(form, path) for path in kinds["list"]), strict=True)) or [()]
+            grids = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["grid"]]
+            ends = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["range"]]
+            for sample in samples:
+                drawn = [low + (high - low) * float(u) for (low, high), u in zip(ends, sample, strict=True)]
+                before: list[Any] = []
+                for row, grid in itertools.product(rows, itertools.product(*grids)):
+                    found = [*drawn, *row, *grid]
+                    values = [found[place] for place in places]
+                    before = [] if len(before) == self.chain_length else before
+                    point = _point(base, index, unit, dict(zip(self.paths, values, strict=True)), stock, before)
+                    yield point
+                    if form.chain is not None:
+                        before = [*before, values[-1]]
+                    unit += len(before) in (0, self.chain_length)
+
+
+def _point(
+    base: Base, index: int, unit: int, values: dict[str, Any], stock: dict[str, Any], before: list[Any]
+) -> Point:
+    # What is varied to what it was anyway is no change: the point is that of a study that does not vary it.
+    changes = base.motion | {p: v for p, v in values.items() if p in MOTION or _floats(v) != _floats(stock[p])}
+    told = [NUMERICAL_VERSION, base.hash, changes, *([before] if before else [])]
+    return Point(hashlib.sha256(canonical(told).encode()).hexdigest(), index, unit, changes, list(values.values()))
+
+
+def _values_of(form: StudyForm, path: str | None) -> list[Any]:
+    return form.vary[path or ""].values
+
+
+def _scaled(form: StudyForm, path: str, stock: Any, values: list[Any]) -> list[Any]:
+    """Return values, those that are given relative to the base's own times that."""
+    if not form.vary[path].how.startswith("relative"):
+        return values
+    return [[factor * v for v in stock] if isinstance(stock, list) else factor * stock for factor in values]
+
+
+def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
+    """Return the plan of a form.
+
+    Parameters
+    ----------
+    form : the form, None where its shape is wrong.
+    faults : of its shape; those that are found are added.
+    folder : where the paths of species and coefficient files begin.
+
+    Raises
+    ------
+    InvalidInputError : all faults at once.
+    """
+    if form is None or any(fault.where.startswith(("vary", "sample", "chain")) for fault in faults.faults):
+        faults.raise_if_any()
+    assert form is not None
+    lists = {name: values for name in _TOP if (values := getattr(form, name)) is not None}
+    combinations = math.prod(map(len, lists.values()))
+    if combinations > 10_000:
+        rule = "combinations of the top level are more than 10000"
+        faults.add("file", combinations, rule, "vary numbers under [vary] instead")
+        faults.raise_if_any()
+    bases: dict[str, Base] = {}
+    for values in itertools.product(*lists.values()):
+        base = _base(form, dict(zip(lists, values, strict=True)), folder, faults)
+        if base is not None and len(faults.faults) < _ENOUGH:
+            _check_values(form, base.recipe, faults)
+            bases.setdefault(canonical([base.hash, base.motion]), base)
+    faults.faults[:] = dict.fromkeys(faults.faults)
+    faults.raise_if_any()
+    plan = Plan(form, tuple(bases.values()))
+    if len(plan) > MOST_POINTS:
+        faults.add("vary", len(plan), f"points are more than {MOST_POINTS}", "vary less, or in several studies")
+        faults.raise_if_any()
+    return plan
+
+
+def _base(form: StudyForm, chosen: Mapping[str, Any], folder: Path, faults: FaultList) -> Base | None:
+    """Return one combination of the top level, or note why there is none."""
+    before = len(faults.faults)
+    made: dict[str, Any] = {}
+    loads = ("extension", "blend_width_deg")
+    makers: dict[str, Any] = {
+        "species": lambda: _species(form, _beside(chosen["species"], folder, (".toml",))),
+        "aero": lambda: BladeElement(
+            load_coefficients(_beside(chosen["aero"], folder, (".csv", ".toml")), *(chosen[n] for n in loads)),
+            chosen["strips"],
+            chosen["force_point"],
+        ),
+        "minimise": lambda: as_inputs(chosen["minimise"], folder),
+        "bounds": lambda: _bounds(form),
+    }
+    for name, make in makers.items():
+        try:
+            made[name] = make()
+        except InvalidInputError as error:
+            faults.faults += [_hashable(fault) for fault in error.faults]
+        except WingbeatError as error:
+            faults.add(name, shown(chosen[name]), str(error))
+    search = {name: chosen.get(name) for name in ("starts", "seed", "most_starts")} | {"advise": form.advise}
+    motion = {name: float(chosen[name]) for name in MOTION if name in chosen and name not in form.vary}
+    for name, value in motion.items():
+        faults.number(name, value, **MOTION[name])
+    if len(faults.faults) > before:
+        return None
+    free, limits = tuple(form.free or ()), tuple(chosen["subject_to"])
+    recipe = Recipe(made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search)
+    try:
+        _ = recipe.example
+        told = {name: chosen[name] for name in _TOP if name in chosen and len(getattr(form, name)) > 1}
+        return Base(recipe, hashlib.sha256(canonical(recipe.inputs()).encode()).hexdigest(), told, motion)
+    except InvalidInputError as error:
+        faults.faults += [_hashable(fault) for fault in error.faults]
+        return None
+
+
+def _hashable(fault: Fault) -> Fault:
+    """Return a fault that can be compared with others, so that each is told once."""
+    value = fault.value if isinstance(fault.value, str | int | float | type(None)) else shown(fault.value)
+    return Fault(fault.where, value if isinstance(value, str | int | float) else repr(value), fault.rule, fault.fix)
+
+
+def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
+    """Return the path of a file beside the study, or a name as it is."""
+    return str(folder / name) if name.lower().endswith(suffixes) else name
+
+
+def _species(form: StudyForm, name: str) -> Any:
+    species = load_species(name)
+    return species.with_values(form.settings) if form.settings else species
+
+
+def _bounds(form: StudyForm) -> dict[str, tuple[float, float]]:
+    """Return bounds in radians; a name in _deg holds degrees."""
+    found = {}
+    for name, (low, high) in form.bounds.items():
+        degrees = name.endswith("_deg")
+        ends = (math.radians(low), math.radians(high)) if degrees else (low, high)
+        found[name.removesuffix("_deg")] = ends
+    return found
+
+
+def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
+    """Note each value that cannot stand where it is put, by itself."""
+    for path, vary in form.vary.items():
+        given = vary.how
+        where = f"{dotted(('vary', path))}.{given}"
+        stock = recipe.value(path)
+        if given.startswith("relative") and (stock is None or isinstance(stock, str)):
+            known = path in MOTION or settable(path, None, FaultList()) is not None or stock is not None
+            if known:
+                faults.add(
+                    where, shown(_values_of(form, path)), "has nothing to be relative to", "use grid or range"
+                )
+                continue
+        values = _values_of(form, path)
+        values = values if stock is None else _scaled(form, path, stock, values)
+        for i, value in enumerate(values):
+            own = FaultList()
+            try:
+                recipe.check(path, value, own)
+            except InvalidInputError as error:
+                own.faults += error.faults
+            except (TypeError, ValueError, OverflowError) as error:
+                own.add(path, shown(value), f"cannot stand there ({error})")
+            told = _values_of(form, path)[i]
+            named = [Fault(f"{where}[{i}]", _text(told), fault.rule, fault.fix) for fault in own.faults]
+            if any("is not the path" in fault.rule for fault in named):
+                named = [Fault(dotted(("vary", path)), _text(told), named[0].rule, named[0].fix)]
+            faults.faults += named
+            if len(faults.faults) >= _ENOUGH or (named and named[0].where == dotted(("vary", path))):
+                return
+
+
+def _text(value: Any) -> Any:
+    value = shown(value)
+    return value if isinstance(value, str | int | float) else repr(value)

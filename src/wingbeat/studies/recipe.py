@@ -1,0 +1,186 @@
+"""What a combination of a study's top level fixes, and how a point changes it: one place for paths and values."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat.aero import BladeElement
+from wingbeat.errors import FaultList
+from wingbeat.orbits.parameters import Parameter, bound_of, limit_of, parameters_of
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.results.provenance import aero_from, inputs_of, species_from
+from wingbeat.species import Species
+from wingbeat.species.settings import settable
+from wingbeat.species_schema import KEYS, Key, shown, spoken, suggest
+from wingbeat.studies.objective import from_inputs
+
+__all__ = ["MOTION", "Recipe", "recipe_from"]
+
+# Every point says these, whatever is varied; their limits are those of `OrbitProblem` and `Species.with_payload`.
+MOTION = {
+    "speed": {"at_least": 0.0, "at_most": 100.0, "unit": "m/s"},
+    "climb": {"at_least": -100.0, "at_most": 100.0, "unit": "m/s"},
+    "payload": {"at_least": 0.0, "unit": "kg"},
+}
+_OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
+_OF_ELEMENTS = ("aero.strips", "aero.force_point")
+_CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)
+_AT_REST = {"speed": 10.0, "climb": 0.0, "payload": 0.0}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """An orbit problem but for its point: speed, climb, payload, and whatever a study varies.
+
+    Parameters
+    ----------
+    species, aero : the animal and its air loads.
+    objective : as `objective.as_inputs` says it.
+    free, bounds : as in `OrbitProblem`.
+    subject_to : limits as texts.
+    search : ``starts``, ``seed``, ``most_starts`` (or None) and ``advise`` of the search.
+    """
+
+    species: Species
+    aero: BladeElement
+    objective: dict[str, str]
+    free: tuple[str, ...]
+    bounds: dict[str, tuple[float, float]]
+    subject_to: tuple[str, ...]
+    search: dict[str, Any]
+
+    def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
+        """Return the problem of a point.
+
+        Parameters
+        ----------
+        changes : values by path; speed must be among them.
+
+        Raises
+        ------
+        InvalidInputError : what species, air loads or problem refuse.
+        """
+        numbers = {path: value for path, value in changes.items() if _key(path) is not None}
+        species = self.species.with_values(numbers) if numbers else self.species
+        problem = OrbitProblem(
+            species.with_payload(changes.get("payload", 0.0)),
+            speed=changes["speed"],
+            climb=changes.get("climb", 0.0),
+            aero=self._aero({path: changes[path] for path in _CHOICES if path in changes}),
+            free=self.free,
+            bounds=self.bounds,
+            minimise=from_inputs(self.objective),
+            subject_to=self.subject_to,
+        )
+        for path, value in changes.items():
+            if path not in numbers and path not in MOTION and path not in _CHOICES:
+                found = _parameter(problem, path)
+                if found is None:  # a law that another change switched off
+                    faults = FaultList()
+                    faults.add(path, shown(value), "is no number of this problem", "leave it out of the study")
+                    faults.raise_if_any()
+                assert found is not None
+                problem = found.changed(problem, float(value))
+        return problem
+
+    def _aero(self, choices: Mapping[str, Any]) -> BladeElement:
+        inner = {p.removeprefix("aero."): v for p, v in choices.items() if p in _OF_COEFFICIENTS}
+        outer = {p.removeprefix("aero."): v for p, v in choices.items() if p in _OF_ELEMENTS}
+        coefficients = self.aero.coefficients
+        if inner:
+            coefficients = dataclasses.replace(coefficients, **inner)
+        return dataclasses.replace(self.aero, coefficients=coefficients, **outer) if choices else self.aero
+
+    @functools.cached_property
+    def example(self) -> OrbitProblem:
+        """The problem at some speed, unchanged."""
+        return self.problem(_AT_REST)
+
+    def value(self, path: str) -> Any:
+        """Return what stands at a path before anything is varied, None where nothing does."""
+        if (key := _key(path)) is not None:
+            value = self.species.numbers[key.path].value
+            listed = list(value) if isinstance(value, tuple) else value
+            return _degrees(listed) if path.endswith("_deg") and not key.path.endswith("_deg") else listed
+        if path in MOTION:
+            return None
+        if path in _OF_COEFFICIENTS:
+            return getattr(self.aero.coefficients, path.removeprefix("aero."))
+        if path in _OF_ELEMENTS:
+            return getattr(self.aero, path.removeprefix("aero."))
+        found = _parameter(self.example, path)
+        return None if found is None else found.value
+
+    def check(self, path: str, value: Any, faults: FaultList) -> None:
+        """Raise `InvalidInputError`, or note a fault, where a value cannot stand at a path by itself."""
+        if path in MOTION:
+            faults.number(path, value, **MOTION[path])
+        elif _key(path) is not None:
+            self.species.with_values({path: value})
+        elif path in _CHOICES:
+            self._aero({path: value})
+        elif path in ("mass", "vehicle.mass"):
+            settable(path, value, faults)
+        elif (found := _parameter(self.example, path)) is None:
+            faults.add(spoken(path), shown(value), "is not the path of a number", suggest(str(path), self.paths()))
+        elif faults.number(path, value):
+            found.changed(self.example, float(value))
+
+    def paths(self) -> list[str]:
+        """Return the paths that can be varied."""
+        own = [key.path.removeprefix("vehicle.") for key in KEYS if key.path != "vehicle.mass"]
+        found = [p.path for p in parameters_of(self.example) if p.path.startswith("aero.")]
+        ends = [f"bounds.{name}.{side}" for name in self.example.bounds for side in ("lower", "upper")]
+        return [*MOTION, *own, *_CHOICES, *(p for p in found if p not in _CHOICES), *ends]
+
+    def inputs(self) -> dict[str, Any]:
+        """Return everything as a dictionary fit for JSON, from which `recipe_from` makes the same recipe."""
+        told = inputs_of(OrbitProblem(self.species, 10.0, aero=self.aero, minimise="mean_power"), 1, 0)
+        kept = {name: told[name] for name in ("species", "vehicle", "stock_wingbeat", "aero", "air")}
+        return kept | {
+            "objective": self.objective,
+            "free": list(self.free),
+            "bounds": {name: list(pair) for name, pair in self.bounds.items()},
+            "subject_to": list(self.subject_to),
+            "search": self.search,
+        }
+
+
+def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
+    """Return the recipe that `Recipe.inputs` described."""
+    return Recipe(
+        species_from(dict(inputs)),
+        aero_from(inputs["aero"]),
+        inputs["objective"],
+        tuple(inputs["free"]),
+        {name: (low, high) for name, (low, high) in inputs["bounds"].items()},
+        tuple(inputs["subject_to"]),
+        inputs["search"],
+    )
+
+
+@functools.cache
+def _key(path: str) -> Key | None:
+    """Return the number of a species that a path names."""
+    return settable(path, None, FaultList())
+
+
+def _degrees(value: Any) -> Any:
+    return [math.degrees(v) for v in value] if isinstance(value, list) else math.degrees(value)
+
+
+def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:
+    """Return a number of a problem that no species file holds: of a coefficient model, a bound, a limit."""
+    kind, _, rest = path.partition(".")
+    if kind == "bounds":
+        name, _, side = rest.rpartition(".")
+        return bound_of(problem, name, side) if name in problem.bounds and side in ("lower", "upper") else None
+    if kind == "limit":
+        places = [i for i, limit in enumerate(problem.subject_to) if limit.quantity.name == rest]
+        return limit_of(problem, places[0]) if places else None
+    return next((p for p in parameters_of(problem) if p.path == path), None)

@@ -1,0 +1,36 @@
+"""Points of the unit cube that cover it evenly: Sobol's sequence and Latin hypercubes, of SciPy."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["unit_points"]
+
+
+def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
+    """Return points of the unit cube, shape (count, directions).
+
+    Of Sobol's sequence (scrambled with the seed) the first points are the same whatever the count, so that more can
+    be added; a Latin hypercube of another count is another one.
+
+    Parameters
+    ----------
+    method : "sobol" or "latin-hypercube".
+    count, directions : numbers of points and of coordinates.
+    seed : of the scrambling, or of the hypercube.
+
+    >>> bool((unit_points("sobol", 4, 2, 0) == unit_points("sobol", 8, 2, 0)[:4]).all())
+    True
+    """
+    from scipy.stats import qmc
+
+    random = np.random.default_rng(seed)
+    if method == "latin-hypercube":
+        return qmc.LatinHypercube(directions, rng=random).random(count)
+    with warnings.catch_warnings():
+        # A count that is no power of two leaves the sequence a little less even, and that is all.
+        warnings.filterwarnings("ignore", message="The balance properties of Sobol")
+        return qmc.Sobol(directions, scramble=True, rng=random).random(count)

@@ -1,0 +1,229 @@
+"""A study in Python: planned, run, looked at."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import FaultList
+from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
+from wingbeat.studies.engine import Engine, LocalProcesses
+from wingbeat.studies.form import check_form, read_form
+from wingbeat.studies.lock import only_one
+from wingbeat.studies.plan import Plan, make_plan
+from wingbeat.studies.store import Store
+from wingbeat.studies.table import frame_of, save_table, to_dataset
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+__all__ = ["Study", "Summary", "study"]
+
+_SUFFIX = ".study.sqlite"
+# Seconds of a point, before this machine has solved any: of a search, and of the record beside it.
+_SEARCH, _RECORD = 0.035, 0.04
+
+
+@dataclass(frozen=True)
+class Summary:
+    """How far a study is.
+
+    Parameters
+    ----------
+    total : points of the study.
+    counts : points by status; ``waiting`` are those without an answer.
+    kept : answers in the store of points that the study no longer asks for.
+    changed : whether the store holds the points of the study as it was before a change, not yet run.
+    """
+
+    total: int
+    counts: dict[str, int]
+    kept: int = 0
+    changed: bool = False
+
+    @property
+    def waiting(self) -> int:
+        """Points without an answer."""
+        return self.counts.get("waiting", 0)
+
+    @property
+    def all_certified(self) -> bool:
+        """Whether every point has a certified orbit."""
+        return self.counts.get("converged", 0) == self.total
+
+
+class Study:
+    """A study and its store; made by `study`."""
+
+    def __init__(self, plan: Plan, store: Path) -> None:
+        self.plan = plan
+        self.store = store
+
+    def __repr__(self) -> str:
+        return f"<Study of {len(self)} points, store {str(self.store)!r}>"
+
+    def __len__(self) -> int:
+        return len(self.plan)
+
+    def estimate(self, processes: int = 1) -> float:
+        """Return about how long the points without an answer will take [s], by those that have one, if any."""
+        each, waiting = None, len(self)
+        if self.store.is_file():
+            with Store.read(self.store) as store:
+                each = store.seconds()
+                if store.digest == self.plan.digest:
+                    waiting = store.counts().get("waiting", 0)
+        form = self.plan.form
+        each = each or _SEARCH * sum(form.starts) / len(form.starts) + _RECORD
+        return waiting * each / processes
+
+    def run(
+        self,
+        processes: int | None = None,
+        timeout: float = 600.0,
+        retry_failed: bool = False,
+        progress: Progress | None = None,
+    ) -> Summary:
+        """Solve what has no answer yet; every answer is kept as soon as it is there.
+
+        Ctrl-C finishes the batches in flight, a second one stops at once; either way what is kept is kept, and
+        another run goes on from there.
+
+        Parameters
+        ----------
+        processes : worker processes, as many as there are cores if not given.
+        timeout : seconds for one point, after which its process is ended and tried once more.
+        retry_failed : try points again that failed before (an error, a crash, a time-out).
+        progress : called with a tally whenever it changes.
+
+        Raises
+        ------
+        FileError : the store cannot be written, is damaged, in use, or of another numerical version.
+        InvalidInputError : processes or timeout out of range.
+        KeyboardInterrupt : Ctrl-C, after all is in order.
+        """
+        check_run(processes, timeout)
+        with listening() as stop:
+            engine = LocalProcesses(processes or cores(), timeout)
+            self.run_on(engine, stop, retry_failed, progress)
+        if stop.level:
+            raise KeyboardInterrupt
+        return self.status()
+
+    def run_on(
+        self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
+    ) -> Tally:
+        """Solve what has no answer yet on an engine of one's own, until done or told to stop."""
+        with only_one(self.store), Store.open(self.store) as store:
+            store.set_plan(self.plan)
+            return drive(store, engine, stop, progress, retry_failed)
+
+    def status(self) -> Summary:
+        """Return how far the study is.
+
+        Raises
+        ------
+        FileError : the store cannot be read.
+        """
+        if not self.store.is_file():
+            return Summary(len(self), {"waiting": len(self)})
+        with Store.read(self.store) as store:
+            counts = store.counts()
+            changed = store.digest != self.plan.digest
+            return Summary(sum(counts.values()), counts, store.kept_for_others(), changed)
+
+    def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
+        """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``."""
+        with Store.read(self.store) as store:
+            bases = store.bases()
+            return [
+                {**bases[row.base][0], **row.told, "status": row.status, "reason": row.error}
+                for row in store.uncertified(most)
+            ]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each point, in the order of the study; see docs/studies.md for its columns.
+
+        Raises
+        ------
+        FileError : there is no store, or it cannot be read.
+        """
+        with Store.read(self.store) as store:
+            return frame_of(store)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return the same as a dataset along ``point``."""
+        return to_dataset(self.to_dataframe(), self._about())
+
+    def export(self, path: str | PathLike[str]) -> None:
+        """Write the table as NetCDF (.nc), CSV (.csv) or Parquet (.parquet), whole or not at all.
+
+        Raises
+        ------
+        FileError, InvalidInputError : the store cannot be read, the file not be written, another suffix.
+        """
+        save_table(self.to_dataframe(), self._about(), path)
+
+    def _about(self) -> dict[str, Any]:
+        return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def check_run(processes: Any, timeout: Any) -> None:
+    """Raise `InvalidInputError` unless a study can be run so."""
+    faults = FaultList()
+    if processes is not None and (
+        isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= 1024
+    ):
+        faults.add("processes", processes, "must be a whole number from 1 to 1024")
+    faults.number("timeout", timeout, above=0, unit="s")
+    faults.raise_if_any()
+
+
+def study(
+    source: str | PathLike[str] | Mapping[str, Any] | None = None,
+    *,
+    store: str | PathLike[str] | None = None,
+    **form: Any,
+) -> Study:
+    """Plan a study: many orbit problems, solved once, kept for good.
+
+    Parameters
+    ----------
+    source : a study file, or a dictionary of its keys, which may also be given by keyword.
+    store : the file that keeps the answers; beside the study file if not given.
+    form : keys of a study file: ``species``, ``aero``, ``vary``, ``starts``, ...
+
+    Raises
+    ------
+    InvalidInputError : everything that is wrong with the study, all at once.
+    FileError : the study file cannot be read.
+
+    >>> import wingbeat as wb
+    >>> plan = wb.study(species="pigeon", vary={"speed": {"grid": [8.0, 10.0]}}, store="pigeon.study.sqlite")
+    >>> len(plan)
+    2
+    """
+    path = None if source is None or isinstance(source, Mapping) else Path(source)
+    if path is not None:
+        found, faults = read_form(path)
+        for key in form:
+            faults.add(key, form[key], "is given beside a study file", "write it into the file")
+        kept = path.with_name(path.name.removesuffix(".toml") + _SUFFIX)
+    else:
+        table = source if isinstance(source, Mapping) else {}
+        found, faults = check_form({**table, **form})
+        kept = None
+        if store is None:
+            faults.add("store", None, "must be given", f"for example store='mine{_SUFFIX}'")
+    plan = make_plan(found, faults, Path.cwd() if path is None else path.parent)
+    return Study(plan, Path(store) if store is not None else kept or Path(_SUFFIX))

@@ -1,0 +1,155 @@
+"""A study as a table: a row a point, columns by the record's dotted names, and files of it."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.errors import FaultList, WingbeatError
+from wingbeat.files import write_atomically
+from wingbeat.studies.store import Row, Store
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+__all__ = ["SUFFIXES", "check_table_name", "flat", "frame_of", "save_table", "to_dataset"]
+
+SUFFIXES = (".nc", ".csv", ".parquet")
+KIND = "study"
+
+
+def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
+
+    Lists of anything else are JSON text.
+
+    >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
+    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
+    """
+    for key, value in record.items():
+        path = f"{before}{key}"
+        if isinstance(value, dict):
+            yield from flat(value, f"{path}.")
+        elif isinstance(value, list) and value and _numeric(value):
+            yield from flat({str(i): item for i, item in enumerate(value)}, f"{path}.")
+        else:
+            yield path, json.dumps(value) if isinstance(value, list) else value
+
+
+def _numeric(value: list[Any]) -> bool:
+    return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
+
+
+def frame_of(store: Store) -> pd.DataFrame:
+    """Return a row for each point of a store's plan, in its order; ``status`` is ``waiting`` without an answer.
+
+    Columns are what multiplies at the top level, the varied paths, the record's dotted names, ``certificate`` and
+    ``error``, and bookkeeping from ``run_`` on. A point without a record has its inputs only.
+    """
+    import pandas as pd
+
+    bases = store.bases()
+    rows = [_row(row, *bases[row.base]) for row in store.rows()]
+    order = dict.fromkeys(name for row in rows for name in row)
+    late = [name for name in order if name.startswith("run_")]
+    frame = pd.DataFrame.from_records(rows, columns=[name for name in order if name not in late] + late)
+    for name in frame.columns:
+        # Nulls of a record are nothing known: not-a-number beside numbers.
+        if frame[name].dtype == object and all(v is None or _is_number(v) for v in frame[name]):
+            frame[name] = frame[name].astype(float)
+    return frame
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _row(row: Row, told: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
+    # The record's own names win: they say what was solved, in SI units.
+    names = {"species": inputs["species"]["name"], "aero.coefficients": inputs["aero"]["coefficients"]}
+    multiplied = {
+        name: json.dumps(value) if isinstance(value, list) else value
+        for name, value in told.items()
+        if name not in ("species", "aero")
+    }
+    record = {} if row.record is None else dict(flat(json.loads(row.record)))
+    varied = dict(flat(row.told))
+    return {
+        "key": row.key,
+        "status": row.status or "waiting",
+        **names,
+        **multiplied,
+        **varied,
+        **{name: value for name, value in record.items() if name != "status"},
+        "certificate": row.certificate,
+        "error": row.error or "",
+        "run_seconds": row.seconds,
+        "run_finished": None if row.finished is None else datetime.fromtimestamp(row.finished, UTC).isoformat(),
+        "run_worker": row.worker or "",
+        "run_attempt": row.attempt,
+    }
+
+
+def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
+    """Return a table as a dataset along ``point``; what is text or missing becomes text."""
+    import numpy as np
+    import xarray as xr
+
+    columns = {}
+    for name in frame.columns:
+        values = frame[name]
+        if values.dtype.kind not in "fiub":
+            values = np.array(
+                ["" if value is None or value != value else str(value) for value in values], dtype=str
+            )
+        columns[name] = ("point", np.asarray(values))
+    dataset = xr.Dataset(columns)
+    return dataset.assign_attrs(wingbeat_kind=KIND, numerical_version=NUMERICAL_VERSION, **about)
+
+
+def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
+    """Note a fault unless the name ends like a table that can be written."""
+    if os.path.splitext(path)[1].lower() not in SUFFIXES:
+        faults.add(where, os.fspath(path), "is no kind of table", f"end it in {', '.join(SUFFIXES)}")
+
+
+def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[str]) -> None:
+    """Write a table as NetCDF-4, CSV or Parquet, by the suffix, whole or not at all.
+
+    Raises
+    ------
+    InvalidInputError : another suffix.
+    FileError : the file cannot be written.
+    WingbeatError : Parquet without pyarrow.
+    """
+    faults = FaultList()
+    check_table_name(faults, "path", path)
+    faults.raise_if_any()
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix == ".nc":
+        write_atomically(path, bytes(to_dataset(frame, about).to_netcdf(engine="h5netcdf")))
+    elif suffix == ".csv":
+        write_atomically(path, frame.to_csv(index=False))
+    else:
+        check_parquet()
+        held = io.BytesIO()
+        frame.to_parquet(held, engine="pyarrow", index=False)
+        write_atomically(path, held.getvalue())
+
+
+def check_parquet() -> None:
+    """Raise `WingbeatError` where Parquet cannot be written."""
+    try:
+        import pyarrow  # noqa: F401  # pyright: ignore[reportMissingImports]
+    except ImportError:
+        raise WingbeatError(
+            "Parquet needs pyarrow, which is not installed; run `pip install 'wingbeat[parquet]'`, or end the name "
+            "in .nc or .csv"
+        ) from None

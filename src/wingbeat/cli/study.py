@@ -122,7 +122,7 @@ def _told(tally: Tally) -> str:
 
 def _print_summary(asked: Study, summary: Summary) -> None:
     """Print counts by status and the first points that are not certified, with their reasons."""
-    from wingbeat.studies.outcome import STATUSES
+    from wingbeat.studies.units import STATUSES
 
     print(f"{summary.total} points in {asked.store}")
     for name in (*STATUSES, "waiting"):

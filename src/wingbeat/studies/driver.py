@@ -12,9 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from wingbeat.studies.engine import Ended, Engine
-from wingbeat.studies.outcome import CERTIFIED, FAILED, UNCERTIFIED, Outcome, failed
 from wingbeat.studies.store import Store, Waiting
-from wingbeat.studies.work import Unit
+from wingbeat.studies.units import CERTIFIED, FAILED, UNCERTIFIED, Outcome, Unit, failed
 
 __all__ = ["Progress", "Stop", "Tally", "drive", "listening"]
 

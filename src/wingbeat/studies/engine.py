@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from wingbeat.errors import FileError
-from wingbeat.studies.outcome import Outcome
-from wingbeat.studies.work import Unit
+from wingbeat.studies.units import Outcome, Unit
 
 __all__ = ["Ended", "Engine", "LocalProcesses", "pack"]
 
@@ -86,6 +85,7 @@ class _Worker:
 
     process: subprocess.Popen[bytes]
     name: str
+    listener: threading.Thread
     batch: int | None = None
     outcomes: list[Outcome] = field(default_factory=list)
     heard: float = 0.0
@@ -110,7 +110,7 @@ class LocalProcesses:
         self.workers = processes
         self._timeout = timeout
         self._crew: list[_Worker] = []
-        self._heard: queue.SimpleQueue[tuple[_Worker, bytes]] = queue.SimpleQueue()
+        self._heard: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
         self._ended: list[Ended] = []
         self._false_starts = 0
 
@@ -134,12 +134,12 @@ class LocalProcesses:
         while not self._ended:
             self._end_silent()
             try:
-                worker, line = self._heard.get(timeout=max(min(until - time.monotonic(), 0.2), 0.001))
+                who, line = self._heard.get(timeout=max(min(until - time.monotonic(), 0.2), 0.001))
             except queue.Empty:
                 if time.monotonic() >= until:
                     return None
                 continue
-            self._hear(worker, line)
+            self._hear(who, line)
         return self._ended.pop(0)
 
     def close(self) -> None:
@@ -147,11 +147,7 @@ class LocalProcesses:
         for worker in self._crew:
             worker.process.kill()
         for worker in self._crew:
-            worker.process.wait()
-            for pipe in (worker.process.stdin, worker.process.stdout):
-                if pipe is not None:
-                    with suppress(OSError):
-                        pipe.close()
+            _leave(worker)
         self._crew.clear()
 
     def _start(self) -> _Worker:
@@ -168,21 +164,25 @@ class LocalProcesses:
             env=environment,
             start_new_session=True,  # Ctrl-C is for the driver, which then says what becomes of its workers
         )
-        worker = _Worker(process, f"process {process.pid}")
+        listener = threading.Thread(target=self._listen, args=(process,), daemon=True)
+        worker = _Worker(process, f"process {process.pid}", listener)
         self._crew.append(worker)
-        threading.Thread(target=self._listen, args=(worker,), daemon=True).start()
+        listener.start()
         return worker
 
-    def _listen(self, worker: _Worker) -> None:
+    def _listen(self, process: subprocess.Popen[bytes]) -> None:
         """Pass on what a worker says, line by line, and its end as no line."""
-        assert worker.process.stdout is not None
-        with suppress(OSError, ValueError):
-            for line in worker.process.stdout:
+        assert process.stdout is not None
+        with process.stdout as lines:
+            for line in lines:
                 if line.endswith(b"\n"):
-                    self._heard.put((worker, line))
-        self._heard.put((worker, b""))
+                    self._heard.put((process.pid, line))
+        self._heard.put((process.pid, b""))
 
-    def _hear(self, worker: _Worker, line: bytes) -> None:
+    def _hear(self, who: int, line: bytes) -> None:
+        worker = next((worker for worker in self._crew if worker.process.pid == who), None)
+        if worker is None:  # its last words, after it was given up
+            return
         worker.heard = time.monotonic()
         if not line:
             self._bury(worker, "crashed")
@@ -205,14 +205,9 @@ class LocalProcesses:
 
     def _bury(self, worker: _Worker, how: str) -> None:
         """Take leave of a worker, and say what became of its batch."""
-        if worker not in self._crew:
-            return
         self._crew.remove(worker)
         worker.process.kill()
-        code = worker.process.wait()
-        assert worker.process.stdin is not None
-        with suppress(OSError):
-            worker.process.stdin.close()
+        code = _leave(worker)
         if not worker.ready and how == "crashed":
             self._false_starts += 1
             if self._false_starts >= _STARTS:
@@ -220,6 +215,16 @@ class LocalProcesses:
         text = f"no answer within {self._timeout:g} s" if how == "timeout" else _last_words(code)
         if worker.batch is not None:
             self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, how, text))
+
+
+def _leave(worker: _Worker) -> int:
+    """Close the pipes of a process that was ended, and return its exit code."""
+    code = worker.process.wait()
+    assert worker.process.stdin is not None
+    with suppress(OSError):
+        worker.process.stdin.close()
+    worker.listener.join(1.0)
+    return code
 
 
 def _last_words(code: int) -> str:

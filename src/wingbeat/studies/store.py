@@ -14,9 +14,8 @@ from typing import Any, NamedTuple
 
 from wingbeat._version import NUMERICAL_VERSION, __version__
 from wingbeat.errors import FileError
-from wingbeat.studies.outcome import FAILED, Outcome
 from wingbeat.studies.plan import Plan
-from wingbeat.studies.work import Task, Unit
+from wingbeat.studies.units import FAILED, Outcome, Task, Unit
 
 __all__ = ["Row", "Store", "Waiting"]
 

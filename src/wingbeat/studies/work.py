@@ -9,41 +9,19 @@ import functools
 import json
 import time
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from wingbeat.orbits.continuation import hand_on
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.results.orbit import Orbit
-from wingbeat.studies.outcome import Outcome, failed
 from wingbeat.studies.recipe import Recipe, recipe_from
+from wingbeat.studies.units import Outcome, Unit, failed
 
-__all__ = ["Task", "Unit", "solve_unit"]
+__all__ = ["solve_unit"]
 
 # Recipes that a process keeps set up.
 _KEPT = 64
-
-
-class Task(NamedTuple):
-    """One point to solve: its key, and the values by path that it changes of its unit's recipe."""
-
-    key: str
-    changes: dict[str, Any]
-
-
-class Unit(NamedTuple):
-    """Points that are solved together: one, or those of a chain in its order, each helped by the one before.
-
-    Parameters
-    ----------
-    recipe : the base's inputs as JSON.
-    tasks : the points.
-    skip : keys of points of a chain that end their process: they are passed over.
-    """
-
-    recipe: str
-    tasks: tuple[Task, ...]
-    skip: tuple[str, ...] = ()
 
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:

@@ -16,7 +16,7 @@ import sys
 import threading
 from typing import Any
 
-from wingbeat.studies.work import Task, Unit
+from wingbeat.studies.units import Task, Unit
 
 __all__ = ["main"]
 

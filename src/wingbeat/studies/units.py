@@ -1,10 +1,10 @@
-"""How a point ended: what a worker sends and a store keeps."""
+"""What goes to a worker and what comes back: units of points, and how each point ended."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["CERTIFIED", "FAILED", "STATUSES", "UNCERTIFIED", "Outcome"]
+__all__ = ["CERTIFIED", "FAILED", "STATUSES", "UNCERTIFIED", "Outcome", "Task", "Unit", "failed"]
 
 CERTIFIED = "converged"
 # Answers of the search itself, which would be the same again.
@@ -12,6 +12,28 @@ UNCERTIFIED = ("infeasible", "not-converged")
 # No answer: an exception, a process that died, one that had to be stopped. `--retry-failed` tries them again.
 FAILED = ("error", "crashed", "timeout")
 STATUSES = (CERTIFIED, *UNCERTIFIED, *FAILED)
+
+
+class Task(NamedTuple):
+    """One point to solve: its key, and the values by path that it changes of its unit's recipe."""
+
+    key: str
+    changes: dict[str, Any]
+
+
+class Unit(NamedTuple):
+    """Points that are solved together: one, or those of a chain in its order, each helped by the one before.
+
+    Parameters
+    ----------
+    recipe : the base's inputs as JSON.
+    tasks : the points.
+    skip : keys of points of a chain that end their process: they are passed over.
+    """
+
+    recipe: str
+    tasks: tuple[Task, ...]
+    skip: tuple[str, ...] = ()
 
 
 class Outcome(NamedTuple):
@@ -38,6 +60,3 @@ class Outcome(NamedTuple):
 def failed(key: str, status: str, text: str, seconds: float = 0.0) -> Outcome:
     """Return the outcome of a point that gave no answer."""
     return Outcome(key, status, None, None, text, seconds)
-
-
-Bookkeeping = dict[str, Any]

@@ -1,0 +1,96 @@
+"""Studies of cheap points run by the real program, and ways to disturb it."""
+
+import os
+import sqlite3
+import subprocess
+import sys
+import time
+import uuid
+from pathlib import Path
+
+import pytest
+
+from wingbeat.cli import main
+from wingbeat.studies.engine import LocalProcesses
+
+HERE = Path(__file__).resolve().parent
+PROGRAM = (
+    "import sys; from wingbeat.studies.engine import LocalProcesses; LocalProcesses.work = 'standin:solve'; "
+    "from wingbeat.cli import main; sys.exit(main(['study', *sys.argv[1:]]))"
+)
+FORM = 'species = "pigeon"\nstarts = 1\n[vary]\nspeed = {{ grid = {speeds} }}\n'
+
+
+class Cheap:
+    """A study file in a folder of its own, of points that a stand-in solves in no time."""
+
+    def __init__(self, folder, speeds, capsys):
+        self.capsys = capsys
+        self.folder = folder
+        self.file = folder / "cheap.toml"
+        self.store = folder / "cheap.study.sqlite"
+        self.mark = uuid.uuid4().hex
+        self.write(speeds)
+
+    def write(self, speeds):
+        self.file.write_text(FORM.format(speeds=[float(u) for u in speeds]))
+
+    def start(self, *words, seconds=0.0, log=None, **popen):
+        """Start the program; its processes and their workers carry this study's mark in their environment."""
+        environment = os.environ | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
+        environment["PYTHONPATH"] = os.pathsep.join([str(HERE), *sys.path])
+        if log is not None:
+            environment["STANDIN_LOG"] = str(log)
+        popen = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment} | popen
+        return subprocess.Popen([sys.executable, "-c", PROGRAM, *map(str, words)], **popen)
+
+    def run(self, *words):
+        """Run the program to its end, in this process; return exit code, stdout and stderr, blanks as one."""
+        self.capsys.readouterr()
+        code = main(["study", *map(str, words or ("run", self.file, "-j", 1))])
+        return code, *(" ".join(text.split()) for text in self.capsys.readouterr())
+
+    def processes(self):
+        """Return the ids of living processes with this study's mark."""
+        found = []
+        for entry in Path("/proc").iterdir():
+            try:
+                if entry.name.isdigit() and f"STUDY_MARK={self.mark}".encode() in (entry / "environ").read_bytes():
+                    found.append(int(entry.name))
+            except OSError:
+                pass
+        return found
+
+    def wait_gone(self):
+        """Wait until nothing of it runs any more."""
+        until = time.monotonic() + 15
+        while self.processes():
+            assert time.monotonic() < until, "processes were left behind"
+            time.sleep(0.02)
+
+    def points(self):
+        """Return everything that is kept of each point but bookkeeping, by key; empty before there is a store."""
+        if not self.store.exists() or not self.store.stat().st_size:
+            return {}
+        connection = sqlite3.connect(self.store)
+        try:
+            question = "SELECT key, status, base, changes, record, certificate, error FROM points"
+            return {key: row for key, *row in connection.execute(question)}
+        except sqlite3.OperationalError:
+            return {}
+        finally:
+            connection.close()
+
+
+@pytest.fixture
+def cheap(tmp_path, capsys, monkeypatch):
+    """Return a maker of cheap studies, each in a folder of its own."""
+    monkeypatch.setattr(LocalProcesses, "work", "standin:solve")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HERE), *sys.path]))
+
+    def make(speeds, name="here"):
+        folder = tmp_path / name
+        folder.mkdir(exist_ok=True)
+        return Cheap(folder, speeds, capsys)
+
+    return make

@@ -1,0 +1,212 @@
+"""A study under hostile conditions, through the real program: nothing is lost, nothing is spoilt, all is told."""
+
+import errno
+import os
+import random
+import resource
+import signal
+import sqlite3
+import time
+
+import pytest
+
+from studies.standin import CRASHES, HANGS, INFEASIBLE, RAISES
+from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.studies.engine import LocalProcesses
+from wingbeat.studies.lock import only_one
+
+pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
+GRID = [1 + 0.25 * i for i in range(120)]
+
+
+@pytest.fixture
+def undisturbed(cheap):
+    study = cheap(GRID, "undisturbed")
+    code, out, err = study.run(study.file, "--processes", 1)
+    assert code == 0, err
+    assert "converged 120" in out
+    return study.points()
+
+
+def wait_for_points(study, count):
+    """Wait until so many points are kept."""
+    until = time.monotonic() + 60
+    while len(study.points()) < count:
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def test_killed_drivers_lose_nothing_and_repeat_nothing_that_was_kept(cheap, undisturbed, tmp_path):
+    study, log = cheap(GRID), tmp_path / "log"
+    draw = random.Random(0)
+    kept = {}
+    for _ in range(3):
+        before = log.read_text().split() if log.exists() else []
+        driver = study.start("run", study.file, "-j", 2, seconds=0.02, log=log)
+        wait_for_points(study, len(kept) + draw.randrange(1, 20))
+        driver.kill()
+        driver.communicate()
+        study.wait_gone()
+        again = set(log.read_text().split()[len(before) :])
+        assert not again & set(kept)
+        kept = study.points()
+    assert study.run("run", study.file, "-j", 2)[0] == 0
+    assert study.points() == undisturbed
+
+
+def test_killed_workers_lose_nothing(cheap, undisturbed):
+    study = cheap(GRID)
+    driver = study.start("run", study.file, "-j", 2, seconds=0.02)
+    for count in (1, 30, 60):
+        wait_for_points(study, count)
+        workers = [process for process in study.processes() if process != driver.pid]
+        os.kill(workers[0], signal.SIGKILL)
+    assert driver.wait(60) == 0
+    driver.communicate()
+    assert study.points() == undisturbed
+    study.wait_gone()
+
+
+def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again(cheap, monkeypatch):
+    study = cheap([CRASHES, HANGS, RAISES, INFEASIBLE, *GRID[:20]])
+    code, out, err = study.run("run", study.file, "-j", 2, "--timeout", 1)
+    assert code == 3, err
+    for line in ("converged 20", "infeasible 1", "error 1", "crashed 1", "timeout 1"):
+        assert line in out
+    assert "crashed: speed = 90: its process was ended by SIGKILL" in out
+    assert "timeout: speed = 91: no answer within 1 s" in out
+    assert "error: speed = 92: ValueError: no such speed" in out
+    assert "infeasible: speed = 93: too fast" in out
+    assert "24 points" in err
+    assert "Traceback" not in err
+    kept = study.points()
+    assert study.run("run", study.file, "--allow-failures")[0] == 0
+    assert study.points() == kept
+    # What failed is done again when asked for, and what the search found out is not.
+    study.write([RAISES, INFEASIBLE, *GRID[:20]])
+    monkeypatch.setenv("STANDIN_LOG", str(study.folder / "log"))
+    assert study.run("run", study.file, "--retry-failed", "--allow-failures")[0] == 0
+    assert len((study.folder / "log").read_text().split()) == 1
+    assert "2 answers of points that the study no longer asks for are kept" in study.run("status", study.file)[1]
+    study.wait_gone()
+
+
+@pytest.mark.parametrize(("signals", "code"), [((2,), 130), ((2, 2), 130), ((15,), 143)])
+def test_signals_stop_it_with_all_in_order(cheap, signals, code):
+    study = cheap(GRID)
+    driver = study.start("run", study.file, "-j", 1, seconds=0.05)
+    wait_for_points(study, 3)
+    for number in signals:
+        driver.send_signal(number)
+        time.sleep(0.05)
+    out, err = driver.communicate(timeout=30)
+    assert driver.returncode == code
+    assert "Traceback" not in err
+    assert ("finishing what is in flight" in err) == (signals[0] == 2)
+    assert "waiting" in out
+    study.wait_gone()
+    assert sorted(path.name for path in study.folder.iterdir()) == ["cheap.study.sqlite", "cheap.toml"]
+    assert 3 <= len(study.points()) < len(GRID)
+
+
+def test_a_second_driver_is_refused(cheap):
+    study = cheap(GRID[:3])
+    with only_one(study.store):
+        code, out, err = study.run()
+    assert (code, out) == (2, "")
+    assert "another process is running the study" in err
+    assert study.run()[0] == 0
+
+
+def test_a_full_disk_is_told_and_what_was_stored_stays(cheap, undisturbed):
+    study = cheap(GRID)
+    # What was planned fits, and a few answers do.
+    limit = 200_000
+
+    def small():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    driver = study.start("run", study.file, "-j", 2, seconds=0.01, preexec_fn=small)
+    _, err = driver.communicate(timeout=60)
+    assert driver.returncode == 2
+    assert "what was stored stays; make room and run the study again" in err
+    assert "Traceback" not in err
+    study.wait_gone()
+    some = study.points()
+    assert some.items() <= undisturbed.items()
+    assert study.run()[0] == 0
+    assert study.points() == undisturbed
+
+
+def test_a_folder_that_cannot_be_written_is_told(cheap, monkeypatch):
+    study = cheap(GRID[:3])
+    assert study.run()[0] == 0
+    study.folder.chmod(0o555)
+    study.store.chmod(0o444)
+    if os.geteuid() == 0:  # whom permissions do not stop
+        opened = os.open
+
+        def refuse(path, flags, *more, **named):
+            if flags & os.O_CREAT and os.path.dirname(path) == str(study.folder):
+                raise PermissionError(errno.EACCES, "Permission denied", path)
+            return opened(path, flags, *more, **named)
+
+        monkeypatch.setattr("os.open", refuse)
+    code, out, err = study.run("status", study.file)
+    assert (code, "converged 3" in out) == (0, True), err
+    code, _, err = study.run()
+    study.folder.chmod(0o755)
+    assert code == 2
+    assert "cannot write beside" in err
+    assert "permission denied; copy the study to a folder that you can write to" in err
+
+
+def spoil(path, how):
+    whole = path.read_bytes()
+    if how == "cut short":
+        path.write_bytes(whole[: len(whole) // 2])
+    elif how == "no database":
+        path.write_bytes(b"speed,power\n1,2\n" * 200)
+    elif how == "overwritten":
+        path.write_bytes(whole[:4096] + b"\xff" * (len(whole) - 4096))
+    elif how == "foreign":
+        path.unlink()
+        connection = sqlite3.connect(path)
+        connection.execute("CREATE TABLE birds (name TEXT)")
+        connection.close()
+    else:
+        connection = sqlite3.connect(path)
+        connection.execute("UPDATE about SET value = 0 WHERE name = 'numerical_version'")
+        connection.commit()
+        connection.close()
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ("cut short", ("the store", "nothing was deleted; restore a copy")),
+        ("no database", ("is damaged or no store", "nothing was deleted")),
+        ("overwritten", ("is damaged or no store", "nothing was deleted")),
+        ("foreign", ("is a database, but no store of a study",)),
+        ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
+    ],
+)
+def test_a_store_that_is_none_is_refused_and_left_as_it_is(cheap, how, words):
+    study = cheap(GRID[:40])
+    assert study.run()[0] == 0
+    spoil(study.store, how)
+    before = study.store.read_bytes()
+    code, _, err = study.run()
+    assert code == 2, err
+    assert all(word in err for word in words), err
+    assert "Traceback" not in err
+    assert study.store.read_bytes() == before
+
+
+def test_workers_that_cannot_start_are_told(cheap, monkeypatch):
+    study = cheap(GRID[:3])
+    monkeypatch.setattr(LocalProcesses, "work", "nowhere:solve")
+    code, _, err = study.run()
+    assert code == 2
+    assert "no worker process can be started" in err
+    assert study.points() == {}

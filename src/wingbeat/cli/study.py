@@ -139,6 +139,6 @@ def _print_summary(asked: Study, summary: Summary) -> None:
             for name, value in row.items()
             if name not in ("status", "reason")
         )
-        print(f"{row['status']}: {where}: {row['reason']}")
+        print(": ".join(part for part in (row["status"], where, row["reason"]) if part))
     if troubled > _LISTED:
         print(f"... and {troubled - _LISTED} more, all of them in the table of `wingbeat study export`")

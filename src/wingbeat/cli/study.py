@@ -96,6 +96,30 @@ def export(file: File, *, output: Output = None) -> None:
     print(f"wrote {output}", file=sys.stderr)
 
 
+@study.command
+def plot(
+    file: File,
+    *,
+    output: Output = None,
+    quantity: Annotated[
+        str | None, Parameter(help="Column of the table to draw, such as mean_power; what was made least.")
+    ] = None,
+) -> None:
+    """Draw what was found over what was varied: lines over one parameter, maps over two, strands over more."""
+    from wingbeat.plots import check_figure_name, save_figure, study_page
+
+    faults = FaultList()
+    if output is None:
+        faults.add("--output", None, "is missing", "give a file: -o figure.png, .pdf or .svg")
+    else:
+        check_figure_name(faults, "--output", output)
+    faults.raise_if_any()
+    assert output is not None
+    check_outputs(output)
+    save_figure(study_page(*_read(file).drawing(quantity)), output)
+    print(f"wrote {output}", file=sys.stderr)
+
+
 def _read(file: Path) -> Study:
     from wingbeat.studies.study import study as plan
 

@@ -10,6 +10,7 @@ from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
+from wingbeat.plots.study_page import study_page as study_page
 from wingbeat.plots.tornado import tornado_page as tornado_page
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "glide_page",
     "power_page",
     "save_figure",
+    "study_page",
     "tornado_page",
     "wingbeat_page",
 ]

@@ -10,7 +10,7 @@ from wingbeat.errors import FaultList
 from wingbeat.files import read_text
 from wingbeat.orbits.quantities import Frequency, Quantity, named_objective
 
-__all__ = ["as_inputs", "from_inputs"]
+__all__ = ["as_inputs", "from_inputs", "named"]
 
 _MARK = ".py:"
 
@@ -28,6 +28,11 @@ def as_inputs(text: str, folder: Path) -> dict[str, str]:
     found = {"name": name, "file": Path(file).name, "code": read_text(folder / file)}
     from_inputs(found)
     return found
+
+
+def named(text: str) -> str:
+    """Return the name of an objective as records have it; the text is one that `as_inputs` takes."""
+    return text.rpartition(":")[2] if _MARK in text else named_objective(text).name
 
 
 def from_inputs(inputs: dict[str, str]) -> Frequency | Quantity:

@@ -217,11 +217,10 @@ class Store:
                 ).fetchall()
             )
 
-    def kept_for_others(self) -> int:
-        """Return how many answers are of no point of the plan, from a study as it was before."""
+    def answers(self) -> int:
+        """Return how many answers there are, of points of the plan or of a study as it was before."""
         with _told(self.path):
-            question = "SELECT COUNT(*) FROM points WHERE key NOT IN (SELECT key FROM plan)"
-            return self._connection.execute(question).fetchone()[0]
+            return self._connection.execute("SELECT COUNT(*) FROM points").fetchone()[0]
 
     def seconds(self) -> float | None:
         """Return the mean time of a point in this store [s], None if there is none."""

@@ -14,9 +14,10 @@ from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
 from wingbeat.studies.lock import only_one
+from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.store import Store
-from wingbeat.studies.table import frame_of, save_table, to_dataset
+from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,8 +26,9 @@ if TYPE_CHECKING:
 __all__ = ["Study", "Summary", "study"]
 
 _SUFFIX = ".study.sqlite"
-# Seconds of a point, before this machine has solved any: of a search, and of the record beside it.
-_SEARCH, _RECORD = 0.035, 0.04
+# Seconds of a point, before this machine has solved any: of a search, and of the record beside it. Those in which a
+# process starts and loads its programs come on top.
+_SEARCH, _RECORD, _START = 0.035, 0.04, 8.0
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,7 @@ class Study:
                     waiting = store.counts().get("waiting", 0)
         form = self.plan.form
         each = each or _SEARCH * sum(form.starts) / len(form.starts) + _RECORD
-        return waiting * each / processes
+        return waiting * each / processes + (_START if waiting else 0.0)
 
     def run(
         self,
@@ -135,7 +137,9 @@ class Study:
         with Store.read(self.store) as store:
             counts = store.counts()
             changed = store.digest != self.plan.digest
-            return Summary(sum(counts.values()), counts, store.kept_for_others(), changed)
+            total = sum(counts.values())
+            kept = store.answers() - total + counts.get("waiting", 0)
+            return Summary(total, counts, kept, changed)
 
     def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
         """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``."""
@@ -168,6 +172,24 @@ class Study:
         FileError, InvalidInputError : the store cannot be read, the file not be written, another suffix.
         """
         save_table(self.to_dataframe(), self._about(), path)
+
+    def drawing(self, quantity: str | None = None) -> tuple[pd.DataFrame, list[str], str, str, list[str]]:
+        """Return what `wingbeat.plots.study_page` draws: table, varied numbers, column, its label, units.
+
+        Parameters
+        ----------
+        quantity : a column of numbers; what was made least if not given.
+        """
+        frame, least = self.to_dataframe(), self.plan.form.minimise
+        varied = [path for path in self.plan.paths if path in frame and frame[path].dtype.kind in "fiu"]
+        if quantity is not None:
+            label = f"{quantity} [{unit_of(quantity)}]"
+        elif len(least) == 1:
+            name = named(least[0])
+            label = f"least {name.replace('_', ' ')} [{unit_of(name)}]"
+        else:
+            label = "what was made least"
+        return frame, varied, quantity or "objective_value", label, [unit_of(path) for path in varied]
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}

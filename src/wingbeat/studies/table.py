@@ -13,16 +13,22 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FaultList, WingbeatError
 from wingbeat.files import write_atomically
+from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.species_schema import KEYS
 from wingbeat.studies.store import Row, Store
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-__all__ = ["SUFFIXES", "check_table_name", "flat", "frame_of", "save_table", "to_dataset"]
+__all__ = ["SUFFIXES", "check_table_name", "flat", "frame_of", "save_table", "to_dataset", "unit_of"]
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
+# Units of a record's numbers by the last part of their names, where `unit_of` knows no better.
+_UNITS = {key.name: key.unit for key in KEYS}
+_UNITS |= {"speed": "m/s", "climb": "m/s", "payload": "kg", "u": "m/s", "w": "m/s", "x": "m", "z": "m"}
+_UNITS |= {"pitch_rate": "rad/s", "body_pitch": "rad", "blend_width_deg": "deg", "phase_deg": "deg", "rate": "1"}
 
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -153,3 +159,24 @@ def check_parquet() -> None:
             "Parquet needs pyarrow, which is not installed; run `pip install 'wingbeat[parquet]'`, or end the name "
             "in .nc or .csv"
         ) from None
+
+
+def unit_of(column: str) -> str:
+    """Return the unit of a column of numbers, ``1`` where it has none or nobody told.
+
+    >>> unit_of("wing.mass"), unit_of("mean_power"), unit_of("wingbeat.frequency"), unit_of("strouhal")
+    ('kg', 'W', 'Hz', '1')
+    """
+    parts = [part for part in column.split(".") if not part.isdigit()]
+    name = parts[-1]
+    if parts[0] in ("bounds", "limit"):
+        name = parts[1]
+    if name in QUANTITIES:
+        return QUANTITIES[name].unit
+    if name in ("x", "y", "z") and "shoulder" in parts:
+        return "m"
+    if name.endswith("_deg"):
+        return "deg"
+    if name.startswith("alpha_"):
+        return "rad"
+    return _UNITS.get(name, "1")

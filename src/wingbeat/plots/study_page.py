@@ -1,0 +1,194 @@
+"""The figure of a study: lines along one varied parameter, maps over two, parallel coordinates for more."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WIDTH, _ROW, _INCH = 183.0, 70.0, 25.4  # mm
+_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
+_STYLE |= {"axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+# Okabe and Ito's colours, told apart by colour-blind eyes, each line with a mark of its own for grey prints.
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+_MARKS = ("o", "s", "^", "D", "v", "P", "X")
+_MAP, _FAILED = "cividis", "#C00000"
+_DASHES = ("-", "--", ":", "-.")
+# Panels of maps and of parallel coordinates, and lines in one of these, that can still be read.
+_MOST, _STRANDS = (12, 4), 2000
+# How far a column may stray from its mean, of its size, and be one number that was rounded.
+_SAME = 1e-9
+
+
+def study_page(
+    frame: pd.DataFrame, varied: Sequence[str], quantity: str, label: str, units: Sequence[str]
+) -> Figure:
+    """Draw a quantity of a study's certified orbits over what was varied.
+
+    One varied parameter: a line for each combination of the top level, failures as red crosses at the foot. Two: a
+    map for each, in squares where they are a grid and in dots where not. More: parallel coordinates for each, a
+    strand a point.
+
+    Parameters
+    ----------
+    frame : the table of the study, `Study.to_dataframe`.
+    varied : columns that were varied with numbers.
+    quantity : column to draw.
+    label : what to call it, with its unit.
+    units : of the varied parameters.
+
+    Raises
+    ------
+    InvalidInputError : a column that is absent or holds no numbers, or nothing certified to draw.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    faults = FaultList()
+    if not varied:
+        faults.add("varied", list(varied), "holds no number to draw over", "vary one, or take the table")
+    for name in (*varied, quantity):
+        if name not in frame or frame[name].dtype.kind not in "fiu":
+            faults.add("quantity" if name == quantity else "varied", name, "is no column of numbers in the table")
+    faults.raise_if_any()
+    good = int(np.count_nonzero(frame["status"].to_numpy() == "converged"))
+    if not good:
+        faults.add("status", "none converged", "leaves nothing to draw", "see `wingbeat study status`")
+    faults.raise_if_any()
+    axes_labels = [f"{name} [{unit}]" for name, unit in zip(varied, units, strict=True)]
+    groups = _groups(frame, varied)
+    with rc_context(_STYLE):  # type: ignore[arg-type]
+        shown = groups if len(varied) == 1 else groups[: _MOST[len(varied) > 2]]
+        rows = {1: 1, 2: math.ceil(len(shown) / 2)}.get(len(varied), len(shown))
+        figure = Figure(figsize=(_WIDTH / _INCH, max(_ROW * rows, 90.0) / _INCH), layout="constrained")
+        if len(varied) == 1:
+            _draw_lines(figure, shown, varied[0], quantity, axes_labels[0], label)
+        else:
+            _draw_panels(figure, shown, [*varied, quantity], axes_labels, label)
+        left = f"; {len(groups) - len(shown)} more panels are left out" if len(groups) > len(shown) else ""
+        figure.suptitle(f"{good} of {len(frame)} points certified{left}", fontsize=8, x=0.01, ha="left")
+    return figure
+
+
+def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:
+    """Return the points of each combination of all else that the study asked for, and its name."""
+    columns = [str(name) for name in frame.columns]
+    # What was asked for stands between the status and the record, which begins with its message.
+    end = columns.index("message" if "message" in columns else "certificate")
+    asked = [name for name in columns[2:end] if name not in varied]
+    others = [name for name in asked if len({str(value) for value in frame[name]}) > 1]
+    if not others:
+        return [(str(frame["species"].iloc[0]), frame)]
+    found = []
+    for values, part in frame.groupby(others, sort=False, dropna=False):
+        key: Any = values
+        words = [
+            str(value) if name in ("species", "aero.coefficients") else f"{name} {value}"
+            for name, value in zip(others, key, strict=True)
+        ]
+        found.append((", ".join(words), part))
+    return found
+
+
+def _draw_lines(
+    figure: Figure, groups: list[tuple[str, pd.DataFrame]], path: str, quantity: str, x_label: str, label: str
+) -> None:
+    axes = figure.subplots()
+    failed = "not certified"
+    for i, (name, part) in enumerate(groups):
+        part = part.sort_values(path)
+        good = (part["status"] == "converged").to_numpy()
+        x = part[path].to_numpy(dtype=float)
+        style: dict[str, Any] = {"color": _COLOURS[i % len(_COLOURS)], "label": name, "markersize": 3.0}
+        style |= {"linestyle": _DASHES[i // len(_COLOURS) % len(_DASHES)], "marker": _MARKS[i % len(_MARKS)]}
+        # Not-a-number where there is no orbit breaks the line there.
+        axes.plot(x, np.where(good, part[quantity].to_numpy(dtype=float), np.nan), **style)
+        if not good.all():
+            foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "label": failed}
+            foot |= {"color": _FAILED, "linestyle": "none", "marker": "x", "markersize": 4}
+            axes.plot(x[~good], np.full(int((~good).sum()), 0.02), **foot)
+            failed = "_"
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(label)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=6.5)
+
+
+def _draw_panels(
+    figure: Figure, groups: list[tuple[str, pd.DataFrame]], names: list[str], labels: list[str], label: str
+) -> None:
+    """Draw a panel for each combination of the top level."""
+    maps = len(names) == 3
+    columns = min(2, len(groups)) if maps else 1
+    panels = figure.subplots(math.ceil(len(groups) / columns), columns, squeeze=False).ravel()
+    for axes, (name, part) in zip(panels, groups, strict=False):
+        good = (part["status"] == "converged").to_numpy()
+        table = part[names].to_numpy(dtype=float)
+        axes.set_title(name, fontsize=7)
+        if not good.any():
+            axes.text(0.5, 0.5, "nothing certified", transform=axes.transAxes, ha="center", color=_FAILED)
+            continue
+        drawn = _map(axes, table, good, labels) if maps else _strands(axes, table[good], [*labels, label])
+        figure.colorbar(drawn, ax=axes, label=label)
+    for axes in panels[len(groups) :]:
+        axes.remove()
+
+
+def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> Any:
+    """Draw the last column over the first two, and red crosses where nothing is certified."""
+    x, y = table[:, 0], table[:, 1]
+    drawn = _mesh(axes, x, y, np.where(good, table[:, 2], np.nan))
+    if not good.all():
+        axes.plot(x[~good], y[~good], "x", color=_FAILED, markersize=4, label="not certified", linestyle="none")
+        axes.legend(loc="upper right", fontsize=6)
+    axes.set_xlabel(labels[0])
+    axes.set_ylabel(labels[1])
+    return drawn
+
+
+def _mesh(axes: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray) -> Any:
+    """Draw values as squares where every x meets every y, else as dots."""
+    across, up = np.unique(x), np.unique(y)
+    if across.size > 1 and up.size > 1 and across.size * up.size == x.size:
+        table = np.full((up.size, across.size), np.nan)
+        table[np.searchsorted(up, y), np.searchsorted(across, x)] = values
+        return axes.pcolormesh(across, up, table, cmap=_MAP, shading="nearest")
+    some = np.isfinite(values)
+    return axes.scatter(x[some], y[some], c=values[some], cmap=_MAP, s=14, edgecolors="0.3", linewidths=0.3)
+
+
+def _strands(axes: Axes, table: np.ndarray, labels: list[str]) -> Any:
+    """Draw a line for each point through the values of its parameters, coloured by the quantity, which is last."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import Normalize
+
+    table = table[:: math.ceil(len(table) / _STRANDS)]
+    low, high = np.nanmin(table, axis=0), np.nanmax(table, axis=0)
+    spread = high - low > _SAME * np.abs(high)
+    places = np.where(spread, (table - low) / np.where(spread, high - low, 1.0), 0.5)
+    strands = [np.column_stack([np.arange(len(labels)), row]) for row in places]
+    norm = Normalize(low[-1], high[-1])
+    faint = float(np.clip(60 / len(strands), 0.15, 0.9))
+    lines = LineCollection(strands, cmap=_MAP, norm=norm, linewidths=0.6, alpha=faint)
+    lines.set_array(table[:, -1])
+    axes.add_collection(lines)
+    axes.set_xlim(-0.15, len(labels) - 0.85)
+    axes.set_ylim(-0.08, 1.08)
+    axes.set_xticks(range(len(labels)), [text.replace(" [", "\n[") for text in labels])
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8}
+    for i in range(len(labels)):
+        axes.axvline(i, color="0.3", linewidth=0.6)
+        for height, value, side in ((0.0, low[i], "top"), (1.0, high[i], "bottom")):
+            axes.text(i, height, f"{value:.4g}", ha="center", va=side, fontsize=6, bbox=box)
+    return ScalarMappable(norm, _MAP)

@@ -1,0 +1,60 @@
+"""The figure of a study: what is drawn for one, two and more varied parameters, with units, failures marked."""
+
+import pandas as pd
+import pytest
+
+import wingbeat as wb
+from wingbeat.plots import study_page
+
+
+def table(speeds, masses, models=("su-fan", "dickinson"), failing=()):
+    rows = [
+        {"key": "", "status": "infeasible" if u in failing else "converged", "species": "bat"}
+        | {"aero.coefficients": model, "speed": u, "wing.mass": m, "message": "", "objective_value": u + 100 * m}
+        for model in models
+        for u in speeds
+        for m in masses
+    ]
+    return pd.DataFrame(rows)
+
+
+def page(frame, *varied):
+    units = {"speed": "m/s", "wing.mass": "kg", "wing.semi_span": "m"}
+    return study_page(frame, varied, "objective_value", "least frequency [Hz]", [units[name] for name in varied])
+
+
+def test_one_parameter_is_lines_with_failures_at_the_foot():
+    (axes,) = page(table([4.0, 6.0, 8.0], [0.01], failing=[8.0]), "speed").axes
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("speed [m/s]", "least frequency [Hz]")
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["su-fan", "not certified", "dickinson"]
+    assert [list(line.get_xdata()) for line in axes.get_lines()] == [[4.0, 6.0, 8.0], [8.0]] * 2
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_two_parameters_are_maps(whole):
+    frame = table([4.0, 6.0, 8.0], [0.01, 0.02], failing=[8.0])
+    figure = page(frame if whole else frame.drop(index=[0]), "speed", "wing.mass")
+    maps = [axes for axes in figure.axes if axes.get_xlabel()]
+    assert [axes.get_title() for axes in maps] == ["su-fan", "dickinson"]
+    assert all((a.get_xlabel(), a.get_ylabel()) == ("speed [m/s]", "wing.mass [kg]") for a in maps)
+    assert [len(axes.get_lines()[0].get_xdata()) for axes in maps] == [2, 2]
+
+
+def test_more_parameters_are_parallel_coordinates():
+    frame = table([4.0, 6.0, 8.0], [0.01, 0.02])
+    frame.insert(5, "wing.semi_span", 0.2 + frame["wing.mass"])
+    figure = page(frame, "speed", "wing.mass", "wing.semi_span")
+    assert len(figure.axes) == 4
+    labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
+    assert labels == ["speed\n[m/s]", "wing.mass\n[kg]", "wing.semi_span\n[m]", "least frequency\n[Hz]"]
+    assert len(figure.axes[0].collections[0].get_segments()) == 6
+
+
+def test_what_cannot_be_drawn_is_told():
+    frame = table([4.0, 6.0], [0.01])
+    with pytest.raises(wb.InvalidInputError, match="is no column of numbers"):
+        study_page(frame, ["speed"], "mean_pow", "", ["m/s"])
+    with pytest.raises(wb.InvalidInputError, match="holds no number to draw over"):
+        page(frame)
+    with pytest.raises(wb.InvalidInputError, match="leaves nothing to draw"):
+        page(table([4.0], [0.01], failing=[4.0]), "speed")

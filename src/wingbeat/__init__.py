@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from wingbeat import aero as aero
     from wingbeat import experiment as experiment
     from wingbeat import plots as plots
+    from wingbeat.errors import ClusterError as ClusterError
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
@@ -68,6 +69,7 @@ _HOME = {
     "Air": "vehicle",
     "Beat": "orbits.beat",
     "Body": "vehicle",
+    "ClusterError": "errors",
     "Constraint": "orbits.limits",
     "Curve": "results.curve",
     "FileError": "errors",

@@ -43,6 +43,10 @@ class FileError(WingbeatError):
     """A file could not be read or written; the message names it, the reason and a way out."""
 
 
+class ClusterError(WingbeatError):
+    """Other machines cannot be reached or cannot do the work; the message says which, why and a way out."""
+
+
 class FaultList:
     """Collects faults so that a door reports them all at once."""
 

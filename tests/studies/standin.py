@@ -12,6 +12,8 @@ from wingbeat.studies.units import Outcome, failed
 
 # Speeds [m/s] at which something happens.
 CRASHES, HANGS, RAISES, INFEASIBLE = 90.0, 91.0, 92.0, 93.0
+# It takes along whoever started its process: never for a process whose parent is a test.
+KILLS_PARENT = 94.0
 
 
 def solve(unit):
@@ -22,6 +24,8 @@ def solve(unit):
         speed = task.changes["speed"]
         if speed == CRASHES:
             os.kill(os.getpid(), signal.SIGKILL)
+        if speed == KILLS_PARENT:
+            os.kill(os.getppid(), signal.SIGKILL)
         while speed == HANGS:
             time.sleep(1.0)
         time.sleep(float(os.environ.get("STANDIN_SECONDS", "0")))

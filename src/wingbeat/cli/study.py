@@ -39,6 +39,10 @@ def run(
         Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; as many as there are cores.")
     ] = None,
     timeout: Annotated[float, Parameter(help="Longest time for one point [s].")] = 600.0,
+    dask: Annotated[
+        str | None,
+        Parameter(help="In place of processes, a Dask cluster: tcp://HOST:PORT, or local:N.", show_default=False),
+    ] = None,
     retry_failed: Annotated[
         bool, Parameter(negative="", help="Try points again that failed: errors, crashes, time-outs.")
     ] = False,
@@ -52,20 +56,20 @@ def run(
     Exit codes: 0 all certified, 2 bad input, 3 some points are not, 130 interrupted, 143 terminated.
     Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
 
-    Examples: wingbeat study designs.toml; wingbeat study run designs.toml --processes 8 --retry-failed
+    Examples: wingbeat study designs.toml; wingbeat study run designs.toml --processes 8 --retry-failed;
+    wingbeat study run designs.toml --dask tcp://login1:8786
     """
     from wingbeat.studies.driver import listening
-    from wingbeat.studies.engine import LocalProcesses
-    from wingbeat.studies.study import check_run, cores
+    from wingbeat.studies.study import check_run, engine_for
 
-    check_run(processes, timeout)
+    check_run(processes, timeout, dask)
     asked = _read(file)
-    processes = processes or cores()
-    print(_announcement(asked, processes), file=sys.stderr)
+    engine = engine_for(processes, timeout, dask, _say)
     with listening(_say_stopping) as stop:
+        _say(_announcement(asked, engine.workers))
         with study_bar() as progress:
-            tally = asked.run_on(LocalProcesses(processes, timeout), stop, retry_failed, progress)
-        print(_told(tally), file=sys.stderr)
+            tally = asked.run_on(engine, stop, retry_failed, progress)
+        _say(_told(tally))
     _print_summary(asked, asked.status())
     if stop.level:
         return EXIT_TERMINATED if stop.by == signal.SIGTERM else EXIT_INTERRUPTED
@@ -126,6 +130,10 @@ def _read(file: Path) -> Study:
     return plan(file)
 
 
+def _say(words: str) -> None:
+    print(words, file=sys.stderr)
+
+
 def _announcement(asked: Study, processes: int) -> str:
     """Return how many points there are, and about how long they will take."""
     total, summary = len(asked), asked.status()
@@ -136,8 +144,7 @@ def _announcement(asked: Study, processes: int) -> str:
 
 
 def _say_stopping(level: int) -> None:
-    words = "finishing what is in flight; once more stops at once" if level == 1 else "stopping"
-    print(words, file=sys.stderr)
+    _say("finishing what is in flight; once more stops at once" if level == 1 else "stopping")
 
 
 def _told(tally: Tally) -> str:

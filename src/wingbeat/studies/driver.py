@@ -128,11 +128,11 @@ class _Job(NamedTuple):
 class _Queue:
     """Jobs in the order in which they are handed out: those that were lost one by one, then those of the plan."""
 
-    def __init__(self, waiting: Iterator[Waiting], workers: int, points: int) -> None:
+    def __init__(self, waiting: Iterator[Waiting], engine: Engine, points: int) -> None:
         self._waiting = waiting
         self._lost: deque[_Job] = deque()
         self._ahead: deque[_Job] = deque()
-        self._workers = workers
+        self._engine = engine
         self._left = points
         self._seconds: float | None = None
 
@@ -152,7 +152,7 @@ class _Queue:
             return [self._lost.popleft()]
         # Small ones first, to see how long a point takes; small ones last, so that all processes end together.
         wanted = 1 if self._seconds is None else _BATCH_SECONDS / max(self._seconds, 1e-6)
-        wanted = max(1, min(wanted, _MOST, self._left / (2 * self._workers)))
+        wanted = max(1, min(wanted, _MOST, self._left / (2 * self._engine.workers)))
         batch: list[_Job] = []
         while sum(len(job.unit.tasks) for job in batch) < int(wanted):
             found = next(self._waiting, None)
@@ -186,7 +186,7 @@ def drive(
     if retry_failed:
         for status in FAILED:
             counts["waiting"] = counts.get("waiting", 0) + counts.pop(status, 0)
-    jobs = _Queue(store.waiting(run if retry_failed else 0), engine.workers, counts.get("waiting", 0))
+    jobs = _Queue(store.waiting(run if retry_failed else 0), engine, counts.get("waiting", 0))
     flying: dict[int, list[_Job]] = {}
     number = 0
     try:

@@ -101,6 +101,10 @@ class LocalProcesses:
     ----------
     processes : how many.
     timeout : seconds without a word from a worker that has work, after which it is ended.
+
+    Attributes
+    ----------
+    false_starts : processes that died in a row before they said anything.
     """
 
     # What the processes run; tests put something cheaper in its place.
@@ -112,7 +116,7 @@ class LocalProcesses:
         self._crew: list[_Worker] = []
         self._heard: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
         self._ended: list[Ended] = []
-        self._false_starts = 0
+        self.false_starts = 0
 
     @property
     def free(self) -> int:
@@ -194,7 +198,7 @@ class LocalProcesses:
             self._ended.append(Ended(worker.batch, worker.outcomes, worker.name))
             worker.batch = None
         elif told == "ready":
-            worker.ready, self._false_starts = True, 0
+            worker.ready, self.false_starts = True, 0
 
     def _end_silent(self) -> None:
         """End workers that have work and said nothing for too long."""
@@ -209,8 +213,8 @@ class LocalProcesses:
         worker.process.kill()
         code = _leave(worker)
         if not worker.ready and how == "crashed":
-            self._false_starts += 1
-            if self._false_starts >= _STARTS:
+            self.false_starts += 1
+            if self.false_starts >= _STARTS:
                 raise FileError("no worker process can be started; its own words are above")
         text = f"no answer within {self._timeout:g} s" if how == "timeout" else _last_words(code)
         if worker.batch is not None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -90,6 +92,7 @@ class Study:
         timeout: float = 600.0,
         retry_failed: bool = False,
         progress: Progress | None = None,
+        dask: str | None = None,
     ) -> Summary:
         """Solve what has no answer yet; every answer is kept as soon as it is there.
 
@@ -102,16 +105,17 @@ class Study:
         timeout : seconds for one point, after which its process is ended and tried once more.
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
+        dask : in place of processes, a Dask cluster: ``tcp://HOST:PORT`` of its scheduler, or ``local:N``.
 
         Raises
         ------
+        ClusterError : Dask is not installed, its scheduler cannot be reached, its workers have another wingbeat.
         FileError : the store cannot be written, is damaged, in use, or of another numerical version.
         InvalidInputError : processes or timeout out of range.
         KeyboardInterrupt : Ctrl-C, after all is in order.
         """
-        check_run(processes, timeout)
+        engine = engine_for(processes, timeout, dask, warnings.warn)
         with listening() as stop:
-            engine = LocalProcesses(processes or cores(), timeout)
             self.run_on(engine, stop, retry_failed, progress)
         if stop.level:
             raise KeyboardInterrupt
@@ -120,8 +124,8 @@ class Study:
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
-        """Solve what has no answer yet on an engine of one's own, until done or told to stop."""
-        with only_one(self.store), Store.open(self.store) as store:
+        """Solve what has no answer yet on an engine of one's own, until done or told to stop; it is closed then."""
+        with closing(engine), only_one(self.store), Store.open(self.store) as store:
             store.set_plan(self.plan)
             return drive(store, engine, stop, progress, retry_failed)
 
@@ -200,9 +204,27 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def check_run(processes: Any, timeout: Any) -> None:
+def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:
+    """Return processes of this machine or workers of a Dask cluster; `told` hears what is odd about those.
+
+    Raises
+    ------
+    InvalidInputError : a study cannot be run so.
+    ClusterError : see `DaskEngine`.
+    """
+    check_run(processes, timeout, dask)
+    if dask is None:
+        return LocalProcesses(processes or cores(), timeout)
+    from wingbeat.studies.dask_engine import DaskEngine
+
+    return DaskEngine(dask, timeout, told)
+
+
+def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
     """Raise `InvalidInputError` unless a study can be run so."""
     faults = FaultList()
+    if dask is not None and processes is not None:
+        faults.add("processes", processes, "is given beside a Dask cluster", "leave one of them out")
     if processes is not None and (
         isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= 1024
     ):

@@ -1,0 +1,213 @@
+"""The engine on other machines: batches go to the workers of a Dask cluster, whoever started that."""
+
+from __future__ import annotations
+
+import logging
+import pickle
+import queue
+import re
+import time
+import uuid
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.errors import ClusterError, FaultList
+from wingbeat.studies.dask_work import Order, dismiss, greet, other_numbers, solve_batch
+from wingbeat.studies.engine import Ended, LocalProcesses
+from wingbeat.studies.units import Unit
+
+if TYPE_CHECKING:
+    from distributed import Client, Future, LocalCluster
+
+__all__ = ["DaskEngine", "check_dask"]
+
+_LOCAL, _REMOTE = re.compile(r"local:([1-9][0-9]{0,3})"), re.compile(r"(tcp|tls)://\S+:[0-9]+")
+# Seconds: to wait for a scheduler's first word, between two looks at who works for it, to wait for an answer that
+# is there but whose worker may just have died.
+_CONNECT, _LOOK, _FETCH = 10.0, 2.0, 5.0
+# Where a cluster of our own may listen: nobody else can reach it, at any port that is free.
+_LOOPBACK = "127.0.0.1:0"
+
+
+def check_dask(faults: FaultList, where: str, value: Any) -> None:
+    """Note a fault unless `value` names a Dask cluster."""
+    if not isinstance(value, str) or not (_LOCAL.fullmatch(value) or _REMOTE.fullmatch(value)):
+        fix = "give tcp://HOST:PORT, which `dask scheduler` prints, or local:N for N processes of this machine"
+        faults.add(where, value, "names no Dask cluster", fix)
+
+
+class DaskEngine:
+    """Workers of a Dask cluster, one batch a thread, each thread with a process of its own.
+
+    Parameters
+    ----------
+    where : ``tcp://HOST:PORT`` of a scheduler, or ``local:N`` for a cluster of this machine with N workers.
+    timeout : seconds without a word from a process that has work, after which it is ended.
+    told : called with what a user should know: no workers yet, other versions there.
+
+    Raises
+    ------
+    ClusterError : Dask is not installed, the scheduler does not answer, a worker's wingbeat is another one.
+    InvalidInputError : `where` names no cluster.
+    """
+
+    def __init__(self, where: str, timeout: float, told: Callable[[str], None]) -> None:
+        faults = FaultList()
+        check_dask(faults, "dask", where)
+        faults.raise_if_any()
+        self._where, self._timeout, self._told = where, timeout, told
+        self._name = uuid.uuid4().hex
+        self._flying: dict[int, Future] = {}
+        self._done: queue.SimpleQueue[int] = queue.SimpleQueue()
+        self._threads: dict[str, int] = {}
+        self._looked = time.monotonic() - _LOOK
+        self._alone = False
+        self._cluster, self._client = _connect(where)
+        try:
+            self._look()
+        except BaseException:
+            self.close()
+            raise
+
+    @property
+    def workers(self) -> int:
+        """How many batches it works on at a time; one waits for the first worker."""
+        self._look()
+        return max(1, sum(self._threads.values()))
+
+    @property
+    def free(self) -> int:
+        """How many more batches it takes now; a few wait at the scheduler, so that no worker waits for us."""
+        return self.workers + self.workers // 8 + 1 - len(self._flying)
+
+    def submit(self, batch: int, units: list[Unit]) -> None:
+        """Take a batch."""
+        order = Order(batch, units, LocalProcesses.work, self._timeout, self._name, NUMERICAL_VERSION)
+        # As bytes, which Dask does not look into.
+        future = self._client.submit(
+            solve_batch, pickle.dumps(order), key=f"wingbeat-{self._name}-{batch}", pure=False
+        )
+        self._flying[batch] = future
+        future.add_done_callback(lambda _: self._done.put(batch))
+
+    def wait(self, seconds: float) -> Ended | None:
+        """Return a batch that ended, or None after so many seconds."""
+        from distributed import KilledWorker
+
+        try:
+            batch = self._done.get(timeout=seconds)
+        except queue.Empty:
+            self._look()
+            return None
+        future = self._flying.pop(batch)
+        try:
+            return future.result(timeout=_FETCH)
+        except TimeoutError:  # whoever had it died just now: Dask has it done again
+            self._flying[batch] = future
+            future.add_done_callback(lambda _: self._done.put(batch))
+            return None
+        except KilledWorker:
+            text = "the Dask workers that had it died, one after the other"
+            return Ended(batch, [], "", "crashed", text, told=False)
+        except ClusterError:
+            raise
+        except Exception as error:
+            self._check()
+            raise ClusterError(f"a Dask worker cannot do the work: {_named(error)}; {_SAME}") from None
+
+    def close(self) -> None:
+        """End every process that works for this study now; a cluster of others' goes on without it."""
+        with suppress(Exception):  # leaving a cluster that may be half gone
+            if self._client.status == "running":
+                self._client.cancel(list(self._flying.values()))
+                self._client.run(dismiss, self._name, on_error="ignore")
+        self._flying.clear()
+        with suppress(Exception):
+            self._client.close(timeout=2)
+        if self._cluster is not None:
+            with suppress(Exception):
+                self._cluster.close(timeout=5)
+
+    def _check(self) -> None:
+        """Raise if the scheduler is gone."""
+        if self._client.status != "running":
+            fix = "what was stored stays: start it again and run the study again"
+            raise ClusterError(f"the Dask scheduler at {self._where} is gone; {fix}")
+
+    def _look(self) -> None:
+        """See from time to time who works for the scheduler, and meet those who are new."""
+        self._check()
+        if time.monotonic() < self._looked + _LOOK:
+            return
+        try:
+            found: Any = self._client.nthreads()
+            before = self._threads
+            self._threads = {address: number for address, number in found.items() if address in before}
+            self._threads |= {name: found[name] for name in self._meet(found.keys() - before.keys())}
+        except (OSError, TimeoutError):
+            self._check()
+        if not self._threads and not self._alone:
+            self._told("the Dask scheduler has no workers; waiting until one joins it")
+        self._alone = not self._threads
+        self._looked = time.monotonic()
+
+    def _meet(self, addresses: Iterable[str]) -> list[str]:
+        """Return which of new workers answer; refuse those with other numbers, tell of other versions."""
+        if not (new := sorted(addresses)):
+            return []
+        _, ours = greet()
+        others: dict[str, list[str]] = {}
+        met = []
+        answers: Any = self._client.run(greet, workers=new, on_error="return")
+        for name, answer in answers.items():
+            if isinstance(answer, OSError):  # it left again
+                continue
+            if isinstance(answer, BaseException):
+                raise ClusterError(f"the Dask worker {name} cannot do the work: {_named(answer)}; {_SAME}")
+            numbers, theirs = answer
+            if numbers != NUMERICAL_VERSION:
+                raise ClusterError(other_numbers(f"the Dask worker {name}", numbers, NUMERICAL_VERSION))
+            met.append(name)
+            for package, version in theirs.items():
+                if version != ours.get(package):
+                    others.setdefault(f"{package} {version}, not {ours.get(package)}", []).append(name)
+        for what, who in others.items():
+            whose = who[0] if len(who) == 1 else f"{who[0]} and {len(who) - 1} more Dask workers"
+            self._told(f"{whose}: {what}; answers agree to their certificates, not to the last digit")
+        return met
+
+
+_SAME = "install the same wingbeat there as here"
+
+
+def _named(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+def _connect(where: str) -> tuple[LocalCluster | None, Client]:
+    """Return a client, and the cluster where it is our own."""
+    try:
+        import distributed
+    except ImportError:
+        raise ClusterError("Dask is not installed here: pip install 'wingbeat[cluster]'") from None
+    # What is wrong is told in our words, once.
+    for handler in logging.getLogger("distributed").handlers:
+        handler.setLevel(logging.CRITICAL + 1)
+    if local := _LOCAL.fullmatch(where):
+        # Its workers are threads of this process, for each has a process of its own for the work.
+        cluster = distributed.LocalCluster(
+            n_workers=1,
+            threads_per_worker=int(local[1]),
+            processes=False,
+            dashboard_address=_LOOPBACK,
+            worker_dashboard_address=_LOOPBACK,
+            memory_limit=0,
+        )
+        return cluster, distributed.Client(cluster, set_as_default=False)
+    try:
+        return None, distributed.Client(where, timeout=_CONNECT, set_as_default=False)
+    except (OSError, TimeoutError, ValueError):
+        fix = "check the address, which `dask scheduler` prints, and that it can be reached from here"
+        raise ClusterError(f"no Dask scheduler answers at {where}; {fix}") from None

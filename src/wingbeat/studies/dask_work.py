@@ -1,0 +1,141 @@
+"""What a thread of a Dask worker does: it hands a batch to a process of its own, and waits.
+
+A thread cannot be ended and a point may crash its process, so neither is left to the Dask worker itself. What runs
+is the same process, with the same one thread, as without Dask: answers are the same to the bit.
+Nothing here imports Dask.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import pickle
+import platform
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
+
+from wingbeat._version import NUMERICAL_VERSION, __version__
+from wingbeat.errors import ClusterError, FileError
+from wingbeat.studies.engine import Ended, LocalProcesses
+from wingbeat.studies.units import Unit
+
+__all__ = ["Order", "dismiss", "greet", "other_numbers", "solve_batch"]
+
+# What the last digit of an answer hangs on, beside the machine.
+_TOLD = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
+# Seconds that a process without work is kept.
+_KEPT = 60.0
+
+
+class Order(NamedTuple):
+    """A batch on its way to a Dask worker.
+
+    Parameters
+    ----------
+    batch : its number.
+    units : its points.
+    work : what the processes run, ``module:function``.
+    timeout : seconds without a word from a process, after which it is ended.
+    driver : the name of who asks.
+    numerical_version : of who asks.
+    """
+
+    batch: int
+    units: list[Unit]
+    work: str
+    timeout: float
+    driver: str
+    numerical_version: int
+
+
+def greet() -> tuple[int, dict[str, str]]:
+    """Return the numerical version, and the versions of all that an answer's last digit hangs on."""
+    versions = {name: importlib.metadata.version(name) for name in _TOLD}
+    return NUMERICAL_VERSION, {"wingbeat": __version__, "Python": platform.python_version(), **versions}
+
+
+class _Crew:
+    """The processes of this Dask worker: each lent to one batch at a time, ended when nobody asks for a while."""
+
+    def __init__(self) -> None:
+        self.gone: set[str] = set()
+        self._idle: list[tuple[tuple[str, float], LocalProcesses]] = []
+        self._lock = threading.Lock()
+        self._timer = threading.Timer(_KEPT, self.dismiss)
+
+    @contextmanager
+    def lend(self, work: str, timeout: float) -> Iterator[LocalProcesses]:
+        """Lend a process; it is ended where its batch does not end in order."""
+        kind = work, timeout
+        with self._lock:
+            self._timer.cancel()
+            place = next((i for i, (other, _) in enumerate(self._idle) if other == kind), None)
+            one = LocalProcesses(1, timeout) if place is None else self._idle.pop(place)[1]
+        one.work = work
+        try:
+            yield one
+        except BaseException:
+            one.close()
+            raise
+        with self._lock:
+            self._idle.append((kind, one))
+            self._timer.cancel()
+            self._timer = threading.Timer(_KEPT, self.dismiss)
+            self._timer.daemon = True
+            self._timer.start()
+
+    def dismiss(self) -> None:
+        """End the processes that have no work."""
+        with self._lock:
+            self._timer.cancel()
+            idle, self._idle = self._idle, []
+        for _, one in idle:
+            one.close()
+
+
+_crew = _Crew()
+
+
+def dismiss(driver: str) -> None:
+    """End what works for a driver that leaves."""
+    _crew.gone.add(driver)
+    _crew.dismiss()
+
+
+def solve_batch(order: bytes) -> Ended:
+    """Have a process solve an order, and return how it ended.
+
+    Raises
+    ------
+    ClusterError : this machine's wingbeat is another one, or no process can be started here.
+    """
+    asked: Order = pickle.loads(order)
+    here = socket.gethostname()
+    if asked.numerical_version != NUMERICAL_VERSION:
+        raise ClusterError(other_numbers(f"the worker on {here}", NUMERICAL_VERSION, asked.numerical_version))
+    try:
+        with _crew.lend(asked.work, asked.timeout) as process:
+            while True:
+                ended = _solve(asked, process)
+                if not process.false_starts:  # else no point is to blame
+                    return ended._replace(worker=f"{here} {ended.worker}")
+    except FileError:
+        fix = "what it says stands in the log of that worker"
+        raise ClusterError(f"on {here} no process that solves can be started; {fix}") from None
+
+
+def _solve(asked: Order, process: LocalProcesses) -> Ended:
+    process.submit(asked.batch, asked.units)
+    while True:
+        if asked.driver in _crew.gone:
+            raise ClusterError("the driver has left")
+        if (ended := process.wait(0.2)) is not None:
+            return ended
+
+
+def other_numbers(who: str, theirs: int, ours: int) -> str:
+    """Return why a worker of another numerical version is refused."""
+    fix = "its answers do not mix with these: install the same wingbeat there"
+    return f"{who} has a wingbeat of numerical version {theirs}, this one is of {ours}; {fix}"

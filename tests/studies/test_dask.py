@@ -132,13 +132,14 @@ def test_killed_workers_and_a_killed_driver_lose_nothing(cheap, cluster, tmp_pat
 
 
 def test_a_point_that_takes_its_dask_worker_along_fails_alone(cheap, cluster):
-    study = cheap([KILLS_PARENT, *GRID[:30]])
+    # Without retries of Dask's own, so that whatever shares a worker with that point is lost with it.
+    study = cheap([KILLS_PARENT, *GRID[:10]])
     machines = cluster(study, DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES="0")
     machines.add_worker()
     driver = study.start("run", study.file, "--dask", machines.address)
     out, err = driver.communicate(timeout=100)
     assert driver.returncode == 3, err
-    assert "converged 30 crashed 1" in " ".join(out.split())
+    assert "converged 10 crashed 1" in " ".join(out.split())
     assert "crashed: speed = 94: the Dask workers that had it died" in out
     assert "Traceback" not in err
 
@@ -179,15 +180,12 @@ def test_dask_of_this_machine_through_the_program(cheap):
     assert {key: row for key, row in kept.items() if row[0] == "converged"} == undisturbed(cheap, GRID[:40])
 
 
-@pytest.mark.parametrize(
-    ("signals", "code"), [((signal.SIGINT,), 130), ((signal.SIGTERM,), 143), ((signal.SIGKILL,), -9)]
-)
-def test_a_driver_with_its_own_cluster_leaves_no_process(cheap, signals, code):
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
+def test_a_driver_with_its_own_cluster_leaves_no_process(cheap, number, code):
     study = cheap(GRID)
     driver = study.start("run", study.file, "--dask", "local:2", seconds=0.05)
     wait_for(lambda: len(study.points()) > 3)
-    for number in signals:
-        driver.send_signal(number)
+    driver.send_signal(number)
     driver.communicate(timeout=30)
     assert driver.returncode == code
     study.wait_gone()

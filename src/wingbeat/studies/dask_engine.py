@@ -8,6 +8,7 @@ import queue
 import re
 import time
 import uuid
+from collections import deque
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ from wingbeat.studies.units import Unit
 
 if TYPE_CHECKING:
     from distributed import Client, Future, LocalCluster
+    from distributed.deploy.cluster import Cluster
 
 __all__ = ["DaskEngine", "check_dask"]
 
@@ -32,8 +34,12 @@ _LOOPBACK = "127.0.0.1:0"
 
 
 def check_dask(faults: FaultList, where: str, value: Any) -> None:
-    """Note a fault unless `value` names a Dask cluster."""
-    if not isinstance(value, str) or not (_LOCAL.fullmatch(value) or _REMOTE.fullmatch(value)):
+    """Note a fault unless `value` is or names a Dask cluster."""
+    if isinstance(value, str):
+        known = _LOCAL.fullmatch(value) or _REMOTE.fullmatch(value)
+    else:
+        known = hasattr(value, "scheduler_address")
+    if not known:
         fix = "give tcp://HOST:PORT, which `dask scheduler` prints, or local:N for N processes of this machine"
         faults.add(where, value, "names no Dask cluster", fix)
 
@@ -43,7 +49,8 @@ class DaskEngine:
 
     Parameters
     ----------
-    where : ``tcp://HOST:PORT`` of a scheduler, or ``local:N`` for a cluster of this machine with N workers.
+    where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
+        cluster of Dask's own, as of dask-jobqueue.
     timeout : seconds without a word from a process that has work, after which it is ended.
     told : called with what a user should know: no workers yet, other versions there.
 
@@ -53,17 +60,23 @@ class DaskEngine:
     InvalidInputError : `where` names no cluster.
     """
 
-    def __init__(self, where: str, timeout: float, told: Callable[[str], None]) -> None:
+    def __init__(self, where: str | Cluster, timeout: float, told: Callable[[str], None]) -> None:
         faults = FaultList()
         check_dask(faults, "dask", where)
         faults.raise_if_any()
-        self._where, self._timeout, self._told = where, timeout, told
+        self._where = where if isinstance(where, str) else where.scheduler_address
+        self._timeout, self._told = timeout, told
         self._name = uuid.uuid4().hex
+        self._asked: dict[int, list[Unit]] = {}
         self._flying: dict[int, Future] = {}
+        # A Dask worker that dies takes along whatever it has: each of those batches goes once more without others
+        # beside it, and only one that loses its worker then is lost.
+        self._suspects: deque[int] = deque()
+        self._alone: int | None = None
         self._done: queue.SimpleQueue[int] = queue.SimpleQueue()
         self._threads: dict[str, int] = {}
         self._looked = time.monotonic() - _LOOK
-        self._alone = False
+        self._empty = False
         self._cluster, self._client = _connect(where)
         try:
             self._look()
@@ -80,42 +93,57 @@ class DaskEngine:
     @property
     def free(self) -> int:
         """How many more batches it takes now; a few wait at the scheduler, so that no worker waits for us."""
+        if self._suspects or self._alone is not None:
+            return 0
         return self.workers + self.workers // 8 + 1 - len(self._flying)
 
     def submit(self, batch: int, units: list[Unit]) -> None:
         """Take a batch."""
+        self._asked[batch] = units
         order = Order(batch, units, LocalProcesses.work, self._timeout, self._name, NUMERICAL_VERSION)
         # As bytes, which Dask does not look into.
-        future = self._client.submit(
-            solve_batch, pickle.dumps(order), key=f"wingbeat-{self._name}-{batch}", pure=False
-        )
-        self._flying[batch] = future
-        future.add_done_callback(lambda _: self._done.put(batch))
+        key = f"wingbeat-{uuid.uuid4().hex}"
+        self._watch(batch, self._client.submit(solve_batch, pickle.dumps(order), key=key, pure=False))
 
     def wait(self, seconds: float) -> Ended | None:
         """Return a batch that ended, or None after so many seconds."""
-        from distributed import KilledWorker
-
+        if self._suspects and not self._flying:
+            self._alone = self._suspects.popleft()
+            self.submit(self._alone, self._asked[self._alone])
         try:
             batch = self._done.get(timeout=seconds)
         except queue.Empty:
             self._look()
             return None
-        future = self._flying.pop(batch)
+        ended = self._end(batch, self._flying.pop(batch))
+        if ended is not None:
+            del self._asked[batch]
+            self._alone = None
+        return ended
+
+    def _watch(self, batch: int, future: Future) -> None:
+        """Wait for a future without standing still."""
+        self._flying[batch] = future
+        future.add_done_callback(lambda _: self._done.put(batch))
+
+    def _end(self, batch: int, future: Future) -> Ended | None:
+        """Return how a batch ended, None where it goes on."""
+        from distributed import KilledWorker
+
         try:
             return future.result(timeout=_FETCH)
-        except TimeoutError:  # whoever had it died just now: Dask has it done again
-            self._flying[batch] = future
-            future.add_done_callback(lambda _: self._done.put(batch))
-            return None
+        except TimeoutError:  # whoever had the answer died just now: Dask has it done again
+            self._watch(batch, future)
         except KilledWorker:
-            text = "the Dask workers that had it died, one after the other"
-            return Ended(batch, [], "", "crashed", text, told=False)
+            if batch == self._alone:
+                return Ended(batch, [], "", "crashed", "the Dask workers that had it died", told=False)
+            self._suspects.append(batch)
         except ClusterError:
             raise
         except Exception as error:
             self._check()
             raise ClusterError(f"a Dask worker cannot do the work: {_named(error)}; {_SAME}") from None
+        return None
 
     def close(self) -> None:
         """End every process that works for this study now; a cluster of others' goes on without it."""
@@ -148,9 +176,9 @@ class DaskEngine:
             self._threads |= {name: found[name] for name in self._meet(found.keys() - before.keys())}
         except (OSError, TimeoutError):
             self._check()
-        if not self._threads and not self._alone:
+        if not self._threads and not self._empty:
             self._told("the Dask scheduler has no workers; waiting until one joins it")
-        self._alone = not self._threads
+        self._empty = not self._threads
         self._looked = time.monotonic()
 
     def _meet(self, addresses: Iterable[str]) -> list[str]:
@@ -186,7 +214,7 @@ def _named(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def _connect(where: str) -> tuple[LocalCluster | None, Client]:
+def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
     """Return a client, and the cluster where it is our own."""
     try:
         import distributed
@@ -195,7 +223,7 @@ def _connect(where: str) -> tuple[LocalCluster | None, Client]:
     # What is wrong is told in our words, once.
     for handler in logging.getLogger("distributed").handlers:
         handler.setLevel(logging.CRITICAL + 1)
-    if local := _LOCAL.fullmatch(where):
+    if isinstance(where, str) and (local := _LOCAL.fullmatch(where)):
         # Its workers are threads of this process, for each has a process of its own for the work.
         cluster = distributed.LocalCluster(
             n_workers=1,

@@ -24,6 +24,7 @@ from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from distributed.deploy.cluster import Cluster
 
 __all__ = ["Study", "Summary", "study"]
 
@@ -92,7 +93,7 @@ class Study:
         timeout: float = 600.0,
         retry_failed: bool = False,
         progress: Progress | None = None,
-        dask: str | None = None,
+        dask: str | Cluster | None = None,
     ) -> Summary:
         """Solve what has no answer yet; every answer is kept as soon as it is there.
 
@@ -105,7 +106,8 @@ class Study:
         timeout : seconds for one point, after which its process is ended and tried once more.
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
-        dask : in place of processes, a Dask cluster: ``tcp://HOST:PORT`` of its scheduler, or ``local:N``.
+        dask : in place of processes, a Dask cluster: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or what
+            Dask calls a cluster; see docs/clusters.md.
 
         Raises
         ------

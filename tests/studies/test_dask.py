@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 
+import distributed
 import pytest
 
 import wingbeat as wb
@@ -203,6 +204,16 @@ def test_records_are_those_of_local_processes_to_the_bit(tmp_path):
         found.append(connection.execute(question).fetchall())
         connection.close()
     assert found[0] == found[1]
+
+
+def test_a_cluster_of_somebody_else_is_used_and_left_as_it_is(cheap):
+    study = cheap(GRID[:5])
+    words = {"dashboard_address": "127.0.0.1:0", "worker_dashboard_address": "127.0.0.1:0"}
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, **words) as theirs:
+        assert wb.study(study.file).run(dask=theirs).counts == {"converged": 5}
+        with distributed.Client(theirs, set_as_default=False) as client:
+            assert client.submit(abs, -1).result() == 1
+    assert study.points() == undisturbed(cheap, GRID[:5])
 
 
 def test_what_cannot_be_used_is_explained(cheap, monkeypatch):

@@ -85,9 +85,7 @@ def orbit(
     ] = None,
     starts: Annotated[
         Whole | None,
-        Parameter(
-            help="Number of searches; more find better optima. 6 if not given, 12 with limits or for powers."
-        ),
+        Parameter(help="Number of searches; more find better optima. 6 if not given, 24 for least peaks."),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,

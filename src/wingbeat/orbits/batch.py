@@ -14,7 +14,6 @@ from wingbeat.orbits.neighbours import Answers, alike
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
-from wingbeat.orbits.starts import usual_starts
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -24,7 +23,7 @@ _MOST_PROCESSES = 1024
 
 def find_orbits(
     problems: Sequence[OrbitProblem],
-    starts: int | None = None,
+    starts: int = 6,
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
@@ -54,7 +53,7 @@ def find_orbits(
     if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
         faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
     faults.raise_if_any()
-    check_search(1 if starts is None else starts, seed, 1 if most_starts is None else most_starts)
+    check_search(starts, seed, 1 if most_starts is None else most_starts)
     solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
     return _in_order(solve, problems, processes, progress)
 
@@ -86,7 +85,7 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 
 
 def _solve_alike(
-    problems: Sequence[OrbitProblem], starts: int | None, seed: int, most_starts: int | None, advise: bool
+    problems: Sequence[OrbitProblem], starts: int, seed: int, most_starts: int | None, advise: bool
 ) -> Iterator[Solution]:
     """Solve problems of one group in turn, each helped by the answers before."""
     answers = Answers(problems)
@@ -94,8 +93,7 @@ def _solve_alike(
         foretold = answers.foretell(i)
         settled = None if foretold is None else settle(problem, *foretold)
         best, polish = settled or (None, None)
-        searches = usual_starts(problem) if starts is None else starts
-        own = searches if best is None else searches - 1
+        own = starts if best is None else starts - 1
         if own:
             cold = find_orbit(
                 problem, own, seed, threads=1, most_starts=most_starts, advise=advise and best is None

@@ -17,7 +17,7 @@ from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.model import FlightModel, flight_model
 from wingbeat.orbits.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
 from wingbeat.orbits.quantities import Frequency, Quantity, named_objective
-from wingbeat.orbits.readings import check_quantities
+from wingbeat.orbits.readings import check_quantities, row_count
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
 
@@ -161,6 +161,11 @@ class OrbitProblem:
     def reads_beat(self) -> bool:
         """Whether objective or constraints are read off the beat, not off the unknowns."""
         return bool(self._quantities())
+
+    @property
+    def lowers_peaks(self) -> bool:
+        """Whether the objective is the largest value of a series."""
+        return isinstance(self.minimise, Quantity) and row_count(self.minimise.of, self.aero.strips) > 1
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:

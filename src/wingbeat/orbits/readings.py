@@ -63,7 +63,7 @@ class Readings:
         self._functions = tuple([q.of for q in quantities] + kept)
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        self.counts = [_row_count(function, strips) for function in self._functions]
+        self.counts = [row_count(function, strips) for function in self._functions]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
         limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
         self.constraint_counts = self.counts[len(quantities) :]
@@ -89,7 +89,8 @@ class Readings:
         return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
 
 
-def _row_count(function: Callable[[Beat], Any], strips: int) -> int:
+def row_count(function: Callable[[Beat], Any], strips: int) -> int:
+    """Return how many rows a quantity's function has: 1 if it gives a number."""
     shape = jax.eval_shape(function, _any_beat(strips)).shape
     return PARTS * math.prod(shape[1:]) if shape else 1
 

@@ -27,7 +27,7 @@ from wingbeat.orbits.search import (
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.shortage import NOTHING, Shortage
 from wingbeat.orbits.solution import SAME, Optimum, Solution, Status
-from wingbeat.orbits.starts import start_point, usual_starts
+from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
@@ -71,7 +71,8 @@ def find_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; 6 if not given, 12 where objective or limits are read off the beat.
+    starts : number of searches; 6 if not given, 24 where peaks are made least. For these half as many follow
+        from beside the best.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
         of which counts as one more.
@@ -105,6 +106,8 @@ def find_orbit(
                 progress(len(found), total)
             if stage.start and (best := _first_certified(transcription, [candidate])) is not None:
                 break
+        if transcription.has_level and not stage.start:
+            found += _beside_best(transcription, found, starts // 2, seed)
         best = best or _first_certified(transcription, found)
         if best is not None:
             break
@@ -283,6 +286,19 @@ def _searches(
             yield from pool.map(one, indices)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _beside_best(problem: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
+    """Return where searches end that start beside the best optimum so far: least peaks often have better near."""
+    more: list[Candidate] = []
+    for index in range(count):
+        optima = [c for c in (*found, *more) if c.closed and c.optimal]
+        if not optima:
+            break
+        best = min(optima, key=lambda c: c.objective)
+        start = start_beside(problem.problem, problem.physical(best.scaled), len(found) + index, seed)
+        more.append(search(problem.anew(), start))
+    return more
 
 
 def _first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:

@@ -163,8 +163,8 @@ def solve_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches from different starts; more find better optima. If not given 6, or 12 where the
-        objective or a limit is read off the beat: such problems have more optima.
+    starts : number of searches from different starts; more find better optima. If not given 6, or 24 where
+        the largest value of a series is made least: such problems have more optima.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
 
@@ -192,7 +192,7 @@ def solve_orbit(
 
 def solve_orbits(
     problems: Sequence[OrbitProblem],
-    starts: int | None = None,
+    starts: int = 6,
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
@@ -230,7 +230,7 @@ def solve_orbits(
     ['converged', 'converged', 'converged']
     """
     found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise)
-    return [Orbit.of(s, usual_starts(s.problem) if starts is None else starts, seed) for s in found]
+    return [Orbit.of(solution, starts, seed) for solution in found]
 
 
 def solve_series(

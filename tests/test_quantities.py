@@ -9,8 +9,9 @@ import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.orbits.limits import parse_constraint
 from wingbeat.orbits.quantities import QUANTITIES, named_objective, named_quantity
-from wingbeat.orbits.solve import find_orbit
-from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.search import search
+from wingbeat.orbits.solve import certified_optimum, find_orbit
+from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.results.provenance import problem_from
 
@@ -94,6 +95,30 @@ def test_nothing_else_has_less_of_it(least, name):
     assert own == pytest.approx(best.value_of(named_quantity(name)), rel=1e-12)
     for other in least.values():
         assert own <= other.value_of(named_quantity(name)) * (1 + 1e-3)
+
+
+def test_what_bound_the_search_may_let_go_in_a_finer_flight():
+    problem = wb.OrbitProblem(BAT, speed=SPEED, minimise="peak_actuator_power")
+    candidate = search(Transcription(problem), start_point(problem, 5, 0))
+    assert candidate.closed
+    assert candidate.optimal
+    found = certified_optimum(candidate, 0.0)
+    assert found is not None
+    assert found.optimality <= 1e-5
+    assert found.objective == pytest.approx(candidate.objective, rel=1e-2)
+
+
+def test_least_peaks_are_sought_from_more_starts_and_beside_the_best():
+    peak, mean = (wb.OrbitProblem(BAT, SPEED, minimise=name) for name in ("peak_power", "mean_power"))
+    assert usual_starts(peak) > usual_starts(mean) == usual_starts(wb.OrbitProblem(BAT, SPEED))
+    unknowns, best = peak.unknowns(), start_point(peak, 0, 0)
+    beside = [start_beside(peak, best, index, 0) for index in (0, 0, 1)]
+    assert np.array_equal(beside[0], beside[1])
+    assert not np.array_equal(beside[0], beside[2])
+    for start in beside:
+        assert ((unknowns.lower <= start) & (start <= unknowns.upper)).all()
+        assert (np.abs(start - best) <= 0.5 * unknowns.scale).all()
+    assert [find_orbit(problem, 2).starts for problem in (peak, mean)] == [3, 2]
 
 
 def test_the_least_of_the_peaks_is_that_of_several(least):

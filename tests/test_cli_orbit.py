@@ -246,7 +246,7 @@ def test_every_option_reaches_the_problem(asked: list[Any], capsys: Any) -> None
     assert problem.species.wingbeat.twist_ratio == 0.5
     asked.clear()
     assert main(["orbit", "pigeon", "--speed", "0", "--force-point", "centre-of-pressure"]) == 0
-    assert (asked[0].aero.force_point, *asked[1:]) == ("centre-of-pressure", 6, 0, None)
+    assert (asked[0].aero.force_point, *asked[1:]) == ("centre-of-pressure", None, 0, None)
     capsys.readouterr()
 
 

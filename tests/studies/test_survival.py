@@ -122,11 +122,9 @@ def test_a_full_disk_is_told_and_what_was_stored_stays(cheap, undisturbed):
     study = cheap(GRID)
     # What was planned fits, and a few answers do.
     limit = 200_000
-
-    def small():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-
-    driver = study.start("run", study.file, "-j", 2, seconds=0.01, preexec_fn=small)
+    driver = study.start("run", study.file, "-j", 2, seconds=0.01)
+    # Set from outside, while it still imports: to set it in the child would fork a process that runs JAX.
+    resource.prlimit(driver.pid, resource.RLIMIT_FSIZE, (limit, limit))
     _, err = driver.communicate(timeout=60)
     assert driver.returncode == 2
     assert "what was stored stays; make room and run the study again" in err

@@ -22,19 +22,19 @@ from wingbeat.orbits.transcription import Transcription
 
 sys.path.append(str(Path(__file__).parent / "peers"))
 
-# Seeds of the restarts and of IPOPT's guesses; that of wingbeat's own starts is 0.
-RESTARTS, GUESSES = 1, 2
+# Seed of IPOPT's guesses.
+GUESSES = 2
 # A search's own value is that much off the certified one at most; so many of its optima are certified.
 ROUGHLY, MOST = 0.02, 4
 # In the optimiser's scale, of which a free parameter's range has five.
 PERTURBED = 0.25
 
 
-def by_restarts(best: Solution, restarts: int) -> dict:
+def by_restarts(best: Solution, restarts: int, seed: int) -> dict:
     """Return how many restarts ended in an optimum, how many in the best, and the least certified objective."""
     problem = best.problem
     programme = Transcription(problem)
-    found = [search(programme.anew(), start_point(problem, 1 + i, RESTARTS)) for i in range(restarts)]
+    found = [search(programme.anew(), start_point(problem, 1 + i, seed)) for i in range(restarts)]
     optima = sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective)
     near = best.objective + ROUGHLY * abs(best.objective)
     rivals: list[Candidate] = []

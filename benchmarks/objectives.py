@@ -63,8 +63,8 @@ def limits_of(solver: Solver, animal: str, speed: float, only: list[str]) -> Ite
         yield "mean_positive_power", "flap_amplitude=45 deg"
 
 
-def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: int, ipopt: Ipopt) -> dict:
-    """Solve a problem, try to better it, and return what came of it."""
+def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: tuple[int, int], ipopt: Ipopt) -> dict:
+    """Solve a problem, try to better it, by so many restarts of a seed too, and return what came of it."""
     begun = time.perf_counter()
     best = solver(*asked)
     spent = {"solved": best.seconds}
@@ -78,7 +78,7 @@ def attempt(solver: Solver, asked: tuple[str, float, str, str], restarts: int, i
         "active": list(best.active_bounds),
     }
     if best.status is wb.Status.CONVERGED:
-        row["by_restarts"], spent["restarts"] = _timed(by_restarts, best, restarts)
+        row["by_restarts"], spent["restarts"] = _timed(by_restarts, best, *restarts)
         row["by_ipopt"], spent["ipopt"] = _timed(ipopt, best)
         others = [row["by_restarts"]["least"], *(found["certified"] for found in row["by_ipopt"])]
         least = min((value for value in others if value is not None), default=best.objective)
@@ -117,6 +117,9 @@ def main() -> None:
     arguments.add_argument("--starts", type=int, help="of wingbeat's own search; if not given, as many as it makes")
     arguments.add_argument("--restarts", type=int, default=30)
     arguments.add_argument(
+        "--seed", type=int, default=1, help="of the restarts; that of wingbeat's own starts is 0"
+    )
+    arguments.add_argument(
         "--guesses", type=int, default=1, help="random ones of IPOPT, besides wingbeat's optimum"
     )
     arguments.add_argument("-o", "--output", type=Path, required=True)
@@ -133,7 +136,7 @@ def main() -> None:
             # Problems that differ in numbers only follow one another: IPOPT's statement of them is built once.
             asked += sorted(limited, key=lambda each: each[3].rstrip("0123456789.e-"))
         for each in (each for each in asked if each not in done(given.output)):
-            row = attempt(solver, each, given.restarts, ipopt)
+            row = attempt(solver, each, (given.restarts, given.seed), ipopt)
             with given.output.open("a") as file:
                 print(json.dumps(row), file=file)
 

@@ -84,8 +84,7 @@ def orbit(
         ),
     ] = None,
     starts: Annotated[
-        Whole | None,
-        Parameter(help="Number of searches; more find better optima. 6 if not given, 24 for least peaks."),
+        Whole | None, Parameter(help="Number of searches; if not given 6, 12 for powers and limits, 24 for peaks.")
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,

@@ -71,8 +71,8 @@ def find_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; 6 if not given, 24 where peaks are made least. For these half as many follow
-        from beside the best.
+    starts : number of searches; if not given 6, 12 where objective or limits are read off the beat, 24 where
+        peaks are made least. For these half as many follow from beside the best.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
         of which counts as one more.

@@ -309,3 +309,8 @@ def test_on_the_command_line(capsys):
     assert "on the bound of frequency<=16" in printed
     assert main([*command, "--subject-to", "beauty>=1"]) == 2
     assert "beauty" in capsys.readouterr().err
+
+
+def test_a_wingbeat_bounded_more_tightly_is_sought_from_more_starts():
+    tight, held = (wb.OrbitProblem(BAT, SPEED, subject_to=f"flap_amplitude{sign}50 deg") for sign in ("<=", "="))
+    assert usual_starts(tight) > usual_starts(held)

@@ -84,7 +84,10 @@ def orbit(
         ),
     ] = None,
     starts: Annotated[
-        Whole | None, Parameter(help="Number of searches; if not given 6, 12 for powers and limits, 24 for peaks.")
+        Whole | None,
+        Parameter(
+            help="Number of searches; if not given 6, 12 for powers and limits, 24 for peaks and own bounds."
+        ),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,

@@ -163,6 +163,11 @@ class OrbitProblem:
         return bool(self._quantities())
 
     @property
+    def has_own_bounds(self) -> bool:
+        """Whether a free parameter of the wingbeat is bounded otherwise than the species bounds it."""
+        return any(self.bounds[name] != self.species.bounds.get(name) for name in self.free)
+
+    @property
     def lowers_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
         return isinstance(self.minimise, Quantity) and row_count(self.minimise.of, self.aero.strips) > 1

@@ -72,7 +72,7 @@ def find_orbit(
     ----------
     problem : the orbit problem.
     starts : number of searches; if not given 6, 12 where objective or limits are read off the beat, 24 where
-        peaks are made least. For these half as many follow from beside the best.
+        bounds are other than the species' or peaks are made least; for peaks half as many follow beside the best.
     seed : makes the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
         of which counts as one more.

@@ -164,7 +164,8 @@ def solve_orbit(
     ----------
     problem : the orbit problem.
     starts : number of searches from different starts; more find better optima. If not given 6, 12 where
-        objective or limits are read off the beat, 24 where the largest value of a series is made least.
+        objective or limits are read off the beat, 24 where the wingbeat's bounds are other than the species' or the
+        largest value of a series is made least.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
 

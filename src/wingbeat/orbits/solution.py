@@ -97,9 +97,8 @@ class Solution:
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:
-        """Floquet multipliers, found when first asked for: they cost as much as the orbit."""
-        problem = self.problem
-        return floquet_multipliers(problem.model, self.wingbeat, self.certificate.states[0, 2:], problem.free)
+        """Floquet multipliers, found when first asked for."""
+        return floquet_multipliers(self.problem.model, self.wingbeat, self.certificate.states[:, 2:])
 
 
 def better_of(own: Solution, other: Solution) -> Solution:

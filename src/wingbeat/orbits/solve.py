@@ -27,6 +27,7 @@ from wingbeat.orbits.search import (
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.shortage import NOTHING, Shortage
 from wingbeat.orbits.solution import SAME, Optimum, Solution, Status
+from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
@@ -261,12 +262,17 @@ def _solution(
 
 
 def _load_programs(problem: Transcription, start: np.ndarray) -> None:
-    """Read or compile, side by side, the programs that the search and the certifier will want, once a process."""
+    """Read or compile, side by side, the programs that a search and a record will want, once a process."""
     if fly_part.loaded:
         return
-    wingbeat = problem.problem.wingbeat(start)
+
+    def fly_and_differentiate() -> None:
+        wingbeat = problem.problem.wingbeat(start)
+        flown = certify(problem.model, wingbeat, start[:4])
+        floquet_multipliers(problem.model, wingbeat, flown.states[:, 2:])
+
     with ThreadPoolExecutor(2) as pool:
-        certifying = pool.submit(certify, problem.model, wingbeat, start[:4])
+        certifying = pool.submit(fly_and_differentiate)
         pool.submit(problem.closure_jacobian, problem.scaled(start)).result()
         certifying.result()
 

@@ -9,8 +9,11 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import TypeVar
 
+import numpy as np
+
 from wingbeat.errors import FaultList
 from wingbeat.orbits.neighbours import Answers, alike
+from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
@@ -90,19 +93,35 @@ def _solve_alike(
     """Solve problems of one group in turn, each helped by the answers before."""
     answers = Answers(problems)
     for i, problem in enumerate(problems):
-        foretold = answers.foretell(i)
-        settled = None if foretold is None else settle(problem, *foretold)
-        best, polish = settled or (None, None)
-        own = starts if best is None else starts - 1
-        if own:
-            cold = find_orbit(
-                problem, own, seed, threads=1, most_starts=most_starts, advise=advise and best is None
-            )
-            best = cold if best is None else better_of(cold, best)
-        assert best is not None
+        best, polish = find_helped(problem, answers.foretell(i), starts, seed, most_starts, advise)
         if best.status is Status.CONVERGED:
             answers.add(i, best.unknowns, best.active_bounds, polish)
         yield best
+
+
+def find_helped(
+    problem: OrbitProblem,
+    foretold: tuple[np.ndarray, Polish | None] | None,
+    starts: int,
+    seed: int = 0,
+    most_starts: int | None = None,
+    advise: bool = False,
+) -> tuple[Solution, Polish | None]:
+    """Return the solution of a problem, and what corrected it if it was foretold.
+
+    Parameters
+    ----------
+    problem, starts, seed, most_starts, advise : as in `find_orbit`.
+    foretold : what `Answers.foretell` said, which takes the place of one search if it leads to a certified orbit.
+    """
+    settled = None if foretold is None else settle(problem, *foretold)
+    if settled is None:
+        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise), None
+    best, polish = settled
+    if starts > 1:
+        cold = find_orbit(problem, starts - 1, seed, threads=1, most_starts=most_starts, advise=False)
+        best = better_of(cold, best)
+    return best, polish
 
 
 def in_processes(

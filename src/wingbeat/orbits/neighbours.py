@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 
 import numpy as np
 
@@ -26,21 +26,26 @@ def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
-        leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
-        shapes = tuple(np.shape(leaf) for leaf in leaves)
-        names = (
-            problem.species.name,
-            problem.aero.coefficients.name,
-            *problem.free,
-            repr(problem.minimise),
-            repr(problem.subject_to),
-        )
-        kinds.setdefault((names, tree, shapes), []).append(i)
+        kinds.setdefault(kind(problem), []).append(i)
     groups = []
     for members in kinds.values():
         places = differences([problems[i] for i in members])
         groups += [[members[j] for j in _spread(places, part)] for part in _parts(places, np.arange(len(members)))]
     return groups
+
+
+def kind(problem: OrbitProblem) -> Hashable:
+    """Return what problems share that differ in numbers only."""
+    leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
+    shapes = tuple(np.shape(leaf) for leaf in leaves)
+    names = (
+        problem.species.name,
+        problem.aero.coefficients.name,
+        *problem.free,
+        repr(problem.minimise),
+        repr(problem.subject_to),
+    )
+    return names, tree, shapes
 
 
 def differences(problems: Sequence[OrbitProblem]) -> np.ndarray:

@@ -22,7 +22,7 @@ class Task(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """Points that are solved together: one, or those of a chain in its order, each helped by the one before.
+    """Points that are solved together: one, or those of a chain in its order, each helped by those before.
 
     Parameters
     ----------

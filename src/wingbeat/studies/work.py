@@ -9,11 +9,16 @@ import functools
 import json
 import time
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from wingbeat.orbits.batch import find_helped
 from wingbeat.orbits.continuation import hand_on
+from wingbeat.orbits.neighbours import Answers, kind
+from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
-from wingbeat.orbits.solve import find_orbit
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.recipe import Recipe, recipe_from
 from wingbeat.studies.units import Outcome, Unit, failed
@@ -26,33 +31,50 @@ _KEPT = 64
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:
     """Yield the outcome of each point, in order; whatever goes wrong with a point is an outcome, too."""
-    before: Solution | None = None
+    before: list[_Known] = []
     for task in unit.tasks:
         if task.key in unit.skip:
-            before = None
             continue
         begun = time.perf_counter()
         try:
-            found, asked = _search(unit.recipe, task.changes, before)
-            before = found if found.status is Status.CONVERGED else None
-            record = Orbit.of(found, *asked).record()
+            known, asked = _search(unit.recipe, task.changes, before)
+            if known.solution.status is Status.CONVERGED:
+                before.append(known)
+            record = Orbit.of(known.solution, *asked).record()
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
-            before = None
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
             continue
         yield _outcome(task.key, record, time.perf_counter() - begun)
 
 
-def _search(recipe: str, changes: Mapping[str, Any], before: Solution | None) -> tuple[Solution, tuple[int, int]]:
-    """Solve one point by itself; of a chain, from the answer before, too."""
+class _Known(NamedTuple):
+    """A certified answer of a chain, and what corrected it if it was foretold."""
+
+    solution: Solution
+    polish: Polish | None
+
+
+def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tuple[_Known, tuple[int, int]]:
+    """Solve one point; of a chain, with the help of the answers before it."""
     made = _recipe(recipe)
     search = made.search
     starts, seed = int(search["starts"]), int(search["seed"])
     most = None if search["most_starts"] is None else int(search["most_starts"])
     problem = made.problem(changes)
-    found = find_orbit(problem, starts, seed, threads=1, most_starts=most, advise=search["advise"])
-    return (found if before is None else hand_on(before, found)[0]), (starts, seed)
+    found, polish = find_helped(problem, _foretold(problem, before), starts, seed, most, search["advise"])
+    if before and polish is None:
+        found = hand_on(before[-1].solution, found)[0]
+    return _Known(found, polish), (starts, seed)
+
+
+def _foretold(problem: OrbitProblem, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
+    """Return what the answers before a point of a chain foretell of it; those after it have no say."""
+    like = [known for known in before if kind(known.solution.problem) == kind(problem)]
+    answers = Answers([*(known.solution.problem for known in like), problem])
+    for i, (solution, polish) in enumerate(like):
+        answers.add(i, solution.unknowns, solution.active_bounds, polish)
+    return answers.foretell(len(like))
 
 
 @functools.lru_cache(_KEPT)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import signal
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -88,16 +90,8 @@ def export(file: File, *, output: Output = None) -> None:
     """Write a table with a row for each point: .nc, .csv or .parquet; columns are the record's dotted names."""
     from wingbeat.studies.table import check_table_name
 
-    faults = FaultList()
-    if output is None:
-        faults.add("--output", None, "is missing", "give a file: -o table.csv, table.nc or table.parquet")
-    else:
-        check_table_name(faults, "--output", output)
-    faults.raise_if_any()
-    assert output is not None
-    check_outputs(output)
-    _read(file).export(output)
-    print(f"wrote {output}", file=sys.stderr)
+    with _written(output, check_table_name, "table.csv, table.nc or table.parquet") as path:
+        _read(file).export(path)
 
 
 @study.command
@@ -112,15 +106,24 @@ def plot(
     """Draw what was found over what was varied: lines over one parameter, maps over two, strands over more."""
     from wingbeat.plots import check_figure_name, save_figure, study_page
 
+    with _written(output, check_figure_name, "figure.png, .pdf or .svg") as path:
+        save_figure(study_page(*_read(file).drawing(quantity)), path)
+
+
+@contextmanager
+def _written(
+    output: Path | None, check_name: Callable[[FaultList, str, Path], None], examples: str
+) -> Iterator[Path]:
+    """Give the file to write, once it is known to be one that can be written, and say that it was."""
     faults = FaultList()
     if output is None:
-        faults.add("--output", None, "is missing", "give a file: -o figure.png, .pdf or .svg")
+        faults.add("--output", None, "is missing", f"give a file: -o {examples}")
     else:
-        check_figure_name(faults, "--output", output)
+        check_name(faults, "--output", output)
     faults.raise_if_any()
     assert output is not None
     check_outputs(output)
-    save_figure(study_page(*_read(file).drawing(quantity)), output)
+    yield output
     print(f"wrote {output}", file=sys.stderr)
 
 

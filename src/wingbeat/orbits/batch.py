@@ -7,7 +7,7 @@ import itertools
 import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -53,12 +53,17 @@ def find_orbits(
     for i, problem in enumerate(problems):
         if not isinstance(problem, OrbitProblem):
             faults.add(f"problems[{i}]", problem, "is not an OrbitProblem")
-    if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
-        faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
+    check_processes(faults, processes)
     faults.raise_if_any()
     check_search(starts, seed, 1 if most_starts is None else most_starts)
     solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
     return _in_order(solve, problems, processes, progress)
+
+
+def check_processes(faults: FaultList, processes: Any) -> None:
+    """Note a fault unless it is a whole number of processes."""
+    if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
+        faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
 
 
 def _in_order(

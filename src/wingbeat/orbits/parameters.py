@@ -7,30 +7,15 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import ANGLES, FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.species import Species
+from wingbeat.species_schema import FREE_UNITS, KEYS
 
-# What of the inputs is in which unit; dimensionless if not named here.
-_UNITS = {
-    "mass": "kg",
-    "pitch_inertia": "kg m2",
-    "drag_area": "m2",
-    "semi_span": "m",
-    "chord": "m",
-    "shoulder": "m",
-    "stroke_plane_angle": "rad",
-    "density": "kg/m3",
-    "viscosity": "m2/s",
-    "gravity": "m/s2",
-    "phase_deg": "deg",
-    "decay_rate": "1/deg",
-    "blend_width_deg": "deg",
-    "frequency": "Hz",
-    "speed": "m/s",
-    "climb": "m/s",
-}
-_ANGLES = (*ANGLES, "body_pitch")
+# What no species file holds.
+_UNITS = {key.name: key.unit for key in KEYS} | FREE_UNITS
+_UNITS |= {"phase_deg": "deg", "decay_rate": "1/deg", "blend_width_deg": "deg"}
+_UNITS |= {"body_pitch": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}
 _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
@@ -71,7 +56,7 @@ class Parameter(NamedTuple):
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a number by the last part of its name, ``1`` if it has none."""
-    return _UNITS.get(name, "rad" if name in _ANGLES else "1")
+    return _UNITS.get(name, "1")
 
 
 def with_number(record: Any, place: Place, value: float) -> Any:
@@ -192,7 +177,7 @@ def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
 def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
     """Return the bound of a free parameter or of ``body_pitch``, such as ``bounds.flap_amplitude.upper``."""
     pair = problem.bounds[name]
-    size = 1.0 if name in _ANGLES else pair[1] - pair[0]
+    size = 1.0 if unit_of(name) == "rad" else pair[1] - pair[0]
     end = SIDES.index(side)
     return _made(f"bounds.{name}.{side}", pair[end], ("bounds", name, end))._replace(size=size)
 

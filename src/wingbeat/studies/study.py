@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.batch import check_processes
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
@@ -227,10 +228,8 @@ def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
     faults = FaultList()
     if dask is not None and processes is not None:
         faults.add("processes", processes, "is given beside a Dask cluster", "leave one of them out")
-    if processes is not None and (
-        isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= 1024
-    ):
-        faults.add("processes", processes, "must be a whole number from 1 to 1024")
+    if processes is not None:
+        check_processes(faults, processes)
     faults.number("timeout", timeout, above=0, unit="s")
     faults.raise_if_any()
 

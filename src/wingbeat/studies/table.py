@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FaultList, WingbeatError
 from wingbeat.files import write_atomically
+from wingbeat.orbits import parameters
 from wingbeat.orbits.quantities import QUANTITIES
-from wingbeat.species_schema import KEYS
 from wingbeat.studies.store import Row, Store
 
 if TYPE_CHECKING:
@@ -25,10 +25,8 @@ __all__ = ["SUFFIXES", "check_table_name", "flat", "frame_of", "save_table", "to
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
-# Units of a record's numbers by the last part of their names, where `unit_of` knows no better.
-_UNITS = {key.name: key.unit for key in KEYS}
-_UNITS |= {"speed": "m/s", "climb": "m/s", "payload": "kg", "u": "m/s", "w": "m/s", "x": "m", "z": "m"}
-_UNITS |= {"pitch_rate": "rad/s", "body_pitch": "rad", "blend_width_deg": "deg", "phase_deg": "deg", "rate": "1"}
+# Units of a record's numbers that nobody chooses, by the last part of their names.
+_UNITS = {"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s"}
 
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -179,4 +177,4 @@ def unit_of(column: str) -> str:
         return "deg"
     if name.startswith("alpha_"):
         return "rad"
-    return _UNITS.get(name, "1")
+    return _UNITS.get(name) or parameters.unit_of(name)

@@ -27,6 +27,8 @@ __all__ = ["solve_unit"]
 
 # Recipes that a process keeps set up.
 _KEPT = 64
+# Answers of a chain that foretell the next: a parabola along it needs no more.
+_FORETELLING = 8
 
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:
@@ -70,7 +72,8 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
 
 def _foretold(problem: OrbitProblem, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
     """Return what the answers before a point of a chain foretell of it; those after it have no say."""
-    like = [known for known in before if kind(known.solution.problem) == kind(problem)]
+    own = kind(problem)
+    like = [known for known in before[-_FORETELLING:] if kind(known.solution.problem) == own]
     answers = Answers([*(known.solution.problem for known in like), problem])
     for i, (solution, polish) in enumerate(like):
         answers.add(i, solution.unknowns, solution.active_bounds, polish)

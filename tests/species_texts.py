@@ -31,3 +31,9 @@ def faults_of(call: Any, *arguments: Any) -> dict[str, str]:
     lines = {fault.where: str(fault) for fault in caught.value.faults}
     assert len(lines) == len(caught.value.faults), "one fault told twice"
     return lines
+
+
+def check_words(message: str) -> str:
+    """Return a message, which must say something on each of its lines and send no control characters."""
+    assert all(line.strip() and line.isprintable() for line in message.split("\n")), message
+    return message

@@ -91,8 +91,14 @@ class Readings:
 
 def row_count(function: Callable[[Beat], Any], strips: int) -> int:
     """Return how many rows a quantity's function has: 1 if it gives a number."""
-    shape = jax.eval_shape(function, _any_beat(strips)).shape
+    shape = _given_by(function, strips).shape
     return PARTS * math.prod(shape[1:]) if shape else 1
+
+
+@functools.lru_cache(256)
+def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
+    """Return what a quantity's function gives, as shapes without numbers."""
+    return jax.eval_shape(function, _any_beat(strips))
 
 
 def _any_beat(strips: int) -> Beat:
@@ -105,12 +111,11 @@ def _any_beat(strips: int) -> Beat:
 
 def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]:
     """Return what is wrong with the quantities' functions: they fail, or give neither a number nor a series."""
-    beat = _any_beat(strips)
     faults = []
     for quantity in quantities:
         where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python: see Beat for what it is given"
         try:
-            found = jax.eval_shape(quantity.of, beat)
+            found = _given_by(quantity.of, strips)
         except Exception as error:  # whatever a user's function raises
             reason = f"fails: {type(error).__name__}: {error}".split("\n")[0]
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,7 +15,7 @@ from wingbeat.files import read_text, toml_tables
 from wingbeat.species_schema import shown, suggest
 from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
 
-__all__ = ["METHODS", "SPREADS", "Sample", "StudyForm", "Vary", "check_form", "read_form"]
+__all__ = ["METHODS", "SPREADS", "Sample", "StudyForm", "Vary", "check_form", "number", "read_form"]
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
 METHODS = ("sobol", "latin-hypercube")
@@ -199,7 +200,7 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
             ranged.append(path)
             if not values[0] < values[1]:
                 faults.add(f"{where}.{given[0]}", values, "must be [lowest, highest]", "turn them round")
-        if "range" not in given[0] and len({repr(_number(v)) for v in values}) < len(values) and given[0] != "list":
+        if "range" not in given[0] and len({repr(number(v)) for v in values}) < len(values) and given[0] != "list":
             faults.add(f"{where}.{given[0]}", shown(values), "names a value twice", "keep one of them")
     if len(set(rows.values())) > 1:
         lengths = ", ".join(f"{path} {count}" for path, count in rows.items())
@@ -223,8 +224,11 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         faults.add("chain", form.chain, "goes with its list row by row", "give it as grid")
 
 
-def _number(value: Any) -> Any:
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+def number(value: Any) -> Any:
+    """Return a number as a float, so that 1 and 1.0 are one; anything else, and what no float holds, as it is."""
+    with suppress(OverflowError):
+        return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+    return value
 
 
 def _check_numbers(form: StudyForm, faults: FaultList) -> None:
@@ -236,7 +240,7 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
     for name in StudyForm.model_fields:
         values = getattr(form, name)
         listed = isinstance(values, list) and name != "free"
-        if listed and len({repr(_number(value)) for value in values}) < len(values):
+        if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
     for name in ("speed", "climb", "payload"):
         if name in form.vary and name in form.model_fields_set:

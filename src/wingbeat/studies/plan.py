@@ -7,7 +7,7 @@ import hashlib
 import itertools
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,7 +21,7 @@ from wingbeat.species import load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import dotted
-from wingbeat.studies.form import StudyForm
+from wingbeat.studies.form import StudyForm, number
 from wingbeat.studies.objective import as_inputs
 from wingbeat.studies.recipe import MOTION, Recipe
 from wingbeat.studies.sampling import unit_points
@@ -67,8 +67,9 @@ def _floats(value: Any) -> Any:
         return {key: _floats(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_floats(item) for item in value]
+    value = number(value)
     # Adding 0 takes the sign off a zero.
-    return float(value) + 0.0 if isinstance(value, int | float) and not isinstance(value, bool) else value
+    return value + 0.0 if isinstance(value, float) else value
 
 
 @dataclass(frozen=True)
@@ -191,8 +192,9 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
         faults.add("file", combinations, rule, "vary numbers under [vary] instead")
         faults.raise_if_any()
     bases: dict[str, Base] = {}
+    makers = _makers(form, folder)
     for values in itertools.product(*lists.values()):
-        base = _base(form, dict(zip(lists, values, strict=True)), folder, faults)
+        base = _base(form, dict(zip(lists, values, strict=True)), makers, faults)
         if base is not None and len(faults.faults) < _ENOUGH:
             _check_values(form, base.recipe, faults)
             bases.setdefault(canonical([base.hash, base.motion]), base)
@@ -205,24 +207,34 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     return plan
 
 
-def _base(form: StudyForm, chosen: Mapping[str, Any], folder: Path, faults: FaultList) -> Base | None:
+def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
+    """Return how the parts of a base are made, of which keys of the top level; each of the same keys but once."""
+
+    def loads(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
+        named = _beside(name, folder, (".csv", ".toml"))
+        return BladeElement(load_coefficients(named, extension, blend_width_deg), strips, force_point)
+
+    makers = {
+        "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
+        "aero": (("aero", "extension", "blend_width_deg", "strips", "force_point"), loads),
+        "minimise": (("minimise",), lambda name: as_inputs(name, folder)),
+        "bounds": ((), lambda: _bounds(form)),
+    }
+    return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
+
+
+def _base(
+    form: StudyForm,
+    chosen: Mapping[str, Any],
+    makers: Mapping[str, tuple[tuple[str, ...], Callable[..., Any]]],
+    faults: FaultList,
+) -> Base | None:
     """Return one combination of the top level, or note why there is none."""
     before = len(faults.faults)
     made: dict[str, Any] = {}
-    loads = ("extension", "blend_width_deg")
-    makers: dict[str, Any] = {
-        "species": lambda: _species(form, _beside(chosen["species"], folder, (".toml",))),
-        "aero": lambda: BladeElement(
-            load_coefficients(_beside(chosen["aero"], folder, (".csv", ".toml")), *(chosen[n] for n in loads)),
-            chosen["strips"],
-            chosen["force_point"],
-        ),
-        "minimise": lambda: as_inputs(chosen["minimise"], folder),
-        "bounds": lambda: _bounds(form),
-    }
-    for name, make in makers.items():
+    for name, (keys, make) in makers.items():
         try:
-            made[name] = make()
+            made[name] = make(*(chosen[key] for key in keys))
         except InvalidInputError as error:
             faults.faults += [_hashable(fault) for fault in error.faults]
         except WingbeatError as error:

@@ -111,9 +111,9 @@ def find_orbit(
             found += beside_best(transcription, found, starts // 2, seed)
         best = best or _first_certified(transcription, found)
         if best is None and not stage.start:
-            for lead in _leads(problem, starts, seed, threads):
-                found.append(search(transcription.anew(), lead))
-                if (best := _first_certified(transcription, found[-1:])) is not None:
+            for leads in _leads(problem, starts, seed, threads):
+                found += [search(transcription.anew(), lead) for lead in leads]
+                if (best := _first_certified(transcription, found)) is not None:
                     break
         if best is not None:
             break
@@ -126,8 +126,8 @@ def find_orbit(
     return _solution(best, len(found), optima, seed, seconds, certifying, failure)
 
 
-def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int | None) -> Iterator[np.ndarray]:
-    """Yield where the limits of a problem may be met: its optimum without them, where what they limit is least.
+def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int | None) -> Iterator[list[np.ndarray]]:
+    """Yield where the limits of a problem may be met: its optima without them, then those of least what they limit.
 
     Limits on a peak have edges in which searches from random starts catch; all fifty of the bat did at 10 m/s with
     least positive power within a pitch torque that a quarter less would have done for.
@@ -139,7 +139,7 @@ def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int | None) -
         found = find_orbit(easier, starts, seed, threads=threads, most_starts=starts, advise=False)
         if found.status is not Status.CONVERGED:
             return
-        yield found.unknowns
+        yield [found.unknowns, *(optimum.unknowns for optimum in found.optima)]
 
 
 def _without_orbit(

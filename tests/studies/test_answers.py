@@ -11,6 +11,9 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
+from wingbeat.orbits.starts import usual_starts
+from wingbeat.studies import work
+from wingbeat.studies.units import Task, Unit
 
 FORM = {
     "species": "pigeon",
@@ -156,3 +159,15 @@ def test_the_numerical_version_is_raised_with_the_numbers(done):
     assert NUMERICAL_VERSION == 2
     found = done.to_dataframe()[["wingbeat.frequency", "mean_power", "cost_of_transport"]].to_numpy()
     np.testing.assert_allclose(found, DIGITS, rtol=1e-6)
+
+
+@pytest.mark.parametrize("least", ["frequency", "mean_power", "peak_power"])
+def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(work, "find_helped", lambda *given: asked.append(given))
+    study = wb.study(species="bat", speed=9.0, minimise=least, store=tmp_path / "x.study.sqlite")
+    (point,) = study.plan.points()
+    recipe = json.dumps(study.plan.bases[0].recipe.inputs())
+    list(work.solve_unit(Unit(recipe, (Task(point.key, point.changes),))))
+    problem = wb.OrbitProblem(wb.load_species("bat"), 9.0, minimise=least)
+    assert [given[2] for given in asked] == [usual_starts(problem)]

@@ -94,7 +94,7 @@ class StudyForm(BaseModel):
     payload: _Numbers = Field(default=[0.0])
     minimise: _Texts = Field(default=["frequency"])
     subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = Field(default=[[]])
-    starts: _Counts = Field(default=[6])
+    starts: _Counts | None = None
     seed: _Counts = Field(default=[0])
     most_starts: _Counts | None = None
     free: list[_Text] | None = None

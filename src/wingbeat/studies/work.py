@@ -19,6 +19,7 @@ from wingbeat.orbits.neighbours import Answers, kind
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.recipe import Recipe, recipe_from
 from wingbeat.studies.units import Outcome, Unit, failed
@@ -61,9 +62,10 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
     """Solve one point; of a chain, with the help of the answers before it."""
     made = _recipe(recipe)
     search = made.search
-    starts, seed = int(search["starts"]), int(search["seed"])
-    most = None if search["most_starts"] is None else int(search["most_starts"])
     problem = made.problem(changes)
+    starts = usual_starts(problem) if search["starts"] is None else int(search["starts"])
+    most = None if search["most_starts"] is None else int(search["most_starts"])
+    seed = int(search["seed"])
     found, polish = find_helped(problem, _foretold(problem, before), starts, seed, most, search["advise"])
     if before and polish is None:
         found = hand_on(before[-1].solution, found)[0]

@@ -7,11 +7,13 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
+from wingbeat.orbits import batch
 from wingbeat.orbits import solve as solving
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.polish import Conditions, Polish
 from wingbeat.orbits.search import optimise, search
-from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
 
@@ -145,3 +147,18 @@ def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
     assert found.is_orbit()
     found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
     assert not found.is_orbit()
+
+
+def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):
+    asked = []
+
+    def seen(problem, foretold, starts, *rest):
+        asked.append(starts)
+        return find_orbit(problem, 1, threads=1), None
+
+    monkeypatch.setattr(batch, "find_helped", seen)
+    bat = wb.load_species("bat")
+    both = [wb.OrbitProblem(bat, 9.0), wb.OrbitProblem(bat, 9.0, minimise="mean_power")]
+    found = wb.solve_orbits(both)
+    assert asked == [usual_starts(problem) for problem in both]
+    assert [orbit.inputs["starts"] for orbit in found] == asked

@@ -17,6 +17,7 @@ from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
+from wingbeat.orbits.starts import usual_starts
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -26,7 +27,7 @@ _MOST_PROCESSES = 1024
 
 def find_orbits(
     problems: Sequence[OrbitProblem],
-    starts: int = 6,
+    starts: int | None = None,
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
@@ -55,7 +56,7 @@ def find_orbits(
             faults.add(f"problems[{i}]", problem, "is not an OrbitProblem")
     check_processes(faults, processes)
     faults.raise_if_any()
-    check_search(starts, seed, 1 if most_starts is None else most_starts)
+    check_search(1 if starts is None else starts, seed, 1 if most_starts is None else most_starts)
     solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
     return _in_order(solve, problems, processes, progress)
 
@@ -93,12 +94,13 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 
 
 def _solve_alike(
-    problems: Sequence[OrbitProblem], starts: int, seed: int, most_starts: int | None, advise: bool
+    problems: Sequence[OrbitProblem], starts: int | None, seed: int, most_starts: int | None, advise: bool
 ) -> Iterator[Solution]:
     """Solve problems of one group in turn, each helped by the answers before."""
     answers = Answers(problems)
     for i, problem in enumerate(problems):
-        best, polish = find_helped(problem, answers.foretell(i), starts, seed, most_starts, advise)
+        count = usual_starts(problem) if starts is None else starts
+        best, polish = find_helped(problem, answers.foretell(i), count, seed, most_starts, advise)
         if best.status is Status.CONVERGED:
             answers.add(i, best.unknowns, best.active_bounds, polish)
         yield best

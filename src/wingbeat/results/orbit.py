@@ -193,7 +193,7 @@ def solve_orbit(
 
 def solve_orbits(
     problems: Sequence[OrbitProblem],
-    starts: int = 6,
+    starts: int | None = None,
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
@@ -231,7 +231,8 @@ def solve_orbits(
     ['converged', 'converged', 'converged']
     """
     found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise)
-    return [Orbit.of(solution, starts, seed) for solution in found]
+    asked = (usual_starts(problem) if starts is None else starts for problem in problems)
+    return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
 
 
 def solve_series(

@@ -152,9 +152,9 @@ def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
 def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):
     asked = []
 
-    def seen(problem, foretold, starts, *rest):
+    def seen(problem, known, starts, *rest):
         asked.append(starts)
-        return find_orbit(problem, 1, threads=1), None
+        return find_orbit(problem, 1, threads=1)
 
     monkeypatch.setattr(batch, "find_helped", seen)
     bat = wb.load_species("bat")

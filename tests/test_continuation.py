@@ -24,7 +24,7 @@ def test_a_row_is_certified_and_nowhere_worse_than_each_by_itself(row):
     alone, series = list(find_orbits(row, starts=1)), find_series(row)
     for one, handed in zip(alone, series, strict=True):
         assert handed.status is Status.CONVERGED
-        assert handed.objective <= one.objective * (1 + 1e-9)
+        assert handed.objective <= one.objective * (1 + 1e-7)
         assert max(abs(miss) for miss in handed.closure.values()) <= 1e-6
         assert handed.optimality <= 1e-5
         assert handed.starts > one.starts

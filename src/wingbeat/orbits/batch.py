@@ -9,11 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
-import numpy as np
-
 from wingbeat.errors import FaultList
 from wingbeat.orbits.neighbours import Answers, alike
-from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
@@ -100,7 +97,9 @@ def _solve_alike(
     answers = Answers(problems)
     for i, problem in enumerate(problems):
         count = usual_starts(problem) if starts is None else starts
-        best, polish = find_helped(problem, answers.foretell(i), count, seed, most_starts, advise)
+        foretold = answers.foretell(i)
+        settled, polish = (None if foretold is None else settle(problem, *foretold)) or (None, None)
+        best = find_helped(problem, settled, count, seed, most_starts, advise)
         if best.status is Status.CONVERGED:
             answers.add(i, best.unknowns, best.active_bounds, polish)
         yield best
@@ -108,27 +107,25 @@ def _solve_alike(
 
 def find_helped(
     problem: OrbitProblem,
-    foretold: tuple[np.ndarray, Polish | None] | None,
+    known: Solution | None,
     starts: int,
     seed: int = 0,
     most_starts: int | None = None,
     advise: bool = False,
-) -> tuple[Solution, Polish | None]:
-    """Return the solution of a problem, and what corrected it if it was foretold.
+) -> Solution:
+    """Return the best of a certified orbit that other answers led to, if any, and what the searches left find.
 
     Parameters
     ----------
     problem, starts, seed, most_starts, advise : as in `find_orbit`.
-    foretold : what `Answers.foretell` said, which takes the place of one search if it leads to a certified orbit.
+    known : takes the place of one search.
     """
-    settled = None if foretold is None else settle(problem, *foretold)
-    if settled is None:
-        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise), None
-    best, polish = settled
-    if starts > 1:
-        cold = find_orbit(problem, starts - 1, seed, threads=1, most_starts=most_starts, advise=False)
-        best = better_of(cold, best)
-    return best, polish
+    if known is None:
+        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise)
+    if starts == 1:
+        return known
+    cold = find_orbit(problem, starts - 1, seed, threads=1, most_starts=most_starts, advise=False)
+    return better_of(cold, known)
 
 
 def in_processes(

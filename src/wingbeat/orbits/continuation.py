@@ -53,26 +53,15 @@ def find_series(
             key = (best[giver].unknowns.tobytes(), taker)
             if best[giver].status is Status.CONVERGED and key not in tried:
                 tried.add(key)
-                better |= _hand_on(best, giver, taker)
+                best[taker], found = _hand_on(best[giver], best[taker])
+                better |= found
         if sweep and not better:
             break
     return best
 
 
-def _hand_on(best: list[Solution], giver: int, taker: int) -> bool:
-    """Search from a neighbour's answer; put it in the place of one's own if it is better."""
-    best[taker], better = hand_on(best[giver], best[taker])
-    return better
-
-
-def hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return one's own answer, or that of a search from a neighbour's if it is better, and whether it is.
-
-    Parameters
-    ----------
-    giver : the certified answer of a problem that is much alike.
-    own : the answer so far.
-    """
+def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
+    """Return one's own answer, or that of a search from a neighbour's if it is better, and whether it is."""
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - _BETTER * abs(own.objective)

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat.orbits.batch import find_helped
-from wingbeat.orbits.continuation import hand_on
 from wingbeat.orbits.neighbours import Answers, kind
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solve import follow, settle
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.recipe import Recipe, recipe_from
@@ -66,9 +66,11 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
     starts = usual_starts(problem) if search["starts"] is None else int(search["starts"])
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
-    found, polish = find_helped(problem, _foretold(problem, before), starts, seed, most, search["advise"])
-    if before and polish is None:
-        found = hand_on(before[-1].solution, found)[0]
+    foretold = _foretold(problem, before)
+    near, polish = (None if foretold is None else settle(problem, *foretold)) or (None, None)
+    if before and near is None:
+        near = follow(problem, before[-1].solution.unknowns)
+    found = find_helped(problem, near, starts, seed, most, search["advise"])
     return _Known(found, polish), (starts, seed)
 
 

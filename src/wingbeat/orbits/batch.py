@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.neighbours import Answers, alike
+from wingbeat.orbits.neighbours import Answers, alike, numbers_of
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status, better_of
 from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
@@ -94,7 +94,7 @@ def _solve_alike(
     problems: Sequence[OrbitProblem], starts: int | None, seed: int, most_starts: int | None, advise: bool
 ) -> Iterator[Solution]:
     """Solve problems of one group in turn, each helped by the answers before."""
-    answers = Answers(problems)
+    answers = Answers([numbers_of(problem) for problem in problems])
     for i, problem in enumerate(problems):
         count = usual_starts(problem) if starts is None else starts
         foretold = answers.foretell(i)

@@ -29,7 +29,7 @@ def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
         kinds.setdefault(kind(problem), []).append(i)
     groups = []
     for members in kinds.values():
-        places = differences([problems[i] for i in members])
+        places = differences([numbers_of(problems[i]) for i in members])
         groups += [[members[j] for j in _spread(places, part)] for part in _parts(places, np.arange(len(members)))]
     return groups
 
@@ -48,19 +48,20 @@ def kind(problem: OrbitProblem) -> Hashable:
     return names, tree, shapes
 
 
-def differences(problems: Sequence[OrbitProblem]) -> np.ndarray:
+def differences(described: Sequence[np.ndarray]) -> np.ndarray:
     """Return where problems of one kind are, from their mean, in as few directions as they differ in.
 
     Distances are those between the numbers that describe them, each over its largest; shape (problems, directions).
     """
-    numbers = np.array([_numbers(problem) for problem in problems])
+    numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
     places, sizes, _ = np.linalg.svd(numbers - numbers.mean(axis=0), full_matrices=False)
     told = sizes > _ROUNDING * np.sqrt(numbers.size)
     return places[:, told] * sizes[told]
 
 
-def _numbers(problem: OrbitProblem) -> np.ndarray:
+def numbers_of(problem: OrbitProblem) -> np.ndarray:
+    """Return the numbers that tell a problem from others of its kind."""
     leaves = jax.tree_util.tree_leaves((problem.model, problem.species.wingbeat))
     bounds = list(problem.bounds.values())
     # What a coefficient model has none of is not-a-number.
@@ -91,10 +92,10 @@ def _spread(places: np.ndarray, members: np.ndarray) -> np.ndarray:
 
 
 class Answers:
-    """Answers of a group's problems so far, and what the nearest of them foretell of the next."""
+    """Answers of a group's problems, given by their numbers, and what the nearest of them foretell of the next."""
 
-    def __init__(self, problems: Sequence[OrbitProblem]) -> None:
-        self._places = differences(problems)
+    def __init__(self, described: Sequence[np.ndarray]) -> None:
+        self._places = differences(described)
         self._known: list[int] = []
         self._unknowns: list[np.ndarray] = []
         self._active: list[tuple[str, ...]] = []

@@ -8,15 +8,14 @@ from __future__ import annotations
 import functools
 import json
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from wingbeat.orbits.batch import find_helped
-from wingbeat.orbits.neighbours import Answers, kind
+from wingbeat.orbits.neighbours import Answers, kind, numbers_of
 from wingbeat.orbits.polish import Polish
-from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import follow, settle
 from wingbeat.orbits.starts import usual_starts
@@ -52,8 +51,10 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
 
 
 class _Known(NamedTuple):
-    """A certified answer of a chain, and what corrected it if it was foretold."""
+    """A solved point: its kind, its numbers, its answer, and what corrected it if it was foretold."""
 
+    kind: Hashable
+    numbers: np.ndarray
     solution: Solution
     polish: Polish | None
 
@@ -66,21 +67,21 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
     starts = usual_starts(problem) if search["starts"] is None else int(search["starts"])
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
-    foretold = _foretold(problem, before)
+    own, numbers = kind(problem), numbers_of(problem)
+    foretold = _foretold(own, numbers, before)
     near, polish = (None if foretold is None else settle(problem, *foretold)) or (None, None)
     if before and near is None:
         near = follow(problem, before[-1].solution.unknowns)
     found = find_helped(problem, near, starts, seed, most, search["advise"])
-    return _Known(found, polish), (starts, seed)
+    return _Known(own, numbers, found, polish), (starts, seed)
 
 
-def _foretold(problem: OrbitProblem, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
+def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
     """Return what the answers before a point of a chain foretell of it; those after it have no say."""
-    own = kind(problem)
-    like = [known for known in before[-_FORETELLING:] if kind(known.solution.problem) == own]
-    answers = Answers([*(known.solution.problem for known in like), problem])
-    for i, (solution, polish) in enumerate(like):
-        answers.add(i, solution.unknowns, solution.active_bounds, polish)
+    like = [known for known in before[-_FORETELLING:] if known.kind == own]
+    answers = Answers([*(known.numbers for known in like), numbers])
+    for i, known in enumerate(like):
+        answers.add(i, known.solution.unknowns, known.solution.active_bounds, known.polish)
     return answers.foretell(len(like))
 
 

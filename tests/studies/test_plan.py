@@ -5,21 +5,12 @@ import math
 
 import pytest
 from bad_input.conftest import GOOD, SPECIES
+from fuzz import STUDIES
 
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.studies.form import check_form
 from wingbeat.studies.recipe import recipe_from
-
-ISSUE = """
-species = ["pigeon", "bat"]        # lists at the top level multiply
-aero = ["su-fan", "dickinson"]
-starts = 2
-seed = 3
-[vary]
-speed = { grid = [6.0, 8.0, 10.0] }
-"wing.mass" = { relative = [0.8, 1.0, 1.2] }
-"""
 
 
 def plan(store="x.study.sqlite", **form):
@@ -32,7 +23,7 @@ def keys(**form):
 
 def test_the_form_of_the_issue(tmp_path):
     file = tmp_path / "wings.toml"
-    file.write_text(ISSUE)
+    file.write_text(STUDIES[0])
     study = wb.study(file)
     assert study.store == tmp_path / "wings.study.sqlite"
     points = list(study.plan.points())

@@ -77,5 +77,5 @@ def nothing_is_solved(request: pytest.FixtureRequest, monkeypatch: pytest.Monkey
     def refuse(*_: Any) -> None:
         raise AssertionError("bad input was let through to the search")
 
-    monkeypatch.setattr("wingbeat.orbits.solve._searches", refuse)
+    monkeypatch.setattr("wingbeat.orbits.solve.search_from_starts", refuse)
     monkeypatch.setattr("wingbeat.results.flight.fly_beats", refuse)

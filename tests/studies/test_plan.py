@@ -224,3 +224,10 @@ def test_a_form_may_hold_what_python_holds():
     form, faults = check_form({"species": ("pigeon",), "vary": {"speed": {"grid": np.arange(6.0, 9.0)}}})
     assert not faults.faults
     assert form.vary["speed"].values == [6.0, 7.0, 8.0]
+
+
+def test_the_estimate_counts_the_searches_that_will_be_made(tmp_path):
+    def seconds(**form):
+        return wb.study({"species": "bat", "speed": 9.0} | form, store=tmp_path / "x.study.sqlite").estimate()
+
+    assert seconds(minimise="peak_power") > seconds(minimise="mean_power") > seconds() == seconds(starts=6)

@@ -12,7 +12,7 @@ from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.species import Species
 from wingbeat.species_schema import FREE_UNITS, KEYS
 
-# What no species file holds.
+# Units by the last part of a name: of the numbers of a species file, then of those that none holds.
 _UNITS = {key.name: key.unit for key in KEYS} | FREE_UNITS
 _UNITS |= {"phase_deg": "deg", "decay_rate": "1/deg", "blend_width_deg": "deg"}
 _UNITS |= {"body_pitch": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}

@@ -165,7 +165,7 @@ class OrbitProblem:
     @property
     def has_own_bounds(self) -> bool:
         """Whether a free parameter of the wingbeat is bounded otherwise than the species bounds it."""
-        return any(self.bounds[name] != self.species.bounds.get(name) for name in self.free)
+        return any(tuple(self.bounds[name]) != self.species.bounds.get(name) for name in self.free)
 
     @property
     def lowers_peaks(self) -> bool:

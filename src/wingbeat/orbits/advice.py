@@ -16,7 +16,7 @@ from wingbeat.orbits.easing import least_change
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import QUANTITIES, Frequency
 from wingbeat.orbits.search import Candidate, refine, search
-from wingbeat.orbits.shortage import NOTHING, Balance, Closest, Shortage
+from wingbeat.orbits.shortage import Balance, Shortage
 from wingbeat.orbits.transcription import Transcription
 
 # Beats from which the closest is sought, of those that the searches ended with.
@@ -59,11 +59,7 @@ def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Neares
     at, near = closest.scaled.copy(), _AT * (programme.upper - programme.lower)
     for bound in (programme.lower, programme.upper):
         at = np.where(np.abs(at - bound) <= near, bound, at)
-    return Nearest(at, balance.shortages(closest), _closes(closest))
-
-
-def _closes(closest: Closest) -> bool:
-    return closest.keeps_the_rest and closest.size <= NOTHING
+    return Nearest(at, balance.shortages(closest), closest.closes)
 
 
 def words_of(problem: OrbitProblem, shortages: Sequence[Shortage]) -> str:

@@ -1,4 +1,4 @@
-"""Sets of assumptions where the paper is silent: what is sampled, in what range, and what that means for an animal."""
+"""Assumptions where the paper is silent: what is sampled, in what range, and what a set means for an animal."""
 
 from __future__ import annotations
 

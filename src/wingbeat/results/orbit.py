@@ -70,7 +70,7 @@ def _summary(record: dict[str, Any]) -> Summary:
 
 
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit` and its like, by `load_orbit`, or by a study."""
+    """One periodic orbit and everything about it; made by `solve_orbit` and its like, `load_orbit` or a study."""
 
     def __init__(
         self,

@@ -47,7 +47,7 @@ class Waiting(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A point of the plan, its changes as JSON, and what is known of it: nothing of one that waits (status None)."""
+    """A point of the plan, its changes, and what is known of it; nothing of one that waits (status None)."""
 
     key: str
     base: int
@@ -249,8 +249,9 @@ class Store:
         paths = json.loads(self._about("paths") or "[]")
         with _told(self.path):
             for key, base, changes, told, *rest in self._connection.execute(
-                f"SELECT p.key, p.base, p.changes, p.told, q.status, {record}, q.certificate, q.error, q.run_seconds, "
-                f"q.run_finished, q.run_worker, q.run_attempt FROM plan p LEFT JOIN points q USING (key) {tail}"
+                f"SELECT p.key, p.base, p.changes, p.told, q.status, {record}, q.certificate, q.error, "
+                "q.run_seconds, q.run_finished, q.run_worker, q.run_attempt "
+                f"FROM plan p LEFT JOIN points q USING (key) {tail}"
             ):
                 yield Row(key, base, changes, dict(zip(paths, json.loads(told), strict=True)), *rest)
 

@@ -175,7 +175,7 @@ class Study:
             return frame_of(store)
 
     def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
-        """Yield what tells each point apart, and its orbit as certified or as nearest to one; None without a record.
+        """Yield what tells each point apart, and its orbit, certified or not; None without a record.
 
         Orbits come one by one in the order of the study, and fly again when their time series are asked for.
 

@@ -130,8 +130,8 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     judged, seconds = pieces.joined()
     heading = (
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed}`: each animal and coefficient "
-        "model under each choice of trims is a [study](studies.md) with one search an orbit, from the orbit at the "
-        f"speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
+        "model under each choice of trims is a [study](studies.md) with two searches an orbit, one of them from "
+        f"the orbit at the speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
         f"{seconds / sample.sets:.2f} s a set."
     )
     for path in write_study(judged, folder, heading):

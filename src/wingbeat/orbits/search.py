@@ -25,7 +25,7 @@ _APPROACH = 40
 # It ends where its squares shrink by less than this share; near closure they shrink by most of themselves.
 _APPROACHED = 1e-4
 # A search that has not come nearer than this to closure, in the optimiser's scale, after so many flights has gone
-# astray: of 376 that met an orbit 4 had not, and an elastic solve brings those back.
+# astray: of 376 that met an orbit 2 had not, and an elastic solve may bring those back.
 _ASTRAY = 0.3
 _PATIENCE = 60
 
@@ -194,5 +194,6 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
     gradient, normals = problem.objective_gradient(scaled), np.array(columns).T
     multipliers = np.linalg.lstsq(normals, gradient)[0]
     if (multipliers < lower).any():
-        multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
+        with np.errstate(invalid="ignore"):  # where it multiplies nothing with infinity
+            multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
     return float(np.abs(normals @ multipliers - gradient).max())

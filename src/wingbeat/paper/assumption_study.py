@@ -35,8 +35,9 @@ _LEFT_OUT = {
     "differentiable",
     "few-degrees",
 }
-# Searches of each orbit, one of them from the answer at the speed before.
-_STARTS = 1
+# Searches of each orbit, one of them from the answer at the speed before. Of the orbits that two find, one missed
+# 3 %, and ended a twentieth of them at more than 1.05 times the frequency.
+_STARTS = 2
 _SET = "set"
 
 

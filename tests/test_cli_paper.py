@@ -6,7 +6,6 @@ import pytest
 
 from wingbeat.cli import main
 from wingbeat.paper import treatments
-from wingbeat.paper.study import Study, study_claims
 
 
 def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
@@ -34,6 +33,10 @@ def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
         (["assumptions", "--quick"], "has no part in 'paper assumptions'"),
         (["assumptions", "--sets", "0"], "from 1 to 1000000"),
         (["assumptions", "--seed", "-1"], "must not be negative"),
+        (["--only", "1"], "has no part in 'paper claims'"),
+        (["assumptions", "--sets", "5", "--piece", "2", "--only", "2-4"], "give 1 to 3"),
+        (["assumptions", "--only", "first"], "must name pieces"),
+        (["assumptions", "--piece", "0"], "from 1 to 1000000"),
         (["--processes", "0"], "from 1 to 1024"),
         (["all"], "all"),
     ],
@@ -41,22 +44,3 @@ def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
 def test_what_cannot_be_is_refused(words, said, capsys):
     assert main(["paper", *words]) == 2
     assert said in capsys.readouterr().err
-
-
-def test_assumptions_are_sampled_and_written(monkeypatch, tmp_path, capsys):
-    import numpy as np
-
-    from wingbeat.paper import study
-    from wingbeat.paper.assumptions import sample_sets
-
-    def run(count, seed, processes, progress):
-        assert (count, seed, processes) == (3, 7, 1)
-        shape = (count, len(study_claims()))
-        sets = tuple(sample_sets(count, seed))
-        return Study(sets, study_claims(), np.ones(shape), np.ones(shape), np.ones(count))
-
-    monkeypatch.setattr(study, "run_study", run)
-    words = ["paper", "assumptions", "--sets", "3", "--seed", "7", "--processes", "1", "-o", str(tmp_path)]
-    assert main(words) == 0
-    assert "wingbeat paper assumptions --sets 3 --seed 7" in (tmp_path / "assumptions.md").read_text()
-    assert "assumptions.png" in capsys.readouterr().err

@@ -9,9 +9,22 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.paper import assumption_page as pages
-from wingbeat.paper.assumptions import ASSUMPTIONS, problem_under, sample_sets
+from wingbeat.paper.assumption_study import (
+    ORBITS,
+    SPEEDS,
+    Judged,
+    fly_piece,
+    judge_piece,
+    plan_piece,
+    seconds_of,
+    study_claims,
+)
+from wingbeat.paper.assumptions import ASSUMPTIONS, sample_sets
 from wingbeat.paper.importance import importance
-from wingbeat.paper.study import SPEEDS, Study, judge_set, study_claims
+from wingbeat.paper.treatments import Case
+from wingbeat.studies.driver import Stop
+from wingbeat.studies.engine import Ended
+from wingbeat.studies.work import solve_unit
 
 NAMES = [assumption.name for assumption in ASSUMPTIONS]
 
@@ -29,38 +42,71 @@ def test_a_sample_fills_every_range_evenly_and_depends_on_its_seed_alone():
             assert sorted((shares * 40).astype(int)) == list(range(40))
 
 
+VALUES = {
+    "wing_mass_share": 0.08,
+    "mass_exponent": 3.0,
+    "taper": 0.5,
+    "body_inertia_factor": 1.2,
+    "shoulder_ahead": 0.1,
+    "shoulder_above": 0.02,
+    "span_retraction": 0.2,
+    "twist_ratio": 1.4,
+    "flap_amplitude_deg": 50.0,
+    "trims": "pitch-mean",
+    "extension": "signed-drag",
+    "force_point": "centre-of-pressure",
+    "body_drag_factor": 1.0,
+}
+
+
 @pytest.mark.parametrize("animal", ["pigeon", "bat"])
-def test_a_problem_keeps_the_whole_mass_and_takes_what_it_is_told(animal):
-    species = wb.load_species(animal)
-    values = sample_sets(1)[0] | {
-        "wing_mass_share": 0.08,
-        "taper": 0.5,
-        "shoulder_ahead": 0.1,
-        "trims": "pitch-mean",
-        "extension": "signed-drag",
-        "force_point": "centre-of-pressure",
-        "flap_amplitude_deg": 50.0,
-        "body_drag_factor": 1.0,
-        "twist_ratio": 1.4,
-        "span_retraction": 0.2,
-    }
-    problem = problem_under(values, animal, "su-fan", 9.0)
-    vehicle = problem.vehicle
-    assert vehicle.mass == pytest.approx(species.vehicle.mass, rel=1e-12)
-    assert vehicle.wing.mass == pytest.approx(0.08 * species.vehicle.mass)
-    assert vehicle.wing.mean_chord == pytest.approx(species.vehicle.wing.mean_chord)
-    assert vehicle.wing.chord[1] == pytest.approx(0.5 * vehicle.wing.chord[0])
-    assert vehicle.wing.shoulder[0] == pytest.approx(0.1 * vehicle.wing.semi_span)
-    assert vehicle.body.drag_area == pytest.approx(0.2 * 0.00813 * species.vehicle.mass**0.666)
+def test_the_points_of_a_piece_are_the_problems_that_its_sets_mean(animal, tmp_path):
+    stock = wb.load_species(animal)
+    other = VALUES | {"taper": 1.0, "force_point": "quarter-chord"}
+    (group,) = plan_piece([VALUES, other], tmp_path)
+    assert (group.places, len(group.studies)) == ([0, 1], 4)
+    study = group.studies[animal, "su-fan"]
+    points = list(study.plan.points())
+    assert [point.changes["speed"] for point in points] == 2 * list(SPEEDS[animal])
+    assert len({point.unit for point in points}) == 2
+    recipe = study.plan.bases[0].recipe
+    problem = recipe.problem(points[1].changes)
+    vehicle, wing = problem.vehicle, problem.vehicle.wing
+    assert (problem.species.name, problem.speed) == (animal, SPEEDS[animal][1])
+    assert vehicle.mass == pytest.approx(stock.vehicle.mass, rel=1e-12)
+    assert wing.mass == pytest.approx(0.08 * stock.vehicle.mass)
+    assert (wing.mass_exponent, wing.chord[1]) == (3.0, pytest.approx(0.5 * wing.chord[0]))
+    assert wing.mean_chord == pytest.approx(stock.vehicle.wing.mean_chord)
+    assert wing.shoulder == pytest.approx((0.1 * wing.semi_span, 0.0, 0.02 * wing.semi_span))
+    assert vehicle.body.pitch_inertia == pytest.approx(1.2 * stock.vehicle.body.pitch_inertia)
+    assert vehicle.body.drag_area == pytest.approx(0.2 * 0.00813 * stock.vehicle.mass**0.666)
     assert problem.free == ("frequency", "flap_amplitude", "pitch_amplitude", "pitch_mean")
     assert problem.species.wingbeat.flap_mean == 0.0
-    assert problem.bounds["flap_amplitude"][1] == pytest.approx(math.radians(50))
+    assert problem.bounds["flap_amplitude"] == (stock.bounds["flap_amplitude"][0], pytest.approx(math.radians(50)))
+    assert problem.bounds["frequency"] == stock.bounds["frequency"]
     assert problem.aero.coefficients.extension == "signed-drag"
     assert problem.aero.force_point == "centre-of-pressure"
-    assert problem_under(values, animal, "dickinson", 9.0).aero.force_point == "quarter-chord"
     beat = problem.species.wingbeat
     assert (beat.span_retraction == 0.2) == (animal == "pigeon")
     assert (beat.twist_ratio == 1.4) == (animal == "bat")
+    second = recipe.problem(points[-1].changes)
+    assert second.vehicle.wing.chord[0] == pytest.approx(second.vehicle.wing.chord[1])
+    assert second.aero.force_point == "quarter-chord"
+    dickinson = group.studies[animal, "dickinson"].plan
+    theirs = dickinson.bases[0].recipe.problem(next(dickinson.points()).changes)
+    assert (theirs.aero.coefficients.name, theirs.aero.force_point) == ("dickinson", "quarter-chord")
+    assert theirs.vehicle == vehicle
+
+
+def test_sets_that_leave_different_angles_free_are_of_different_studies(tmp_path):
+    sets = [VALUES | {"trims": trims} for trims in ("none", "both", "none")]
+    groups = plan_piece(sets, tmp_path)
+    assert [group.places for group in groups] == [[1], [0, 2]]
+    free = [next(iter(group.studies.values())).plan.bases[0].recipe.free for group in groups]
+    assert free == [
+        ("frequency", "flap_amplitude", "pitch_amplitude", "flap_mean", "pitch_mean"),
+        ("frequency", "flap_amplitude", "pitch_amplitude"),
+    ]
 
 
 def test_importance_finds_what_a_number_was_made_of():
@@ -94,7 +140,7 @@ def made_up_study(count=400):
     holds = (numbers > 0).astype(float)
     holds[:, 0], holds[:, 1], holds[:, 2] = taper > 0.65, taper <= 0.65, 0.0
     holds[:5] = numbers[:5] = np.nan
-    return Study(tuple(sets), claims, numbers, holds, np.full(count, 9))
+    return Judged(tuple(sets), claims, numbers, holds, np.full(count, 9))
 
 
 def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_together(tmp_path):
@@ -104,7 +150,7 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     text = paths[0].read_text()
     first, second, third = (claim.id for claim in study.claims[:3])
     assert "`as run`" in text
-    assert f"{100 * 9 / study.asked:.0f} % of them were found and certified" in text
+    assert f"{100 * 9 / ORBITS:.0f} % of them were found and certified" in text
     assert f"never together: `{first}` and `{second}`" in text
     assert f"under no set: `{third}`" in text
     row = next(line for line in text.splitlines() if line.startswith(f"| {study.claims[0].claim}"))
@@ -123,13 +169,51 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     assert len(heat.get_xticks()) == len(ASSUMPTIONS)
 
 
-def test_one_set_is_flown_and_judged():
-    values = sample_sets(1)[0] | {"trims": "both", "extension": "mirrored", "force_point": "quarter-chord"}
-    outcome = judge_set(values, starts=1)
-    asked = 2 * sum(len(speeds) for speeds in SPEEDS.values())
-    assert asked - 2 <= outcome.flown <= asked
-    assert len(outcome.numbers) == len(outcome.holds) == len(study_claims())
-    told = np.isfinite(outcome.holds)
+class Here:
+    """An engine that works where it is asked to."""
+
+    workers = 1
+
+    def __init__(self):
+        self.batches = []
+
+    @property
+    def free(self):
+        return 1 - len(self.batches)
+
+    def submit(self, batch, units):
+        self.batches.append((batch, units))
+
+    def wait(self, seconds):
+        batch, units = self.batches.pop()
+        return Ended(batch, [outcome for unit in units for outcome in solve_unit(unit)], "here")
+
+    def close(self):
+        pass
+
+
+def test_one_set_is_flown_and_judged(tmp_path):
+    sets = [sample_sets(1)[0] | {"trims": "both", "extension": "mirrored", "force_point": "quarter-chord"}]
+    groups, seen = plan_piece(sets, tmp_path), []
+    fly_piece(groups, Here, Stop(), seen.append)
+    assert (seen[0], seen[-1], len(seen)) == (3, ORBITS, 4)
+    assert seconds_of(groups) > 0
+    judged = judge_piece(sets, groups)
+    assert ORBITS - 2 <= judged.flown[0] <= ORBITS
+    told = np.isfinite(judged.holds[0])
     assert told.sum() >= 20
-    assert np.isfinite(np.array(outcome.numbers)[told]).all()
-    assert set(np.array(outcome.holds)[told]) <= {0.0, 1.0}
+    assert np.array_equal(np.isfinite(judged.numbers[0]), told)
+    assert set(judged.holds[0][told]) <= {0.0, 1.0}
+    # The same claims of the same problems, solved and judged as `paper claims` does.
+    problems = {
+        Case("set", animal, model, point.changes["speed"]): one.plan.bases[0].recipe.problem(point.changes)
+        for (animal, model), one in groups[0].studies.items()
+        for point in one.plan.points()
+        if (animal, point.changes["speed"]) == ("bat", 10.0)
+    }
+    orbits = dict(zip(problems, wb.solve_orbits(list(problems.values()), starts=2), strict=True))
+    names = [claim.id for claim in judged.claims]
+    for name in ("smaller-alpha-1-of-4", "smaller-vertical-force", "hand-thrusts", "peak-power-su-fan"):
+        claim = judged.claims[names.index(name)]
+        theirs = claim.judge(orbits, ["set"]).findings[0].number
+        assert judged.numbers[0][names.index(name)] == pytest.approx(theirs, rel=0.05)

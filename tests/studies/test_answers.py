@@ -13,6 +13,7 @@ from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.studies import work
+from wingbeat.studies.store import Store
 from wingbeat.studies.units import Task, Unit
 
 FORM = {
@@ -34,7 +35,9 @@ def kept(path):
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
     study = wb.study(FORM, store=tmp_path_factory.mktemp("study") / "pigeon.study.sqlite")
-    assert study.run(processes=2).counts == {"converged": 8}
+    summary = study.run(processes=2)
+    assert summary.counts == {"converged": 8}
+    assert summary.seconds == pytest.approx(study.to_dataframe()["run_seconds"].sum())
     return study
 
 
@@ -52,6 +55,29 @@ def test_records_are_those_of_single_orbits_and_of_one_process_in_another_order(
     assert record["wingbeat"]["frequency"] == pytest.approx(alone["wingbeat"]["frequency"], rel=1e-8)
     assert record["mean_power"] == pytest.approx(alone["mean_power"], rel=1e-7)
     assert record["warnings"] == alone["warnings"]
+
+
+def test_orbits_are_those_of_the_points_and_fly_again_when_asked_for(done, tmp_path):
+    found = list(done.orbits())
+    told = [(point["speed"], point["wing.mass"]) for point, _ in found]
+    assert told == [tuple(row) for row in done.to_dataframe()[["speed", "wing.mass"]].to_numpy()]
+    assert {point["aero"] for point, _ in found} == {"su-fan", "dickinson"}
+    point, orbit = found[1]
+    assert (
+        orbit.record()["wingbeat"] == json.loads(kept(done.store)[list(done.plan.points())[1].key][1])["wingbeat"]
+    )
+    assert (orbit.status.value, orbit.problem.speed) == ("converged", point["speed"])
+    assert orbit.problem.vehicle.wing.mass == point["wing.mass"]
+    assert orbit.inputs["starts"] == 1
+    again = wb.solve_orbit(orbit.problem, starts=1)
+    for name in ("body_pitch", "alpha", "hinge_power"):
+        np.testing.assert_allclose(orbit.dataset[name], again.dataset[name], rtol=1e-5, atol=1e-6)
+    orbit.save(tmp_path / "one.nc")
+    assert wb.load_orbit(tmp_path / "one.nc").record()["mean_power"] == orbit.record()["mean_power"]
+    waiting = wb.study(FORM, store=tmp_path / "waiting.study.sqlite")
+    with Store.open(waiting.store) as store:
+        store.set_plan(waiting.plan)
+    assert [orbit for _, orbit in waiting.orbits()] == [None] * 8
 
 
 def test_the_table_has_the_names_of_the_record(done, tmp_path):
@@ -156,7 +182,7 @@ def test_the_numerical_version_is_raised_with_the_numbers(done):
 
     Machines and releases of JAX and SciPy differ by some 1e-9; the certificate allows 1e-7.
     """
-    assert NUMERICAL_VERSION == 2
+    assert NUMERICAL_VERSION == 3
     found = done.to_dataframe()[["wingbeat.frequency", "mean_power", "cost_of_transport"]].to_numpy()
     np.testing.assert_allclose(found, DIGITS, rtol=1e-6)
 

@@ -22,6 +22,7 @@ EXIT_BAD_INPUT = 2
 EXIT_NOT_CERTIFIED = 3
 EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells report it
 EXIT_BROKEN_PIPE = 141  # 128 + SIGPIPE: the reader, say `head`, had seen enough
+EXIT_TERMINATED = 143  # 128 + SIGTERM
 
 HELP = """How an animal or a flapping robot must beat its wings to fly.
 

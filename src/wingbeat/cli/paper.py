@@ -6,14 +6,18 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
 from wingbeat.errors import FaultList
 
-_SETS = 1000
+if TYPE_CHECKING:
+    from wingbeat.paper.pieces import Sample
+
+_SETS = _PIECE = 1000
 
 
 def paper(
@@ -27,51 +31,66 @@ def paper(
     quick: Annotated[bool, Parameter(negative="", help="Fewer speeds and searches.")] = False,
     sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; {_SETS} if not given.")] = None,
     seed: Annotated[int | None, Parameter(help="Of the sample of assumptions; 0 if not given.")] = None,
+    piece: Annotated[
+        int | None, Parameter(help=f"Sets that are finished and kept together; {_PIECE} if not given.")
+    ] = None,
+    only: Annotated[
+        str | None, Parameter(help="Which pieces to run here: 1-10, or 3,5 and the like; all if not given.")
+    ] = None,
     processes: Annotated[int | None, Parameter(help="Python processes; as many as cores if not given.")] = None,
-) -> None:
+) -> int:
     """Put Su et al. (arXiv 2302.09602) to the test: figures 2 to 8, every claim with a verdict, the orbits behind.
 
     `wingbeat paper assumptions` samples what the paper leaves open and counts under which sets each claim holds.
+    It goes on from where it was stopped. Finished pieces lie in the folder's `pieces`, to which those that another
+    machine ran with --only can be copied; page, table and figure are written when all are there.
 
-    Example: wingbeat paper --quick -o paper
+    Examples: wingbeat paper --quick -o paper; wingbeat paper assumptions --sets 2000 --only 1 -o assumptions
     """
+    from wingbeat.paper.figures import FIGURES
+    from wingbeat.paper.pieces import Sample
+
     faults = FaultList()
-    numbers = _figures(faults, figures or "2-8")
-    count = sets if sets is not None else _SETS
+    numbers = _numbers(faults, "--figures", figures or "2-8", set(FIGURES), "figures")
+    sample = Sample(_SETS if sets is None else sets, seed or 0, _PIECE if piece is None else piece)
     share = processes if processes is not None else os.cpu_count() or 1
-    if not 1 <= count <= 1_000_000:
-        faults.add("--sets", count, "must be a whole number from 1 to 1000000")
+    for name, count in (("--sets", sample.sets), ("--piece", sample.piece)):
+        if not 1 <= count <= 1_000_000:
+            faults.add(name, count, "must be a whole number from 1 to 1000000")
     if not 1 <= share <= 1024:
         faults.add("--processes", share, "must be a whole number from 1 to 1024")
     if seed is not None and seed < 0:
         faults.add("--seed", seed, "must not be negative")
     other = (("--figures", figures), ("--quick", quick or None))
     if part == "claims":
-        other = (("--sets", sets), ("--seed", seed))
+        other = (("--sets", sets), ("--seed", seed), ("--piece", piece), ("--only", only))
     for name, value in other:
         if value is not None:
             faults.add(name, value, f"has no part in 'paper {part}'")
     faults.raise_if_any()
     if part == "claims":
         _claims(numbers, output, quick, share)
-    else:
-        _assumptions(count, seed or 0, output, share)
+        return EXIT_GOOD
+    every = f"1-{len(sample)}"
+    pieces = _numbers(faults, "--only", only or every, set(range(1, len(sample) + 1)), "pieces")
+    faults.raise_if_any()
+    return _assumptions(sample, pieces, output, share)
 
 
-def _figures(faults: FaultList, words: str) -> list[int]:
-    """Return the figures that words like ``2-8`` or ``3,5`` name."""
-    from wingbeat.paper.figures import FIGURES
-
+def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: str) -> list[int]:
+    """Return the numbers that words like ``2-8`` or ``3,5`` name."""
     numbers: list[int] = []
     for word in words.split(","):
         first, _, last = word.strip().partition("-")
         if not first.isdigit() or not (last or first).isdigit():
-            faults.add("--figures", words, "must name figures", "as in 2-8 or 3,5")
+            faults.add(option, words, f"must name {what}", "as in 2-8 or 3,5")
             return []
-        numbers += range(int(first), int(last or first) + 1)
-    for number in sorted(set(numbers) - set(FIGURES)):
-        faults.add("--figures", number, "is not among the figures", f"draw {min(FIGURES)} to {max(FIGURES)}")
-    return sorted(set(numbers))
+        ends = int(first), int(last or first)
+        for number in ends:
+            if number not in known:
+                faults.add(option, number, f"is not among the {what}", f"give {min(known)} to {max(known)}")
+        numbers += range(ends[0], min(ends[1], max(known)) + 1)
+    return sorted(known & set(numbers))
 
 
 def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> None:
@@ -93,17 +112,28 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> No
     print(f"wrote {len(written)} files to {folder} in {time.perf_counter() - begun:.0f} s", file=sys.stderr)
 
 
-def _assumptions(sets: int, seed: int, folder: Path, processes: int) -> None:
+def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
     from wingbeat.paper.assumption_page import write_study
-    from wingbeat.paper.study import run_study
+    from wingbeat.paper.pieces import Pieces
+    from wingbeat.studies.driver import listening
+    from wingbeat.studies.engine import LocalProcesses
 
-    begun = time.perf_counter()
-    with progress_bar("sets of assumptions") as progress:
-        study = run_study(sets, seed=seed, processes=processes, progress=progress)
-    minutes = (time.perf_counter() - begun) / 60
+    pieces = Pieces(sample, folder / "pieces")
+    with listening(say_stopping) as stop, progress_bar("orbits") as progress:
+        for number in pieces.run(only, lambda: LocalProcesses(processes), stop, progress):
+            say(f"piece {number} of {len(pieces)} is done: {pieces.path(number)}")
+    if stop.level:
+        return exit_of(stop)
+    if len(pieces.finished()) < len(pieces):
+        say(f"{len(pieces.finished())} of {len(pieces)} pieces are done; the page is written when all are")
+        return EXIT_GOOD
+    judged, seconds = pieces.joined()
     heading = (
-        f"`wingbeat paper assumptions --sets {sets} --seed {seed}`: one search an orbit, answers handed on along "
-        f"speed and from model to model; {processes} processes, {minutes:.0f} minutes."
+        f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed}`: each animal and coefficient "
+        "model under each choice of trims is a [study](studies.md) with two searches an orbit, one of them from "
+        f"the orbit at the speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
+        f"{seconds / sample.sets:.2f} s a set."
     )
-    for path in write_study(study, folder, heading):
-        print(f"wrote {path}", file=sys.stderr)
+    for path in write_study(judged, folder, heading):
+        say(f"wrote {path}")
+    return EXIT_GOOD

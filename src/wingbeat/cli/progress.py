@@ -1,14 +1,17 @@
-"""Work done and time left, on a terminal only."""
+"""What long work says of itself: done and left, on a terminal only; that it stops, and with which exit code."""
 
 from __future__ import annotations
 
 import contextlib
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from wingbeat.cli.app import EXIT_INTERRUPTED, EXIT_TERMINATED
+
 if TYPE_CHECKING:
-    from wingbeat.studies.driver import Tally
+    from wingbeat.studies.driver import Stop, Tally
 
 
 @contextlib.contextmanager
@@ -61,3 +64,18 @@ def duration(seconds: float) -> str:
     if seconds < 100:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+def say(words: str) -> None:
+    """Print a line to stderr."""
+    print(words, file=sys.stderr)
+
+
+def say_stopping(level: int) -> None:
+    """Say that a study was asked to stop."""
+    say("finishing what is in flight; once more stops at once" if level == 1 else "stopping")
+
+
+def exit_of(stop: Stop) -> int:
+    """Return the exit code of a study that was asked to stop."""
+    return EXIT_TERMINATED if stop.by == signal.SIGTERM else EXIT_INTERRUPTED

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from wingbeat.cli.app import EXIT_GOOD, EXIT_INTERRUPTED, EXIT_NOT_CERTIFIED
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs
-from wingbeat.cli.progress import duration, study_bar
+from wingbeat.cli.progress import duration, exit_of, say, say_stopping, study_bar
 from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
@@ -24,7 +23,6 @@ study = App(
     name="study", help="Solve many problems, a grid or a cloud of them: in pieces that survive, nothing lost."
 )
 
-EXIT_TERMINATED = 143  # 128 + SIGTERM
 # Failures that are listed by name.
 _LISTED = 10
 
@@ -66,15 +64,15 @@ def run(
 
     check_run(processes, timeout, dask)
     asked = _read(file)
-    engine = engine_for(processes, timeout, dask, _say)
-    with listening(_say_stopping) as stop:
-        _say(_announcement(asked, engine.workers))
+    engine = engine_for(processes, timeout, dask, say)
+    with listening(say_stopping) as stop:
+        say(_announcement(asked, engine.workers))
         with study_bar() as progress:
             tally = asked.run_on(engine, stop, retry_failed, progress)
-        _say(_told(tally))
+        say(_told(tally))
     _print_summary(asked, asked.status())
     if stop.level:
-        return EXIT_TERMINATED if stop.by == signal.SIGTERM else EXIT_INTERRUPTED
+        return exit_of(stop)
     return EXIT_GOOD if tally.certified == tally.total or allow_failures else EXIT_NOT_CERTIFIED
 
 
@@ -133,10 +131,6 @@ def _read(file: Path) -> Study:
     return plan(file)
 
 
-def _say(words: str) -> None:
-    print(words, file=sys.stderr)
-
-
 def _announcement(asked: Study, processes: int) -> str:
     """Return how many points there are, and about how long they will take."""
     total, summary = len(asked), asked.status()
@@ -144,10 +138,6 @@ def _announcement(asked: Study, processes: int) -> str:
     seconds = asked.estimate(processes)
     many = "processes" if processes > 1 else "process"
     return f"{total} points, {waiting} without an answer: about {duration(seconds)} with {processes} {many}"
-
-
-def _say_stopping(level: int) -> None:
-    _say("finishing what is in flight; once more stops at once" if level == 1 else "stopping")
 
 
 def _told(tally: Tally) -> str:

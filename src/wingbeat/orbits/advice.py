@@ -16,14 +16,13 @@ from wingbeat.orbits.easing import least_change
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import QUANTITIES, Frequency
 from wingbeat.orbits.search import Candidate, refine, search
-from wingbeat.orbits.shortage import NOTHING, Balance, Closest, Shortage
+from wingbeat.orbits.shortage import Balance, Shortage
 from wingbeat.orbits.transcription import Transcription
 
 # Beats from which the closest is sought, of those that the searches ended with.
 _NEAREST = 4
-# A bound that a beat is as near to as this share of its range holds it back; and one that it is at.
+# A bound that a beat is as near to as this share of its range holds it back.
 _LEANING = 0.02
-_AT = 1e-3
 # Changes that are told; of a short share of a law, the part of the largest that is worth telling.
 _TOLD = 3
 _MENTION = 0.2
@@ -55,15 +54,7 @@ def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Neares
     balance = Balance(programme)
     ends = [c.scaled for c in sorted(found, key=lambda c: c.violation)[:_NEAREST]]
     closest = balance.failing(ends)
-    # An elastic solve stays a little inside the bounds that hold it up.
-    at, near = closest.scaled.copy(), _AT * (programme.upper - programme.lower)
-    for bound in (programme.lower, programme.upper):
-        at = np.where(np.abs(at - bound) <= near, bound, at)
-    return Nearest(at, balance.shortages(closest), _closes(closest))
-
-
-def _closes(closest: Closest) -> bool:
-    return closest.keeps_the_rest and closest.size <= NOTHING
+    return Nearest(closest.scaled, balance.shortages(closest), closest.closes)
 
 
 def words_of(problem: OrbitProblem, shortages: Sequence[Shortage]) -> str:

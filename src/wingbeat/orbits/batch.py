@@ -12,8 +12,8 @@ from typing import Any, TypeVar
 from wingbeat.errors import FaultList
 from wingbeat.orbits.neighbours import Answers, alike, numbers_of
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status, better_of
-from wingbeat.orbits.solve import Progress, check_search, find_orbit, settle
+from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
 from wingbeat.orbits.starts import usual_starts
 
 T = TypeVar("T")
@@ -122,10 +122,7 @@ def find_helped(
     """
     if known is None:
         return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise)
-    if starts == 1:
-        return known
-    cold = find_orbit(problem, starts - 1, seed, threads=1, most_starts=most_starts, advise=False)
-    return better_of(cold, known)
+    return known if starts == 1 else find_beside(known, starts - 1, seed)
 
 
 def in_processes(

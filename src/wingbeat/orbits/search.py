@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares, lsq_linear, minimize
+from scipy.optimize import lsq_linear, minimize
 
+from wingbeat.orbits.least_misses import least_misses
 from wingbeat.orbits.problem import CLOSURE_SCALE
 from wingbeat.orbits.transcription import AT_BOUND, Transcription
 
@@ -22,6 +22,12 @@ _HOPELESS = 1e-3
 _BRIEFLY = 40
 # Evaluations of the elastic solve that goes before a search which is expected to be hard.
 _APPROACH = 40
+# It ends where its squares shrink by less than this share; near closure they shrink by most of themselves.
+_APPROACHED = 1e-4
+# A search that has not come nearer than this to closure, in the optimiser's scale, after so many flights has gone
+# astray: of 376 that met an orbit 2 had not, and an elastic solve may bring those back.
+_ASTRAY = 0.3
+_PATIENCE = 60
 
 
 @dataclass(frozen=True)
@@ -49,7 +55,7 @@ def search(problem: Transcription, start: np.ndarray, *, elastic: bool = False) 
             scaled = approach(problem, scaled)
             if violation(problem, scaled) > _HOPELESS:
                 break
-        scaled, optimal = optimise(problem, scaled)
+        scaled, optimal = optimise(problem, scaled, patience=_PATIENCE)
         closed = is_closed(problem, scaled)
         # SLSQP also stops where rounding lets it go no further; what counts is whether the conditions hold there.
         optimal = optimal or (closed and optimality(problem, scaled) <= OPTIMAL)
@@ -60,7 +66,7 @@ def search(problem: Transcription, start: np.ndarray, *, elastic: bool = False) 
 
 def refine(problem: Transcription, start: np.ndarray, iterations: int = _BRIEFLY) -> Candidate:
     """Search once from unknowns that are taken to be near an orbit, and briefly: if they are, that is enough."""
-    scaled, optimal = optimise(problem, problem.scaled(start), iterations)
+    scaled, optimal = optimise(problem, problem.scaled(start), iterations, patience=_PATIENCE)
     return as_candidate(problem, scaled, optimal)
 
 
@@ -97,49 +103,56 @@ def approach(problem: Transcription, scaled: np.ndarray) -> np.ndarray:
         broken = problem.margins(x)[:, None] < 0
         return np.concatenate([problem.closure_jacobian(x), broken * problem.margins_jacobian(x)])
 
-    return least_misses(problem, misses, jacobian, scaled, _APPROACH)
+    return least_misses(misses, jacobian, scaled, problem.lower, problem.upper, _APPROACH, _APPROACHED)
 
 
-def least_misses(
-    problem: Transcription,
-    misses: Callable[[np.ndarray], np.ndarray],
-    jacobian: Callable[[np.ndarray], np.ndarray],
-    scaled: np.ndarray,
-    evaluations: int,
-    settled: float = 1e-9,
-) -> np.ndarray:
-    """Return where, within the bounds, the misses are least in squares; they end when they shrink by `settled`."""
-    inside = 1e-6 * (problem.upper - problem.lower)
-    # Flights that run off overflow in what it squares; such a lead is given up by its violation.
-    with np.errstate(over="ignore", invalid="ignore"):
-        return least_squares(
-            misses,
-            np.clip(scaled, problem.lower + inside, problem.upper - inside),
-            jac=jacobian,  # type: ignore[arg-type]
-            bounds=(problem.lower, problem.upper),
-            max_nfev=evaluations,
-            xtol=1e-9,
-            ftol=settled,
-            gtol=1e-9,
-        ).x
+class _AstrayError(Exception):
+    """A search that comes to no closure."""
 
 
 def optimise(
-    problem: Transcription, scaled: np.ndarray, iterations: int = 60, tolerance: float = 1e-6
+    problem: Transcription,
+    scaled: np.ndarray,
+    iterations: int = 60,
+    tolerance: float = 1e-6,
+    patience: int | None = None,
 ) -> tuple[np.ndarray, bool]:
-    """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged."""
-    found = minimize(
-        problem.objective,
-        np.clip(scaled, problem.lower, problem.upper),
-        jac=problem.objective_gradient,
-        bounds=list(zip(problem.lower, problem.upper, strict=True)),
-        constraints=[
-            {"type": "eq", "fun": problem.closure, "jac": problem.closure_jacobian},
-            {"type": "ineq", "fun": problem.margins, "jac": problem.margins_jacobian},
-        ],
-        method="SLSQP",
-        options={"maxiter": iterations, "ftol": tolerance},
-    )
+    """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged.
+
+    Parameters
+    ----------
+    problem : the programme.
+    scaled : where to start.
+    iterations, tolerance : of SLSQP.
+    patience : flights after which one that has gone astray is given up where it was nearest; none if not given.
+    """
+    nearest, least, flights = scaled, np.inf, 0
+
+    def closure(x: np.ndarray) -> np.ndarray:
+        nonlocal nearest, least, flights
+        away = violation(problem, x)
+        if away < least:
+            nearest, least = x.copy(), away
+        flights += 1
+        if patience is not None and flights >= patience and least > _ASTRAY:
+            raise _AstrayError
+        return problem.closure(x)
+
+    try:
+        found = minimize(
+            problem.objective,
+            np.clip(scaled, problem.lower, problem.upper),
+            jac=problem.objective_gradient,
+            bounds=list(zip(problem.lower, problem.upper, strict=True)),
+            constraints=[
+                {"type": "eq", "fun": closure if patience else problem.closure, "jac": problem.closure_jacobian},
+                {"type": "ineq", "fun": problem.margins, "jac": problem.margins_jacobian},
+            ],
+            method="SLSQP",
+            options={"maxiter": iterations, "ftol": tolerance},
+        )
+    except _AstrayError:
+        return np.clip(nearest, problem.lower, problem.upper), False
     return np.clip(found.x, problem.lower, problem.upper), bool(found.status == 0)
 
 
@@ -181,5 +194,6 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
     gradient, normals = problem.objective_gradient(scaled), np.array(columns).T
     multipliers = np.linalg.lstsq(normals, gradient)[0]
     if (multipliers < lower).any():
-        multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
+        with np.errstate(invalid="ignore"):  # where it multiplies nothing with infinity
+            multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
     return float(np.abs(normals @ multipliers - gradient).max())

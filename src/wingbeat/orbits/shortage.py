@@ -14,8 +14,8 @@ import numpy as np
 
 from wingbeat.jax64 import jnp
 from wingbeat.model import motion_table
+from wingbeat.orbits.least_misses import least_misses
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
-from wingbeat.orbits.search import least_misses
 from wingbeat.orbits.transcription import Transcription
 
 THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
@@ -25,6 +25,7 @@ _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 # A miss that no law excuses, of 1 in the optimiser's scale, weighs as much as so many weights that are short.
 _WEIGHT = 100.0
 _EVALUATIONS = 150
+_SETTLED = 1e-5
 # A miss that is none, in the optimiser's scale, and a share that is none.
 _KEPT = 1e-3
 NOTHING = 1e-3
@@ -74,6 +75,11 @@ class Closest:
         return any(self.shares.get(law, 0.0) < 0 for law in (LIFT, THRUST))
 
     @property
+    def closes(self) -> bool:
+        """Whether nothing is short at all."""
+        return self.keeps_the_rest and self.size <= NOTHING
+
+    @property
     def size(self) -> float:
         """Root of the sum of the squares of the shares."""
         return float(np.linalg.norm(list(self.shares.values())))
@@ -116,21 +122,23 @@ class Balance:
             passed = programme.margins(x)[:, None] < 0
             return np.concatenate([by_closure, _WEIGHT * passed * programme.margins_jacobian(x)])
 
-        found = least_misses(programme, misses, jacobian, scaled, _EVALUATIONS, settled=1e-7)
+        found = least_misses(misses, jacobian, scaled, programme.lower, programme.upper, _EVALUATIONS, _SETTLED)
         short = -(weights(found) * programme.closure(found))[rows]
         rest = np.abs(np.delete(programme.closure(found), rows)).max()
         keeps = max(rest, -programme.margins(found).min()) <= _KEPT
         return Closest(found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps))
 
     def failing(self, starts: Iterable[np.ndarray]) -> Closest:
-        """Return the closest beat with the one law broken that alone will do, or with as many as must be.
+        """Return a beat that closes, or the closest with the one law broken that alone will do, or with all.
 
         Of several laws that each will do, that which is broken least; but a force too large only where no shortage
         will do, for what is too much can mostly be spilled, and is then the price of another law.
         """
         together = [self.closest(start) for start in starts]
-        alone = [self.closest(c.scaled, [law]) for c in together for law in LAWS]
         best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
+        if best.closes:
+            return best
+        alone = [self.closest(c.scaled, [law]) for c in together for law in LAWS]
         return min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=best)
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:

@@ -25,7 +25,7 @@ from wingbeat.orbits.search import (
 )
 from wingbeat.orbits.searches import beside_best, load_programs, search_from_starts
 from wingbeat.orbits.shortage import NOTHING, Shortage
-from wingbeat.orbits.solution import SAME, Optimum, Solution, Status
+from wingbeat.orbits.solution import SAME, Optimum, Solution, Status, better_of
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
@@ -92,16 +92,42 @@ def find_orbit(
     most = MOST_STARTS if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()
+    threads = threads or os.cpu_count() or 1
+    transcription = Transcription(problem)
+    best, found = _searched(transcription, starts, most, seed, threads, progress)
+    failure = None
+    if best is None:
+        best, failure = _without_orbit(transcription, found, threads, advise, progress)
+    return _found(transcription, best, found, seed, begun, failure)
+
+
+def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
+    """Return the better of a certified orbit and what so many searches of its problem, one by one, come to."""
+    begun = time.perf_counter()
+    transcription = Transcription(known.problem)
+    best, found = _searched(transcription, starts, starts, seed, 1)
+    if best is None:
+        return dataclasses.replace(known, starts=known.starts + len(found), seed=seed)
+    return better_of(_found(transcription, best, found, seed, begun), known)
+
+
+def _searched(
+    transcription: Transcription,
+    starts: int,
+    most: int,
+    seed: int,
+    threads: int,
+    progress: Progress | None = None,
+) -> tuple[Corrected | None, list[Candidate]]:
+    """Return the best certified orbit that searches lead to, if any, and where they all ended."""
+    problem = transcription.problem
     found: list[Candidate] = []
     total = starts
     best: Corrected | None = None
-    transcription = Transcription(problem)
     load_programs(transcription, start_point(problem, 0, seed))
     for stage in (range(starts), range(starts, max(starts, most))):
         total = max(total, stage.stop)
-        for candidate in search_from_starts(
-            transcription, stage, seed, stage.start > 0, threads or os.cpu_count() or 1
-        ):
+        for candidate in search_from_starts(transcription, stage, seed, stage.start > 0, threads):
             found.append(candidate)
             if progress is not None:
                 progress(len(found), total)
@@ -117,16 +143,23 @@ def find_orbit(
                     break
         if best is not None:
             break
-    failure = None
-    if best is None:
-        best, failure = _without_orbit(transcription, found, threads or os.cpu_count() or 1, advise, progress)
-    seconds = time.perf_counter() - begun
-    certifying = transcription.certify_seconds
+    return best, found
+
+
+def _found(
+    transcription: Transcription,
+    best: Corrected,
+    found: list[Candidate],
+    seed: int,
+    begun: float,
+    failure: _Outcome | None = None,
+) -> Solution:
     optima = tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _distinct(found))
+    seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
     return _solution(best, len(found), optima, seed, seconds, certifying, failure)
 
 
-def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int | None) -> Iterator[list[np.ndarray]]:
+def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[np.ndarray]]:
     """Yield where the limits of a problem may be met: its optima without them, then those of least what they limit.
 
     Limits on a peak have edges in which searches from random starts catch; all fifty of the bat did at 10 m/s with

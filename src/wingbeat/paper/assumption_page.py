@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wingbeat.files import write_atomically
+from wingbeat.paper.assumption_study import ORBITS, Judged
 from wingbeat.paper.assumptions import ASSUMPTIONS
 from wingbeat.paper.importance import Importance, importance
-from wingbeat.paper.study import Study
+from wingbeat.paper.pieces import table
 from wingbeat.plots import save_figure
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ _TRUSTED = 0.3
 _BEST = 5
 
 
-def write_study(study: Study, folder: Path, heading: str) -> list[Path]:
+def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
     """Write assumptions.md, .csv, .png and .pdf into a folder.
 
     Parameters
@@ -45,32 +44,14 @@ def write_study(study: Study, folder: Path, heading: str) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"assumptions.{ending}" for ending in ("md", "csv", "png", "pdf")]
     write_atomically(paths[0], page(study, hangs, heading))
-    write_atomically(paths[1], table(study))
+    write_atomically(paths[1], table([study]))
     figure = draw(study, hangs)
     save_figure(figure, paths[2])
     save_figure(figure, paths[3])
     return paths
 
 
-def table(study: Study) -> str:
-    """Return every set in a line: its assumptions, orbits certified, each claim's number and verdict."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    names = [assumption.name for assumption in ASSUMPTIONS]
-    claims = [f"{claim.id}{end}" for claim in study.claims for end in ("", ":holds")]
-    writer.writerow([*names, "certified", *claims])
-    for values, numbers, holds, flown in zip(study.sets, study.numbers, study.holds, study.flown, strict=True):
-        said = [cell for n, h in zip(numbers, holds, strict=True) for cell in (_cell(n, ".4g"), _cell(h, ".0f"))]
-        assumed = [v if isinstance(v, str) else f"{v:.4g}" for v in (values[name] for name in names)]
-        writer.writerow([*assumed, int(flown), *said])
-    return text.getvalue()
-
-
-def _cell(number: float, form: str) -> str:
-    return format(number, form) if np.isfinite(number) else ""
-
-
-def page(study: Study, hangs: Sequence[Importance | None], heading: str) -> str:
+def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str:
     """Return the page."""
     kept = np.nansum(study.holds, axis=1)
     lines = [
@@ -81,9 +62,9 @@ def page(study: Study, hangs: Sequence[Importance | None], heading: str) -> str:
         f"of attack. Here {len(study.sets)} sets of assumptions, spread evenly over the plausible ranges below "
         "with the "
         "animals' whole masses held at the paper's, each ask for "
-        f"{study.asked} least-frequency orbits: pigeon and bat, both coefficient models, at the speeds the "
+        f"{ORBITS} least-frequency orbits: pigeon and bat, both coefficient models, at the speeds the "
         "claims need. "
-        f"{100 * study.flown.sum() / (study.asked * len(study.sets)):.0f} % of them were found and certified.",
+        f"{100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of them were found and certified.",
         "",
         heading,
         "",
@@ -138,7 +119,7 @@ def _named(hang: Importance | None) -> str:
     return ", ".join(f"{ASSUMPTIONS[i].name} {hang.shares[i]:.2f}" for i in order) or "none of them alone"
 
 
-def _apart(study: Study) -> list[str]:
+def _apart(study: Judged) -> list[str]:
     """Return a line for each pair of claims that hold often, but never together."""
     lines = []
     often = [k for k in range(len(study.claims)) if np.nansum(study.holds[:, k]) >= _OFTEN]
@@ -153,7 +134,7 @@ def _apart(study: Study) -> list[str]:
     return lines or ["- every pair of claims that hold in many sets holds together in some"]
 
 
-def draw(study: Study, hangs: Sequence[Importance | None]) -> Figure:
+def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     """Draw, for each claim, the share of sets that satisfy it and what its number hangs on."""
     from matplotlib import colormaps
     from matplotlib.figure import Figure

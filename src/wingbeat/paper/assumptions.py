@@ -1,18 +1,19 @@
-"""Sets of assumptions where the paper is silent: what is sampled, in what range, and the problems that follow."""
+"""Assumptions where the paper is silent: what is sampled, in what range, and what a set means for an animal."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from wingbeat.aero import EXTENSIONS, BladeElement, load_coefficients
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.species import load_species
+from wingbeat.aero import EXTENSIONS
+from wingbeat.species import Species
 
-# Trims that are free, besides frequency, flap amplitude and pitch amplitude, which the paper names.
+# What the paper says is free, and the mean angles of which it does not tell.
+_FREE = ("frequency", "flap_amplitude", "pitch_amplitude")
+_MEANS = ("flap-mean", "pitch-mean")
 TRIMS = ("both", "pitch-mean", "flap-mean", "none")
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 
@@ -43,6 +44,9 @@ class Assumption:
             return self.choices[min(int(share * len(self.choices)), len(self.choices) - 1)]
         return self.low + share * (self.high - self.low)
 
+
+# What only one of the animals does in its upstroke or along its wing.
+_OWN = {"pigeon": "span_retraction", "bat": "twist_ratio"}
 
 ASSUMPTIONS = (
     Assumption(
@@ -120,40 +124,38 @@ def sample_sets(count: int, seed: int = 0) -> list[Values]:
     return [{a.name: a.at(float(share)) for a, share in zip(ASSUMPTIONS, row, strict=True)} for row in shares]
 
 
-def problem_under(values: Values, animal: str, model: str, speed: float) -> OrbitProblem:
-    """Return the orbit problem of an animal and a coefficient model under a set of assumptions."""
+def free_under(trims: str) -> list[str]:
+    """Return what is free under a choice of trims.
+
+    >>> free_under("flap-mean")
+    ['frequency', 'flap_amplitude', 'pitch_amplitude', 'flap_mean']
+    """
+    return [*_FREE, *(trim.replace("-", "_") for trim in _MEANS if trims in (trim, "both"))]
+
+
+def changes_under(values: Values, species: Species, model: str) -> dict[str, Any]:
+    """Return what a set of assumptions means for an animal and a coefficient model: values by path.
+
+    Sets of the same trims have the same paths; what is free then says `free_under`.
+    """
     number = {name: value for name, value in values.items() if isinstance(value, float)}
-    species = load_species(animal)
     vehicle, mass, span = species.vehicle, species.vehicle.mass, species.vehicle.wing.semi_span
     root = 2.0 * vehicle.wing.mean_chord / (1.0 + number["taper"])
     wing_mass = number["wing_mass_share"] * mass
-    changed = {
+    own, widest = _OWN[species.name], species.bounds["flap_amplitude"][1]
+    held = [f"wingbeat.{trim.replace('-', '_')}" for trim in _MEANS if values["trims"] not in (trim, "both")]
+    return {
         "wing.mass": wing_mass,
         "body.mass": mass - 2.0 * wing_mass,
         "wing.mass_exponent": number["mass_exponent"],
-        "wing.chord": (root, number["taper"] * root),
+        "wing.chord": [root, number["taper"] * root],
         "body.pitch_inertia": number["body_inertia_factor"] * vehicle.body.pitch_inertia,
-        "wing.shoulder": (number["shoulder_ahead"] * span, 0.0, number["shoulder_above"] * span),
+        "wing.shoulder": [number["shoulder_ahead"] * span, 0.0, number["shoulder_above"] * span],
         # Frontal area .00813 m^.666 (Pennycuick et al. 1988), drag coefficient .2.
         "body.drag_area": number["body_drag_factor"] * 0.2 * 0.00813 * mass**0.666,
+        f"wingbeat.{own}": number[own],
+        **dict.fromkeys(held, 0.0),
+        "bounds.flap_amplitude.upper": min(widest, math.radians(number["flap_amplitude_deg"])),
+        "aero.extension": values["extension"],
+        **({"aero.force_point": values["force_point"]} if model == "su-fan" else {}),
     }
-    if animal == "pigeon":
-        changed["wingbeat.span_retraction"] = number["span_retraction"]
-    else:
-        changed["wingbeat.twist_ratio"] = number["twist_ratio"]
-    free = ["frequency", "flap_amplitude", "pitch_amplitude"]
-    for trim, name in (("flap-mean", "flap_mean"), ("pitch-mean", "pitch_mean")):
-        if values["trims"] in (trim, "both"):
-            free.append(name)
-        else:
-            changed[f"wingbeat.{name}"] = 0.0
-    at_centre = model == "su-fan" and values["force_point"] == "centre-of-pressure"
-    aero = BladeElement(
-        load_coefficients(model, str(values["extension"])),
-        force_point="centre-of-pressure" if at_centre else "quarter-chord",
-    )
-    changed_species = species.with_values(changed)
-    problem = OrbitProblem(changed_species, speed=speed, aero=aero, free=tuple(free))
-    lower, upper = problem.bounds["flap_amplitude"]
-    bound = min(upper, math.radians(number["flap_amplitude_deg"]))
-    return dataclasses.replace(problem, bounds={**problem.bounds, "flap_amplitude": (lower, bound)})

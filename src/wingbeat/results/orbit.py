@@ -15,6 +15,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
@@ -40,8 +41,36 @@ class Summary(NamedTuple):
     relaxations: tuple[Relaxation, ...] = ()
 
 
+class _Flight:
+    """What was flown of a wingbeat, and what is made of it when asked for."""
+
+    def __init__(self, problem: OrbitProblem, wingbeat: Wingbeat, fly: Callable[[], Certificate]) -> None:
+        self._model, self._wingbeat, self._fly = problem.model, wingbeat, functools.cache(fly)
+
+    @functools.cached_property
+    def loads(self) -> Loads:
+        """The loads along the flight."""
+        flown = self._fly()
+        return evaluate(self._model, self._wingbeat, flown.phase, flown.states)
+
+    def dataset(self, record: dict[str, Any], inputs: dict[str, Any]) -> xr.Dataset:
+        """Return the flight's time series, with a record and its inputs as attributes."""
+        flown, attributes = self._fly(), orbit_attributes(record, inputs)
+        return flight_dataset(self._model, self._wingbeat, flown.phase, flown.states, self.loads, attributes)
+
+
+def _summary(record: dict[str, Any]) -> Summary:
+    return Summary(
+        Status(record["status"]),
+        record["message"],
+        Wingbeat(**record["wingbeat"]),
+        State(**record["initial_state"]),
+        tuple(Relaxation(**r) for r in record.get("relaxations", [])),
+    )
+
+
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit` and its like, or by `load_orbit`."""
+    """One periodic orbit and everything about it; made by `solve_orbit` and its like, `load_orbit` or a study."""
 
     def __init__(
         self,
@@ -64,26 +93,31 @@ class Orbit:
         solution : what a search found.
         starts, seed : what the search was asked for.
         """
-        problem, certificate = solution.problem, solution.certificate
-        inputs = inputs_of(problem, starts, seed)
-
-        @functools.cache
-        def loads() -> Loads:
-            return evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
+        inputs = inputs_of(solution.problem, starts, seed)
+        flight = _Flight(solution.problem, solution.wingbeat, lambda: solution.certificate)
 
         @functools.cache
         def record() -> dict[str, Any]:
-            return orbit_record(solution, loads())
+            return orbit_record(solution, flight.loads)
 
-        def series() -> xr.Dataset:
-            attributes = orbit_attributes(record(), inputs)
-            return flight_dataset(
-                problem.model, solution.wingbeat, certificate.phase, certificate.states, loads(), attributes
-            )
-
-        start = State(*certificate.states[0].tolist())
+        start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
-        return cls(summary, inputs, record, series)
+        return cls(summary, inputs, record, lambda: flight.dataset(record(), inputs))
+
+    @classmethod
+    def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
+        """Return the orbit that a record tells of; its time series are flown when asked for.
+
+        Parameters
+        ----------
+        record : an orbit record.
+        problem : the problem that it answers.
+        starts, seed : what the search was asked for.
+        """
+        inputs, summary = inputs_of(problem, starts, seed), _summary(record)
+        pitch_state = np.array(summary.initial_state)[2:]
+        flight = _Flight(problem, summary.wingbeat, lambda: certify(problem.model, summary.wingbeat, pitch_state))
+        return cls(summary, inputs, lambda: record, lambda: flight.dataset(record, inputs))
 
     @functools.cached_property
     def _record(self) -> dict[str, Any]:
@@ -271,11 +305,4 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     """
     dataset = load_dataset(path)
     record, inputs = parse_attributes(dataset.attrs, path)
-    summary = Summary(
-        Status(record["status"]),
-        record["message"],
-        Wingbeat(**record["wingbeat"]),
-        State(**record["initial_state"]),
-        tuple(Relaxation(**r) for r in record.get("relaxations", [])),
-    )
-    return Orbit(summary, inputs, lambda: record, lambda: dataset)
+    return Orbit(_summary(record), inputs, lambda: record, lambda: dataset)

@@ -13,13 +13,14 @@ from wingbeat.aero import BladeElement
 from wingbeat.errors import FaultList
 from wingbeat.orbits.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.provenance import aero_from, inputs_of, species_from
 from wingbeat.species import Species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken, suggest
 from wingbeat.studies.objective import from_inputs
 
-__all__ = ["MOTION", "Recipe", "recipe_from"]
+__all__ = ["MOTION", "Recipe", "recipe_from", "starts_of"]
 
 # Every point says these, whatever is varied; their limits are those of `OrbitProblem` and `Species.with_payload`.
 MOTION = {
@@ -162,6 +163,12 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
         tuple(inputs["subject_to"]),
         inputs["search"],
     )
+
+
+def starts_of(recipe: Recipe, problem: OrbitProblem) -> int:
+    """Return how many searches are made for a problem of a recipe."""
+    starts = recipe.search["starts"]
+    return usual_starts(problem) if starts is None else int(starts)
 
 
 @functools.cache

@@ -47,10 +47,11 @@ class Waiting(NamedTuple):
 
 
 class Row(NamedTuple):
-    """A point of the plan with what is known of it; nothing is known of one that waits (status None)."""
+    """A point of the plan, its changes, and what is known of it; nothing of one that waits (status None)."""
 
     key: str
     base: int
+    changes: str
     told: dict[str, Any]
     status: str | None
     record: str | None
@@ -230,6 +231,12 @@ class Store:
             )
             return self._connection.execute(question).fetchone()[0]
 
+    def spent(self) -> float:
+        """Return what the answers of the plan's points took, on one core [s]."""
+        with _told(self.path):
+            question = "SELECT TOTAL(q.run_seconds) FROM plan p JOIN points q USING (key)"
+            return self._connection.execute(question).fetchone()[0]
+
     def uncertified(self, most: int) -> list[Row]:
         """Return the first points of the plan whose answer is no certified orbit, without their records."""
         return list(self._rows("NULL", f"WHERE q.status <> 'converged' ORDER BY p.ordinal LIMIT {int(most)}"))
@@ -241,11 +248,12 @@ class Store:
     def _rows(self, record: str, tail: str) -> Iterator[Row]:
         paths = json.loads(self._about("paths") or "[]")
         with _told(self.path):
-            for key, base, told, *rest in self._connection.execute(
-                f"SELECT p.key, p.base, p.told, q.status, {record}, q.certificate, q.error, q.run_seconds, "
-                f"q.run_finished, q.run_worker, q.run_attempt FROM plan p LEFT JOIN points q USING (key) {tail}"
+            for key, base, changes, told, *rest in self._connection.execute(
+                f"SELECT p.key, p.base, p.changes, p.told, q.status, {record}, q.certificate, q.error, "
+                "q.run_seconds, q.run_finished, q.run_worker, q.run_attempt "
+                f"FROM plan p LEFT JOIN points q USING (key) {tail}"
             ):
-                yield Row(key, base, dict(zip(paths, json.loads(told), strict=True)), *rest)
+                yield Row(key, base, changes, dict(zip(paths, json.loads(told), strict=True)), *rest)
 
     @property
     def paths(self) -> tuple[str, ...]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from os import PathLike
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.errors import FaultList
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
 from wingbeat.studies.lock import only_one
 from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
+from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.store import Store
 from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of
 
@@ -46,12 +49,14 @@ class Summary:
     counts : points by status; ``waiting`` are those without an answer.
     kept : answers in the store of points that the study no longer asks for.
     changed : whether the store holds the points of the study as it was before a change, not yet run.
+    seconds : what the answers took, on one core [s].
     """
 
     total: int
     counts: dict[str, int]
     kept: int = 0
     changed: bool = False
+    seconds: float = 0.0
 
     @property
     def waiting(self) -> int:
@@ -148,7 +153,7 @@ class Study:
             changed = store.digest != self.plan.digest
             total = sum(counts.values())
             kept = store.answers() - total + counts.get("waiting", 0)
-            return Summary(total, counts, kept, changed)
+            return Summary(total, counts, kept, changed, store.spent())
 
     def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
         """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``."""
@@ -169,8 +174,23 @@ class Study:
         with Store.read(self.store) as store:
             return frame_of(store)
 
+    def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
+        """Yield what tells each point apart, and its orbit, certified or not; None without a record.
+
+        Orbits come one by one in the order of the study, and fly again when their time series are asked for.
+
+        Raises
+        ------
+        FileError : there is no store, or it cannot be read.
+        """
+        with Store.read(self.store) as store:
+            bases = [(told, recipe_from(inputs)) for told, inputs in store.bases()]
+            for row in store.rows():
+                told, recipe = bases[row.base]
+                yield {**told, **row.told}, None if row.record is None else _orbit(recipe, row.changes, row.record)
+
     def to_dataset(self) -> xr.Dataset:
-        """Return the same as a dataset along ``point``."""
+        """Return the table as a dataset along ``point``."""
         return to_dataset(self.to_dataframe(), self._about())
 
     def export(self, path: str | PathLike[str]) -> None:
@@ -202,6 +222,11 @@ class Study:
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}
+
+
+def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:
+    problem = recipe.problem(json.loads(changes))
+    return Orbit.of_record(json.loads(record), problem, starts_of(recipe, problem), int(recipe.search["seed"]))
 
 
 def cores() -> int:

@@ -18,9 +18,8 @@ from wingbeat.orbits.neighbours import Answers, kind, numbers_of
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import follow, settle
-from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
-from wingbeat.studies.recipe import Recipe, recipe_from
+from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
 
 __all__ = ["solve_unit"]
@@ -64,7 +63,7 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
     made = _recipe(recipe)
     search = made.search
     problem = made.problem(changes)
-    starts = usual_starts(problem) if search["starts"] is None else int(search["starts"])
+    starts = starts_of(made, problem)
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
     own, numbers = kind(problem), numbers_of(problem)

@@ -100,9 +100,7 @@ class StoredFunction:
         path = self._path(tree, (shapes, rest), static)
         try:
             program, out_tree, out_shapes = pickle.loads(path.read_bytes())
-            call = jax.jit(jax.export.deserialize(bytearray(program)).call)
-            call(*(np.zeros(shape) for shape in all_shapes))  # compiled, or read from JAX's cache, while locked
-            return call, out_tree, out_shapes
+            return _compiled(jax.export.deserialize(bytearray(program)), arguments), out_tree, out_shapes
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []
@@ -121,9 +119,7 @@ class StoredFunction:
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        call = jax.jit(exported.call)
-        call(*(np.zeros(shape) for shape in all_shapes))
-        return call, *outcome[0]
+        return _compiled(exported, arguments), *outcome[0]
 
     def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""
@@ -136,6 +132,11 @@ class StoredFunction:
             jax.default_backend(),
         )
         return cache_folder() / "traced" / hashlib.sha256(repr(what).encode()).hexdigest()
+
+
+def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct]) -> Callable[..., Any]:
+    """Compile a traced program, or read it from JAX's cache; ahead of a call, else JAX holds it in memory twice."""
+    return jax.jit(program.call).lower(*arguments).compile()
 
 
 def _packed(arrays: list[np.ndarray]) -> np.ndarray:

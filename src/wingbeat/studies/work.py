@@ -18,7 +18,8 @@ from wingbeat.orbits.neighbours import Answers, kind, numbers_of
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import follow, settle
-from wingbeat.results.orbit import Orbit
+from wingbeat.results.dataset import evaluate
+from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
 
@@ -38,10 +39,10 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
             continue
         begun = time.perf_counter()
         try:
-            known, asked = _search(unit.recipe, task.changes, before)
+            known = _search(unit.recipe, task.changes, before)
             if known.solution.status is Status.CONVERGED:
                 before.append(known)
-            record = Orbit.of(known.solution, *asked).record()
+            record = _record(known.solution)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
@@ -58,7 +59,7 @@ class _Known(NamedTuple):
     polish: Polish | None
 
 
-def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tuple[_Known, tuple[int, int]]:
+def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> _Known:
     """Solve one point; of a chain, with the help of the answers before it."""
     made = _recipe(recipe)
     search = made.search
@@ -72,7 +73,7 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> tu
     if before and near is None:
         near = follow(problem, before[-1].solution.unknowns)
     found = find_helped(problem, near, starts, seed, most, search["advise"])
-    return _Known(own, numbers, found, polish), (starts, seed)
+    return _Known(own, numbers, found, polish)
 
 
 def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
@@ -87,6 +88,12 @@ def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> tuple
 @functools.lru_cache(_KEPT)
 def _recipe(inputs: str) -> Recipe:
     return recipe_from(json.loads(inputs))
+
+
+def _record(solution: Solution) -> dict[str, Any]:
+    flown = solution.certificate
+    loads = evaluate(solution.problem.model, solution.wingbeat, flown.phase, flown.states)
+    return orbit_record(solution, loads)
 
 
 def _outcome(key: str, record: dict[str, Any], seconds: float) -> Outcome:

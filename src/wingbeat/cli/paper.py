@@ -17,7 +17,9 @@ from wingbeat.errors import FaultList
 if TYPE_CHECKING:
     from wingbeat.paper.pieces import Sample
 
-_SETS = _PIECE = 1000
+_SETS = 1000
+# Each piece has its worker processes load every program anew, which takes them minutes.
+_PIECE = 5000
 
 
 def paper(

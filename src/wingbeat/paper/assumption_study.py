@@ -35,8 +35,8 @@ _LEFT_OUT = {
     "differentiable",
     "few-degrees",
 }
-# Searches of each orbit, one of them from the answer at the speed before. Of the orbits that two find, one missed
-# 3 %, and ended a twentieth of them at more than 1.05 times the frequency.
+# Searches of each orbit, one of them from the answer at the speed before. Of 432 orbits that two
+# found under 40 sets, one search missed 12, and ended 29 at more than 1.05 times the frequency.
 _STARTS = 2
 _SET = "set"
 

@@ -27,6 +27,9 @@ from wingbeat.errors import FileError
 from wingbeat.files import write_atomically
 from wingbeat.jax64 import cache_folder, jnp
 
+# Threads that trace at a time get in one another's way; in turn, XLA compiles the first while the next is traced.
+_TRACING = threading.Lock()
+
 
 class StoredFunction:
     """A function of float64 arrays, in pytrees, traced at most once on this machine for given shapes.
@@ -115,7 +118,8 @@ class StoredFunction:
             outcome.append((out_tree, tuple(leaf.shape for leaf in leaves)))
             return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
-        exported = jax.export.export(jax.jit(flat))(*arguments)
+        with _TRACING:
+            exported = jax.export.export(jax.jit(flat))(*arguments)
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))

@@ -26,9 +26,10 @@ def load_programs(problem: Transcription, start: np.ndarray) -> None:
         floquet_multipliers(problem.model, wingbeat, flown.states[:, 2:])
 
     with ThreadPoolExecutor(2) as pool:
-        certifying = pool.submit(fly_and_differentiate)
-        pool.submit(problem.closure_jacobian, problem.scaled(start)).result()
-        certifying.result()
+        # That of the search first, which takes the longest to compile.
+        searching = pool.submit(problem.closure_jacobian, problem.scaled(start))
+        pool.submit(fly_and_differentiate).result()
+        searching.result()
 
 
 def search_from_starts(

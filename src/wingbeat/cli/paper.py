@@ -116,6 +116,7 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> No
 
 def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
     from wingbeat.paper.assumption_page import write_study
+    from wingbeat.paper.assumption_study import STARTS
     from wingbeat.paper.pieces import Pieces
     from wingbeat.studies.driver import listening
     from wingbeat.studies.engine import LocalProcesses
@@ -132,8 +133,8 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     judged, seconds = pieces.joined()
     heading = (
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed}`: each animal and coefficient "
-        "model under each choice of trims is a [study](studies.md) with two searches an orbit, one of them from "
-        f"the orbit at the speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
+        f"model under each choice of trims is a [study](studies.md) with {STARTS} searches an orbit, one of them "
+        f"from the orbit at the speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
         f"{seconds / sample.sets:.2f} s a set."
     )
     for path in write_study(judged, folder, heading):

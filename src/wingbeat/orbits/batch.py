@@ -118,7 +118,7 @@ def find_helped(
     Parameters
     ----------
     problem, starts, seed, most_starts, advise : as in `find_orbit`.
-    known : takes the place of one search.
+    known : takes the place of one search; with it there is an orbit, so nobody asks for most_starts or advice.
     """
     if known is None:
         return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise)

@@ -24,6 +24,7 @@ LAWS = (THRUST, LIFT, MOMENT)
 _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 # A miss that no law excuses, of 1 in the optimiser's scale, weighs as much as so many weights that are short.
 _WEIGHT = 100.0
+# Flights of an elastic solve at most, and the share by which its last step lessens the squares.
 _EVALUATIONS = 150
 _SETTLED = 1e-5
 # A miss that is none, in the optimiser's scale, and a share that is none.

@@ -19,11 +19,14 @@ RTOL = 1e-10
 # The absolute tolerance over the relative one; states are in SI units, near one.
 _ATOL = 1e-2
 MAX_STEPS = 4096
+# Strips that a vector unit takes at a time; a wing of 16, six of no effect, flies in .8 of the time of one of 10.
+_VECTOR = 8
 
 
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) -> Any:
     """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), the wing's motion evaluated at this very phase."""
-    return jnp.concatenate([state[3:5], body_rates(model, motion_table(model, wingbeat, phase), state[2:])])
+    motion = motion_table(model, wingbeat, phase, _VECTOR)
+    return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
 
 
 def integrate(rates: Callable[..., Any], start: Any, times: Any, args: Any, rtol: Any = RTOL) -> Any:

@@ -59,9 +59,9 @@ def flight_model(vehicle: Vehicle, aero: BladeElement, air: Air | None = None) -
     return FlightModel(vehicle, air or Air(), aero.coefficients.kernel(), aero.strips, at_centre)
 
 
-def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> WingMotion:
-    """Tabulate the wing's motion at the given phases."""
-    return wing_motion(model.vehicle, wingbeat, phase, model.strips)
+def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int = 1) -> WingMotion:
+    """Tabulate the wing's motion at the given phases, strips filled up to a multiple of `vector`."""
+    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector)
 
 
 @by_slopes

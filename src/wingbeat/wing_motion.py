@@ -140,6 +140,17 @@ def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Any) -> Any:
     return attitude if motion.tilt is None else attitude - motion.tilt
 
 
+def filled_up(strips: Strips, vector: int) -> Strips:
+    """Return the strips and, at the last one's place, some without chord and mass, in all a multiple of `vector`.
+
+    At a single time XLA on CPU works along the strips, and a few left over cost it more than a whole vector.
+    """
+    more = (0, -strips.span_fraction.size % vector)
+    return Strips(
+        jnp.pad(strips.span_fraction, more, "edge"), jnp.pad(strips.chord, more), jnp.pad(strips.mass, more)
+    )
+
+
 def beside(strips: Strips, times: Any) -> Strips:
     """Return the strips with an axis of length one for each axis of `times`."""
     return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(times)))) for a in strips))
@@ -237,10 +248,10 @@ def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
     return sum(products[1:], products[0])
 
 
-def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> WingMotion:
-    """Tabulate what body and air feel of the wing at the given phases, in one pass."""
+def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, vector: int = 1) -> WingMotion:
+    """Tabulate what body and air feel of the wing at the given phases, in one pass, strips `filled_up`."""
     phase = jnp.asarray(phase, dtype=float)
-    strips = beside(strips_of(vehicle.wing, count), phase)
+    strips = beside(filled_up(strips_of(vehicle.wing, count), vector), phase)
 
     def strip_places(at: Any) -> tuple[WingShape, Pair, Pair]:
         """Return the shape and, in the plane of symmetry, mid-chords and vectors to the leading edge."""

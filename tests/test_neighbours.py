@@ -61,11 +61,21 @@ def test_answers_that_lie_on_a_plane_are_foretold_exactly(pigeons):
     slopes = np.random.default_rng(1).normal(size=(places.shape[1], 9))
     enough = places.shape[1] + 2
     for i in range(enough):
-        assert answers.foretell(enough) is None
+        assert answers.foretell(enough) == []
         answers.add(i, 1.0 + places[i] @ slopes, (), None)
-    unknowns, polish = answers.foretell(enough)
+    ((unknowns, polish),) = answers.foretell(enough)
     assert polish is None
     np.testing.assert_allclose(unknowns, 1.0 + places[enough] @ slopes, rtol=1e-9)
+
+
+def test_where_families_meet_each_foretells_its_own_if_enough_is_known_of_it(pigeons):
+    described = [numbers_of(pigeon) for pigeon in pigeons]
+    answers, enough = Answers(described), differences(described).shape[1] + 2
+    for i in range(2 * enough):
+        assert answers.foretell(2 * enough) == []
+        answers.add(i, np.full(9, float(i % 2)), ("flap_mean",) * (i % 2), None)
+    foretold = answers.foretell(2 * enough)
+    assert sorted(unknowns.round(9).tolist() for unknowns, _ in foretold) == [[0.0] * 9, [1.0] * 9]
 
 
 def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search(pigeons, monkeypatch):

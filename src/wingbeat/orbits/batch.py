@@ -9,8 +9,11 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any, TypeVar
 
+import numpy as np
+
 from wingbeat.errors import FaultList
 from wingbeat.orbits.neighbours import Answers, alike, numbers_of
+from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
@@ -97,12 +100,19 @@ def _solve_alike(
     answers = Answers([numbers_of(problem) for problem in problems])
     for i, problem in enumerate(problems):
         count = usual_starts(problem) if starts is None else starts
-        foretold = answers.foretell(i)
-        settled, polish = (None if foretold is None else settle(problem, *foretold)) or (None, None)
+        settled, polish = settle_foretold(problem, answers.foretell(i))
         best = find_helped(problem, settled, count, seed, most_starts, advise)
         if best.status is Status.CONVERGED:
             answers.add(i, best.unknowns, best.active_bounds, polish)
         yield best
+
+
+def settle_foretold(
+    problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Polish | None]]
+) -> tuple[Solution | None, Polish | None]:
+    """Return the best certified orbit next to what answers foretell, and what corrected it; or None and None."""
+    settled = [found for guess in guesses if (found := settle(problem, *guess)) is not None]
+    return min(settled, key=lambda found: found[0].objective, default=(None, None))
 
 
 def find_helped(

@@ -108,19 +108,23 @@ class Answers:
         self._active.append(active)
         self._polishes.append(polish)
 
-    def foretell(self, index: int) -> tuple[np.ndarray, Polish | None] | None:
-        """Foretell unknowns from the answers with the same bounds active, and the nearest polish.
+    def foretell(self, index: int) -> list[tuple[np.ndarray, Polish | None]]:
+        """Foretell unknowns, and lend the nearest polish, from the answers with the same bounds active.
 
-        None where too little is known, or where families meet: the nearest answers do not agree on their bounds.
+        Where families meet, the nearest answers differ in their active bounds, and each family foretells its own.
+        The list is empty where too little is known of one of them.
         """
         away = self._places[self._known] - self._places[index]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
         enough = away.shape[1] + 2
-        families = {self._active[i] for i in order[:enough]}
-        if order.size < enough or len(families) > 1:
-            return None
-        alike = np.array([i for i in order if self._active[i] in families])
-        unknowns = _regression(away[alike], np.array(self._unknowns)[alike])
+        families = dict.fromkeys(self._active[i] for i in order[:enough])
+        members = [np.array([i for i in order if self._active[i] == family]) for family in families]
+        if any(alike.size < enough for alike in members):
+            return []
+        return [self._foretold(alike, away[alike]) for alike in members]
+
+    def _foretold(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, Polish | None]:
+        unknowns = _regression(away, np.array(self._unknowns)[alike])
         return unknowns, next((self._polishes[i] for i in alike if self._polishes[i] is not None), None)
 
 

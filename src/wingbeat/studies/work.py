@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.batch import find_helped
+from wingbeat.orbits.batch import find_helped, settle_foretold
 from wingbeat.orbits.neighbours import Answers, kind, numbers_of
 from wingbeat.orbits.polish import Polish
 from wingbeat.orbits.solution import Solution, Status
-from wingbeat.orbits.solve import follow, settle
+from wingbeat.orbits.solve import follow
 from wingbeat.results.dataset import evaluate
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
@@ -68,15 +68,14 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> _K
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
     own, numbers = kind(problem), numbers_of(problem)
-    foretold = _foretold(own, numbers, before)
-    near, polish = (None if foretold is None else settle(problem, *foretold)) or (None, None)
+    near, polish = settle_foretold(problem, _foretold(own, numbers, before))
     if before and near is None:
         near = follow(problem, before[-1].solution.unknowns)
     found = find_helped(problem, near, starts, seed, most, search["advise"])
     return _Known(own, numbers, found, polish)
 
 
-def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> tuple[np.ndarray, Polish | None] | None:
+def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> list[tuple[np.ndarray, Polish | None]]:
     """Return what the answers before a point of a chain foretell of it; those after it have no say."""
     like = [known for known in before[-_FORETELLING:] if known.kind == own]
     answers = Answers([*(known.numbers for known in like), numbers])

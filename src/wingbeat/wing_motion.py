@@ -266,8 +266,12 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, ve
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
     mass, spread = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
 
-    def total(a: Any) -> Any:
-        return over_strips(mass * a)
+    second = dot(place, place) + spread * dot(fore, fore)
+    half_rate = dot(place, speed) + spread * dot(fore, fore_speed)
+    swirl = dot(turned(place), push) + spread * dot(turned(fore), fore_push)
+    # One sum of nine rows compiles in a third of the time of nine sums.
+    rows = [mass * a for a in (*place, *speed, *push, second, half_rate, swirl)]
+    sums = over_strips(jnp.stack(rows, axis=1))
 
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     swept = shape.sweep_sine is not None
@@ -280,12 +284,12 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, ve
         pitch=shape.pitch,
         area=width * strips.chord,
         width=width,
-        first_moment=(total(place[0]), total(place[1])),
-        first_moment_rate=(total(speed[0]), total(speed[1])),
-        first_moment_acceleration=(total(push[0]), total(push[1])),
-        inertia=total(dot(place, place) + spread * dot(fore, fore)),
-        inertia_rate=2.0 * total(dot(place, speed) + spread * dot(fore, fore_speed)),
-        swirl=total(dot(turned(place), push) + spread * dot(turned(fore), fore_push)),
+        first_moment=(sums[0], sums[1]),
+        first_moment_rate=(sums[2], sums[3]),
+        first_moment_acceleration=(sums[4], sums[5]),
+        inertia=sums[6],
+        inertia_rate=2.0 * sums[7],
+        swirl=sums[8],
         level=(jnp.broadcast_to(shape.level[0], shape.pitch.shape), shape.level[2]) if swept else None,
         sweeping_speed=dot(shape_rate.place, shape.level) if swept else None,
         tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),

@@ -14,6 +14,7 @@ import numpy as np
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
@@ -60,8 +61,8 @@ def _from_rows(rows: Any, like: Any) -> WingMotion:
     return jax.tree_util.tree_unflatten(tree, shaped)
 
 
-# Where the beginnings, middles and ends of all steps are along the last axis of a table of `_tabulate`.
-_BEGIN, _MIDDLE, _END = slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1)
+# Where the four stages of all steps are along the last axis of a table of `_tabulate`.
+_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in PLACES]
 
 
 class March(NamedTuple):
@@ -73,24 +74,27 @@ class March(NamedTuple):
 
 
 def _combine(stages: Any) -> Any:
-    """Return the weighted mean of the four stages along the first axis, weights 1, 2, 2, 1."""
-    return (stages[0] + 2.0 * (stages[1] + stages[2]) + stages[3]) / 6.0
+    """Return the weighted mean of the four stages along the first axis."""
+    return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))
 
 
 def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
-    rates_of = jax.jit(body_rates)  # traced once for all stages
+    stages = jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
 
     def advance(state: Any, rows: Any) -> tuple[Any, tuple[Any, Any]]:
-        begin, middle, end = (_from_rows(a, like) for a in rows)
-        states, rates = [state], []
-        for here, ahead in ((begin, 0.5), (middle, 0.5), (middle, 1.0), (end, None)):
-            rates.append(rates_of(model, here, states[-1]))
-            if ahead is not None:
-                states.append(state + ahead * step * rates[-1])
-        return state + step * _combine(rates), (jnp.stack(states), jnp.stack(rates))
+        def stage(carry: tuple[Any, Any], given: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+            (rate, mean), (row, along, weight) = carry, given
+            here = state + along * step * rate
+            rate = body_rates(model, _from_rows(row, like), here)
+            return (rate, mean + weight * rate), (here, rate)
 
-    last, (states, rates) = jax.lax.scan(advance, start, tuple(table.T[part] for part in (_BEGIN, _MIDDLE, _END)))
+        nothing = jnp.zeros_like(state)
+        (_, mean), flown = jax.lax.scan(stage, (nothing, nothing), (rows, *stages))
+        return state + step * mean, flown
+
+    rows = jnp.stack([table.T[part] for part in _STAGES], axis=1)
+    last, (states, rates) = jax.lax.scan(advance, start, rows)
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
@@ -101,7 +105,7 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
     """
 
     def in_lanes(rows: Any) -> Any:
-        return jnp.concatenate([rows[..., part] for part in (_BEGIN, _MIDDLE, _MIDDLE, _END)], axis=-1)
+        return jnp.concatenate([rows[..., part] for part in _STAGES], axis=-1)
 
     lanes, state = _from_rows(in_lanes(table), like), states.reshape(4, -1)
 

@@ -13,6 +13,7 @@ import numpy as np
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
 
@@ -21,9 +22,6 @@ from wingbeat.stored import stored
 _STEPS = 5
 # How far beside the path the flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
 _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
-# Of each stage of the classical Runge-Kutta method: at begin, middle or end of a step, how far along, its weight.
-_PLACES = np.array([0, 1, 1, 2])
-_ALONG, _WEIGHTS = np.array([0.0, 0.5, 0.5, 1.0]), np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
 
 
 @stored
@@ -48,10 +46,10 @@ def _state_maps(model: FlightModel, wingbeat: Wingbeat, path: Any) -> Any:
         phases = begin + length * (index + jnp.array([0.0, 0.5, 1.0])[:, None])
         motion = motion_table(model, wingbeat, phases.ravel())
         rows = jax.tree_util.tree_map(
-            lambda leaf: jnp.moveaxis(leaf.reshape(*leaf.shape[:-1], 3, stretches), -2, 0)[_PLACES], motion
+            lambda leaf: jnp.moveaxis(leaf.reshape(*leaf.shape[:-1], 3, stretches), -2, 0)[PLACES], motion
         )
         nothing = jnp.zeros_like(state)
-        stages = rows, jnp.asarray(_ALONG), jnp.asarray(_WEIGHTS)
+        stages = rows, jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
         (_, _, change), _ = jax.lax.scan(stage, (state, nothing, nothing), stages)
         return state + seconds * change, None
 

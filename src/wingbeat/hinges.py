@@ -131,26 +131,32 @@ def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: 
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
     mass, spread = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
 
-    def total(a: Any) -> Any:
-        return over_strips(mass * a)
-
     def in_plane(chords: _Chords) -> tuple[Pair, Pair]:
         return (chords.middle[0], chords.middle[2]), (chords.fore[0], chords.fore[2])
 
     def work(middle: Pair, fore: Pair) -> Any:
-        return total(dot(middle, of_middle) + spread * dot(fore, of_fore))
+        return dot(middle, of_middle) + spread * dot(fore, of_fore)
 
     swept = here.shape.sweep_sine is not None
     of_middle, of_fore = in_plane(velocity)
     (place, fore), (speed, fore_speed) = in_plane(here), in_plane(rates)
+    rows = (
+        *of_middle,
+        work(turned(place), turned(fore)),
+        work(place, fore),
+        work(turned(speed), turned(fore_speed)),
+        dot(pushes.middle, velocity.middle) + spread * dot(pushes.fore, velocity.fore),
+    )
+    # One sum of all rows compiles in a third of the time of a sum for each.
+    sums = over_strips(jnp.stack([mass * a for a in rows], axis=1))
     return Along(
         lever=velocity.shape.above * here.shape.flap_cosine - velocity.shape.left * here.shape.flap_sine,
         turning=dot(velocity.fore, here.shape.normal) if swept else velocity.shape.pitch,
-        first_moment=(total(of_middle[0]), total(of_middle[1])),
-        swirl=work(turned(place), turned(fore)),
-        spin=work(place, fore),
-        coriolis=work(turned(speed), turned(fore_speed)),
-        push=total(dot(pushes.middle, velocity.middle) + spread * dot(pushes.fore, velocity.fore)),
+        first_moment=(sums[0], sums[1]),
+        swirl=sums[2],
+        spin=sums[3],
+        coriolis=sums[4],
+        push=sums[5],
         reach=dot(velocity.shape.place, here.shape.level) if swept else None,
     )
 

@@ -10,25 +10,20 @@ import numpy as np
 from wingbeat.orbits.certify import certify
 from wingbeat.orbits.search import Candidate, search
 from wingbeat.orbits.shooting import fly_part
-from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import start_beside, start_point
 from wingbeat.orbits.transcription import Transcription
 
 
 def load_programs(problem: Transcription, start: np.ndarray) -> None:
-    """Read or compile, side by side, the programs that a search and a record will want, once a process."""
+    """Read or compile, side by side, the programs of a search and its certificate, once a process."""
     if fly_part.loaded:
         return
 
-    def fly_and_differentiate() -> None:
-        wingbeat = problem.problem.wingbeat(start)
-        flown = certify(problem.model, wingbeat, start[:4])
-        floquet_multipliers(problem.model, wingbeat, flown.states[:, 2:])
-
+    wingbeat = problem.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:
         # That of the search first, which takes the longest to compile.
         searching = pool.submit(problem.closure_jacobian, problem.scaled(start))
-        pool.submit(fly_and_differentiate).result()
+        pool.submit(certify, problem.model, wingbeat, start[:4]).result()
         searching.result()
 
 

@@ -15,12 +15,13 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
-from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.certify import SAMPLES, Certificate, certify
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
+from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, problem_from
@@ -219,10 +220,15 @@ def solve_orbit(
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flight_loads.loaded:  # read or compiled while the search goes on
-            model = problem.model
-            pool.submit(evaluate, model, problem.species.wingbeat, np.zeros(1), np.zeros((1, 6)))
+            pool.submit(_load_record_programs, problem)
         solution = find_orbit(problem, starts, seed, progress)
     return Orbit.of(solution, starts, seed)
+
+
+def _load_record_programs(problem: OrbitProblem) -> None:
+    model, wingbeat = problem.model, problem.species.wingbeat
+    evaluate(model, wingbeat, np.zeros(1), np.zeros((1, 6)))
+    floquet_multipliers(model, wingbeat, np.zeros((SAMPLES + 1, 4)))
 
 
 def solve_orbits(

@@ -19,8 +19,10 @@ from wingbeat.orbits.search import Candidate, refine, search
 from wingbeat.orbits.shortage import Balance, Shortage
 from wingbeat.orbits.transcription import Transcription
 
-# Beats from which the closest is sought, of those that the searches ended with.
-_NEAREST = 4
+# Beats from which the closest is sought, of those that the searches ended with, and by how much of their range
+# unknowns must differ for two to count as two: searches that end alike lead to one answer.
+_NEAREST = 6
+_APART = 0.2
 # A bound that a beat is as near to as this share of its range holds it back.
 _LEANING = 0.02
 # Changes that are told; of a short share of a law, the part of the largest that is worth telling.
@@ -52,7 +54,10 @@ class Eased(NamedTuple):
 def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
     """Return the beat that comes closest to an orbit, from where the searches ended."""
     balance = Balance(programme)
-    ends = [c.scaled for c in sorted(found, key=lambda c: c.violation)[:_NEAREST]]
+    apart, ends = _APART * (programme.upper - programme.lower), []
+    for end in (c.scaled for c in sorted(found, key=lambda c: c.violation)):
+        if len(ends) < _NEAREST and all((np.abs(end - other) > apart).any() for other in ends):
+            ends.append(end)
     closest = balance.failing(ends)
     return Nearest(closest.scaled, balance.shortages(closest), closest.closes)
 

@@ -139,7 +139,7 @@ class Balance:
         best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
         if best.closes:
             return best
-        alone = [self.closest(c.scaled, [law]) for c in together for law in LAWS]
+        alone = [self.closest(best.scaled, [law]) for law in LAWS]
         return min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=best)
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:

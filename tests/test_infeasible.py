@@ -9,9 +9,12 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.loads import flight_loads
+from wingbeat.orbits.advice import nearest_beat
 from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
-from wingbeat.orbits.shortage import Shortage
+from wingbeat.orbits.search import Candidate
+from wingbeat.orbits.shortage import Balance, Closest, Shortage
 from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.transcription import Transcription
 from wingbeat.results.warnings import rivals
 
 CASES = list(cases())
@@ -109,6 +112,25 @@ def test_record_and_file_keep_shortage_and_changes(solved, tmp_path):
     for change in back.relaxations:  # the species of a file knows its records only
         own, other = change.apply(case.problem), change.apply(back.problem)
         assert (own.bounds, own.speed, own.vehicle) == (other.bounds, other.speed, other.vehicle)
+
+
+def test_the_closest_beat_is_sought_from_ends_that_differ(monkeypatch):
+    programme = Transcription(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0))
+    middle, range_ = 0.5 * (programme.lower + programme.upper), programme.upper - programme.lower
+    places = {"near": (0.0, 0.1), "beside it": (0.05, 0.2), "away": (0.4, 0.3), "also away": (0.45, 0.4)}
+    ends = [
+        Candidate(programme, middle + share * range_, 1.0, False, False, violation)
+        for share, violation in reversed(places.values())
+    ]
+    asked = []
+
+    def failing(self, starts):
+        asked.extend(starts)
+        return Closest(middle, {LIFT: 0.5}, True)
+
+    monkeypatch.setattr(Balance, "failing", failing)
+    nearest_beat(programme, ends)
+    np.testing.assert_allclose([(a - middle) / range_ for a in asked], [[s] * middle.size for s in (0.0, 0.4)])
 
 
 @pytest.mark.parametrize(

@@ -263,3 +263,15 @@ def test_mass_points_have_the_moments_of_a_uniform_strip():
     along = np.sum(away * np.asarray(shape.chordwise), axis=-1)
     close(np.mean(along**2, axis=0), np.broadcast_to(chord**2 / 12, along.shape[1:]), 1e-13)
     close(np.sum(away**2, axis=-1), along**2, 1e-12)
+
+
+def test_strips_that_fill_a_vector_up_bear_no_load_and_no_mass():
+    plain, filled = (wing_motion(VEHICLE, BEAT, PHASES, 5, vector) for vector in (1, 8))
+    for name, found in filled._asdict().items():
+        leaves = zip(jax.tree.leaves(found), jax.tree.leaves(getattr(plain, name)), strict=True)
+        for leaf, of_five in leaves:
+            by_strip = of_five.shape[0] == 5 and of_five.ndim == 2
+            assert leaf.shape == ((8, *of_five.shape[1:]) if by_strip else of_five.shape)
+            np.testing.assert_allclose(leaf[:5] if by_strip else leaf, of_five, rtol=1e-12, atol=1e-15)
+    assert (filled.area[5:] == 0.0).all()
+    assert np.isfinite(filled.pitch).all()

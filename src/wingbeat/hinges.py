@@ -26,6 +26,7 @@ from wingbeat.wing_motion import (
     shape_at,
     strips_of,
     stroke_attitude,
+    sums_over_strips,
     time_rates,
     turned,
     wing_shape,
@@ -147,8 +148,7 @@ def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: 
         work(turned(speed), turned(fore_speed)),
         dot(pushes.middle, velocity.middle) + spread * dot(pushes.fore, velocity.fore),
     )
-    # One sum of all rows compiles in a third of the time of a sum for each.
-    sums = over_strips(jnp.stack([mass * a for a in rows], axis=1))
+    sums = sums_over_strips(mass, rows)
     return Along(
         lever=velocity.shape.above * here.shape.flap_cosine - velocity.shape.left * here.shape.flap_sine,
         turning=dot(velocity.fore, here.shape.normal) if swept else velocity.shape.pitch,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import math
 import operator
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from wingbeat.elementary import cos, sin
@@ -242,6 +243,14 @@ def over_strips(a: Any) -> Any:
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
 
 
+def sums_over_strips(mass: Any, rows: Sequence[Any]) -> Any:
+    """Return the sums over the strips of each row times the strips' mass; rows come first.
+
+    As one sum they compile in a third of the time of a sum for each.
+    """
+    return over_strips(jnp.stack([mass * row for row in rows], axis=1))
+
+
 def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
     """Return the scalar product of two pairs or of two triples."""
     products = [one * other for one, other in zip(a, b, strict=True)]
@@ -269,9 +278,7 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, ve
     second = dot(place, place) + spread * dot(fore, fore)
     half_rate = dot(place, speed) + spread * dot(fore, fore_speed)
     swirl = dot(turned(place), push) + spread * dot(turned(fore), fore_push)
-    # One sum of nine rows compiles in a third of the time of nine sums.
-    rows = [mass * a for a in (*place, *speed, *push, second, half_rate, swirl)]
-    sums = over_strips(jnp.stack(rows, axis=1))
+    sums = sums_over_strips(mass, (*place, *speed, *push, second, half_rate, swirl))
 
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     swept = shape.sweep_sine is not None

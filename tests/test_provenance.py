@@ -53,10 +53,10 @@ def test_every_variable_has_a_unit_a_name_and_a_place_in_the_nomenclature(saved)
         term = NOMENCLATURE[name]
         assert variable.dims == term.dims, name
         assert variable.attrs["long_name"] == term.long_name, name
-        if name != "axis":  # a label, not a quantity
+        if name not in ("axis", "corner"):  # labels, not quantities
             assert variable.attrs["units"] == term.unit != "", name
             assert np.isfinite(variable.values).all(), name
-    assert dict(series.sizes) == {"phase": 257, "station": 10, "axis": 3}
+    assert dict(series.sizes) == {"phase": 257, "station": 10, "corner": 4, "axis": 3}
 
 
 def test_the_file_is_plain_netcdf(saved):

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from wingbeat import aero as aero
     from wingbeat import experiment as experiment
     from wingbeat import plots as plots
+    from wingbeat import viewer as viewer
     from wingbeat.errors import ClusterError as ClusterError
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import InvalidInputError as InvalidInputError
@@ -117,7 +118,7 @@ _HOME = {
     "study": "studies.study",
     "uncertainty_by_samples": "results.sensitivities",
 }
-_MODULES = ("aero", "experiment", "plots")
+_MODULES = ("aero", "experiment", "plots", "viewer")
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
 

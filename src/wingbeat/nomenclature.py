@@ -16,11 +16,13 @@ class Term(NamedTuple):
 
 _STRIP = ("phase", "station")
 _VECTOR = ("phase", "station", "axis")
+_CORNERS = ("phase", "station", "corner", "axis")
 
 NOMENCLATURE: dict[str, Term] = {
     "phase": Term("t/T", "1", "phase of the wingbeat, 0 at the top of the stroke"),
     "station": Term("s/L", "1", "span fraction of the strip's centre", ("station",)),
     "axis": Term("", "", "world axis: x forward, y left, z up", ("axis",)),
+    "corner": Term("", "", "corner of a strip, by edge and end", ("corner",)),
     "time": Term("t", "s", "time since phase 0"),
     "x": Term("x", "m", "forward position of the body"),
     "z": Term("z", "m", "height of the body"),
@@ -39,6 +41,7 @@ NOMENCLATURE: dict[str, Term] = {
     "fold": Term("", "rad", "fold angle of the hand below the arm"),
     "sweep": Term("", "rad", "angle of the span ahead of the stroke plane"),
     "strip_position": Term("r", "m", "quarter-chord point of the left wing's strip, world", _VECTOR),
+    "strip_corner": Term("r", "m", "corner of the left wing's strip, world", _CORNERS),
     "strip_velocity": Term("v", "m s-1", "velocity of the strip's quarter-chord point, world", _VECTOR),
     "strip_speed": Term("V", "m s-1", "speed of the strip across the span", _STRIP),
     "strip_reynolds": Term("Re", "1", "Reynolds number of the strip, from its speed and chord", _STRIP),

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 
 from wingbeat.frames import Triple, stroke_pitch, to_world
 from wingbeat.jax64 import jax, jnp
-from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.model import FlightModel, State
+from wingbeat.stored import stored
 from wingbeat.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
 
 
@@ -42,6 +43,41 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> Wi
         _in_world(attitude, shape.chordwise),
         _in_world(attitude, shape.normal),
     )
+
+
+# From the root's end of the leading edge, along it, and back along the trailing edge.
+CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
+
+
+def corners_of(points: WingPoints, chord: Any, width: Any) -> Any:
+    """Return the corners of the left wing's strips in the world, shape (N, 4, 3), in the order of `CORNERS`."""
+    out = 0.5 * width * jnp.cross(points.normal, points.chordwise)
+    leading, trailing = (
+        points.quarter_chord + share * chord[:, None] * points.chordwise for share in (0.25, -0.75)
+    )
+    return jnp.stack([leading - out, leading + out, trailing + out, trailing - out], axis=1)
+
+
+@stored
+def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Any:
+    """Return `corners_of` the strips along a flight, shape (K, N, 4, 3).
+
+    Parameters
+    ----------
+    model : the flight model.
+    wingbeat : the prescribed wingbeat.
+    state : body state, fields of shape (K,) [m, rad].
+    phase : phases, shape (K,).
+    """
+    wing = model.vehicle.wing
+    chord = strips_of(wing, model.strips).chord
+
+    def at(body: State, when: Any) -> Any:
+        q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(wingbeat, when), pitch_angle(wingbeat, when)])
+        points = wing_points(model, wingbeat, q, when / wingbeat.frequency)
+        return corners_of(points, chord, wing.semi_span * span_ratio(wingbeat, when) / model.strips)
+
+    return jax.vmap(at)(state, phase)
 
 
 def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:

@@ -42,6 +42,7 @@ COMMANDS = {
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
+    "view": "Show a saved flight in motion, in a page or an animated picture.",
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }

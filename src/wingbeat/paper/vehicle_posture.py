@@ -15,12 +15,9 @@ from wingbeat.paper.treatments import MODELS, SAMPLE_SPEED
 from wingbeat.results.dataset import evaluate
 from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
-from wingbeat.vehicle import Body
+from wingbeat.viewer.shape import body_axes
 from wingbeat.wing_motion import strips_of, twist_factors
-from wingbeat.wing_points import wing_points
-
-_WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass and inertia
-CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
+from wingbeat.wing_points import corners_of, wing_points
 
 
 class Posture(NamedTuple):
@@ -93,18 +90,13 @@ def posture(flight: Flown, phase: float) -> Posture:
     quarter, fore, normal = (np.asarray(a) for a in (points.quarter_chord, points.chordwise, points.normal))
     along = np.cross(normal, fore)
     wing, strips = model.vehicle.wing, strips_of(model.vehicle.wing, model.strips)
-    half = 0.5 * wing.semi_span / model.strips * float(span_ratio(wingbeat, phase))
-    chord = np.asarray(strips.chord)[:, None]
-    corners = [
-        quarter + side * half * along + share * chord * fore
-        for side, share in ((-1, 0.25), (1, 0.25), (1, -0.75), (-1, -0.75))
-    ]
+    width = wing.semi_span / model.strips * span_ratio(wingbeat, phase)
     ahead, left, above = wing.shoulder
     c, s = math.cos(attitude), math.sin(attitude)
     return Posture(
         phase,
         np.asarray(strips.span_fraction),
-        np.stack(corners, axis=1),
+        np.asarray(corners_of(points, strips.chord, width)),
         quarter,
         fore,
         along,
@@ -124,21 +116,3 @@ def section(flight: Flown, phase: float, strip: int) -> Section:
     pitch, alpha = float(found.wing_pitch[0]) * twist, float(found.alpha[0, strip])
     rest = (float(values[0, strip]) for values in (found.strip_speed, found.lift, found.drag))
     return Section(pitch, pitch - alpha, alpha, *rest)
-
-
-def body_axes(body: Body) -> tuple[float, float]:
-    """Return half length and half depth [m] of the round ellipsoid of water with the body's mass and pitch inertia.
-
-    The model knows no shape of the body; this is the roundest guess that has its numbers. A body too compact for
-    that is drawn as a ball.
-
-    >>> half_length, half_depth = body_axes(Body(mass=0.276, pitch_inertia=3.6e-4))
-    >>> round(half_length, 3), round(half_depth, 3)
-    (0.075, 0.03)
-    """
-    volume = 3 * body.mass / (4 * math.pi * _WATER)
-    squares = 5 * body.pitch_inertia / body.mass
-    # a^2 + volume/a = squares, of which the largest root is the long body.
-    roots = np.roots([1.0, 0.0, -squares, volume])
-    long = max((r.real for r in roots if abs(r.imag) < 1e-12 and r.real > 0), default=volume ** (1 / 3))
-    return float(long), math.sqrt(volume / float(long))

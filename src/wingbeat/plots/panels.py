@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.results.dataset import flown
+
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
@@ -17,11 +19,6 @@ _SECOND: dict[str, Any] = {"color": "#D55E00", "linestyle": (0, (4, 1.5))}
 _THIRD: dict[str, Any] = {"color": "#009E73", "linestyle": (0, (1, 1))}
 _MEAN: dict[str, Any] = {"color": "0.35", "linestyle": "-.", "linewidth": 0.8}
 _SHADE = "0.91"
-
-
-def flown(dataset: xr.Dataset) -> np.ndarray:
-    """Return which samples were reached before the vehicle tumbled, if it did."""
-    return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
 
 
 def mean_power(dataset: xr.Dataset) -> float | None:

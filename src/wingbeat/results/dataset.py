@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import FlightModel, State
 from wingbeat.nomenclature import NOMENCLATURE
+from wingbeat.wing_points import CORNERS, strip_corners
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,15 +20,18 @@ _BLOCK = 257
 
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
-    """Return the loads along sampled states, shape (K, 6), as NumPy arrays.
+    """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
+    found = _in_blocks(flight_loads, model, wingbeat, phase, states)
+    return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)))
 
-    In blocks of one length, the last filled up with its end: every new length would be compiled anew.
-    """
-    blocks = []
+
+def _in_blocks(
+    function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray
+) -> Iterator[Any]:
+    """Evaluate in blocks of one length, the last filled up with its end: every length would be compiled anew."""
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
-        blocks.append(flight_loads(model, wingbeat, State(*states[here].T), phase[here]))
-    return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*blocks, strict=True)))
+        yield function(model, wingbeat, State(*states[here].T), phase[here])
 
 
 def flight_dataset(
@@ -37,12 +42,14 @@ def flight_dataset(
     found: Loads,
     attributes: dict[str, Any],
 ) -> xr.Dataset:
-    """Assemble states and loads into a Dataset with dimensions phase, station and axis."""
+    """Assemble states and loads into a Dataset with dimensions phase, station, corner and axis."""
     import xarray as xr
 
     by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
     by_name["time"] = phase / wingbeat.frequency
     by_name |= {name: value for name, value in found._asdict().items() if name in NOMENCLATURE}
+    corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
+    by_name["strip_corner"] = corners[: len(phase)]
     by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
     by_name |= _columns(found.air_force, "force_x", "force_z", "pitching_moment")
     by_name |= _columns(found.centre_of_mass, "centre_of_mass_x", "centre_of_mass_z")
@@ -50,6 +57,7 @@ def flight_dataset(
     coordinates = {
         "phase": phase,
         "station": (np.arange(model.strips) + 0.5) / model.strips,
+        "corner": list(CORNERS),
         "axis": ["x", "y", "z"],
     }
     return xr.Dataset(
@@ -61,6 +69,11 @@ def flight_dataset(
         {name: (name, value, _attributes(name)) for name, value in coordinates.items()},
         {"Conventions": "CF-1.11", **attributes},
     )
+
+
+def flown(dataset: xr.Dataset) -> np.ndarray:
+    """Return which samples were reached before the vehicle tumbled, if it did."""
+    return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
 
 
 def _columns(values: np.ndarray, *names: str) -> dict[str, np.ndarray]:

@@ -31,6 +31,8 @@ from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attri
 if TYPE_CHECKING:
     import xarray as xr
 
+    from wingbeat.viewer.widget import FlightWidget
+
 
 class Summary(NamedTuple):
     """What is known of an orbit without evaluating its loads."""
@@ -176,6 +178,23 @@ class Orbit:
     def dataset(self) -> xr.Dataset:
         """The time series of one beat, labelled, with the record as attributes."""
         return self._series()
+
+    def view(self, beside: Orbit | None = None) -> FlightWidget:
+        """Return the flight in motion, for a cell of a notebook; needs the extra ``notebook``.
+
+        Parameters
+        ----------
+        beside : another orbit to compare with.
+
+        Raises
+        ------
+        ImportError : without the extra.
+        """
+        from wingbeat.viewer.widget import FlightWidget
+
+        shown = [self] if beside is None else [self, beside]
+        labels = ["first", "second"] if beside else [self._inputs["species"]["name"]]
+        return FlightWidget([(label, orbit.dataset) for label, orbit in zip(labels, shown, strict=True)])
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write dataset and record to a NetCDF-4 file, whole or not at all.

@@ -1,0 +1,130 @@
+"""A beat as an animated picture for slides and supplements: strips by angle of attack, with their air loads."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.files import writing
+from wingbeat.vehicle import Body
+from wingbeat.viewer.scene import scene
+from wingbeat.viewer.shape import body_axes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_FRAMES = 48
+_SECONDS = 2.4  # of one beat as it is shown
+_MOST_ALPHA = 60.0  # deg; the ends of the colours
+_LOAD = "#009E73"
+
+
+def animate(
+    flights: Sequence[tuple[str, xr.Dataset]],
+    path: str | PathLike[str],
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write the first beat of one flight, or of two side by side, as an animated GIF that repeats.
+
+    Strips are coloured by their effective angle of attack; arrows are their air loads, on one scale for both.
+
+    Parameters
+    ----------
+    flights : a label and the dataset of an orbit or a simulated flight, for one flight or for two.
+    path : of the file.
+    progress : told how many frames are done, and of how many.
+
+    Raises
+    ------
+    InvalidInputError : no flight or more than two, or one of more samples than the viewer shows.
+    FileError : a dataset that holds no flight, or a file that cannot be written.
+    """
+    shown = scene(flights)["flights"]
+    from matplotlib import rc_context
+    from matplotlib.animation import PillowWriter
+    from matplotlib.figure import Figure
+
+    with rc_context({"font.size": 9}), writing(path) as beside:
+        figure = Figure(figsize=(4.6 * len(flights) + 0.9, 4.4), dpi=110, layout="constrained")
+        axes: Any = figure.subplots(1, len(flights), subplot_kw={"projection": "3d"}, squeeze=False)[0]
+        load = max(float(np.linalg.norm(data["strip_force"].values, axis=-1).max()) for _, data in flights)
+        span = max(flight["semi_span"] for flight in shown)
+        panels = [
+            _Panel(panel, data, f"{flight['label']}\n{flight['summary']}", span, load)
+            for panel, (_, data), flight in zip(axes, flights, shown, strict=True)
+        ]
+        bar = figure.colorbar(panels[0].strips, ax=list(axes), shrink=0.55, pad=0.02, aspect=18)
+        bar.set_label("effective angle of attack [deg]")
+        writer = PillowWriter(fps=round(_FRAMES / _SECONDS))
+        # Pillow names the kind of file by its suffix, which the file beside the wanted one lacks.
+        with writer.saving(figure, beside, dpi=110):
+            for frame in range(_FRAMES):
+                for panel in panels:
+                    panel.draw(frame / _FRAMES)
+                writer.grab_frame()
+                if progress:
+                    progress(frame + 1, _FRAMES)
+
+
+class _Panel:
+    """One flight in its axes, seen from ahead, left and above: body, strips, air loads, the wing tips' path."""
+
+    def __init__(self, axes: Any, dataset: xr.Dataset, title: str, span: float, load: float) -> None:
+        from matplotlib import colormaps
+        from matplotlib.colors import Normalize
+        from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+
+        self.axes = axes
+        beat = dataset["phase"].values <= 1.0 + 1e-12
+        self.phase, self.alpha = dataset["phase"].values[beat], np.degrees(dataset["alpha"].values[beat])
+        place = np.stack([dataset["x"].values, np.zeros(len(beat)), dataset["z"].values], axis=-1)[beat]
+        self.pitch = dataset["body_pitch"].values[beat]
+        self.corners = dataset["strip_corner"].values[beat] - place[:, None, None]
+        self.roots = dataset["strip_position"].values[beat] - place[:, None]
+        self.forces = dataset["strip_force"].values[beat] * (0.6 * span / load if load > 0 else 0.0)
+        colours = {"cmap": colormaps["RdBu_r"], "norm": Normalize(-_MOST_ALPHA, _MOST_ALPHA)}
+        self.strips = Poly3DCollection([], edgecolor="0.25", linewidth=0.4, **colours)
+        self.strips.set_array(np.zeros(0))
+        self.loads = Line3DCollection([], colors=_LOAD, linewidths=1.3)
+        body = json.loads(dataset.attrs["vehicle"])["body"]
+        self.body = _ellipsoid(*body_axes(Body(**body)))
+        self.trunk = Poly3DCollection([], facecolor="0.62", edgecolor="none", shade=False)
+        axes.add_collection3d(self.trunk, autolim=False)
+        axes.add_collection3d(self.strips, autolim=False)
+        axes.add_collection3d(self.loads, autolim=False)
+        tip = self.roots[:, -1]
+        for side in (1.0, -1.0):
+            axes.plot(tip[:, 0], side * tip[:, 1], tip[:, 2], color="0.55", linewidth=0.7)
+        axes.set(xlim=(-0.75 * span, 0.75 * span), ylim=(-span, span), zlim=(-0.8 * span, 0.8 * span))
+        axes.set_box_aspect((1.5, 2.0, 1.6), zoom=1.35)
+        axes.view_init(elev=18, azim=48)
+        axes.set_axis_off()
+        axes.set_title(title, fontsize=9)
+        self.text = axes.text2D(0.02, 0.02, "", transform=axes.transAxes)
+
+    def draw(self, phase: float) -> None:
+        """Show the beat at a phase."""
+        k = int(np.argmin(np.abs(self.phase - phase)))
+        mirror = np.array([1.0, -1.0, 1.0])
+        self.strips.set_verts(list(np.concatenate([self.corners[k], self.corners[k] * mirror])))
+        self.strips.set_array(np.concatenate([self.alpha[k], self.alpha[k]]))
+        ends = np.stack([self.roots[k], self.roots[k] + self.forces[k]], axis=1)
+        self.loads.set_segments(list(np.concatenate([ends, ends * mirror])))
+        nose, up = math.cos(self.pitch[k]), math.sin(self.pitch[k])
+        turn = np.array([[nose, 0.0, -up], [0.0, 1.0, 0.0], [up, 0.0, nose]])
+        self.trunk.set_verts(list(self.body @ turn.T))
+        self.text.set_text(f"phase {self.phase[k]:.2f} of the beat")
+
+
+def _ellipsoid(half_length: float, half_width: float) -> np.ndarray:
+    """Return the faces of an ellipsoid of revolution about the first axis, shape (faces, 4, 3) [m]."""
+    along, around = np.meshgrid(np.linspace(0, np.pi, 13), np.linspace(0, 2 * np.pi, 17), indexing="ij")
+    ring = half_width * np.sin(along)
+    points = np.stack([half_length * np.cos(along), ring * np.cos(around), ring * np.sin(around)], axis=-1)
+    faces = np.stack([points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]], axis=2)
+    return faces.reshape(-1, 4, 3)

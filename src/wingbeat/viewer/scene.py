@@ -1,0 +1,152 @@
+"""What the viewer draws of one or two flights, as a JSON-able scene: arrays over the samples, and the plots."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList, FileError
+from wingbeat.results.dataset import flown
+from wingbeat.results.record import at_station
+from wingbeat.results.storage import KIND
+from wingbeat.vehicle import Body
+from wingbeat.viewer.shape import body_axes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOST_SAMPLES = 5000
+
+_PANELS: list[dict[str, Any]] = [
+    {
+        "title": "Air load over weight",
+        "unit": "-",
+        "curves": [{"array": "thrust", "label": "forward"}, {"array": "support", "label": "upward"}],
+    },
+    {
+        "title": "Effective alpha",
+        "unit": "deg",
+        "curves": [{"array": "alpha_arm", "label": "1/4 span"}, {"array": "alpha_hand", "label": "3/4 span"}],
+    },
+    {"title": "Hinge power", "unit": "W", "curves": [{"array": "power", "label": "hinge power"}]},
+    {"title": "Body pitch", "unit": "deg", "curves": [{"array": "pitch_deg", "label": "body pitch"}]},
+]
+
+
+def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
+    """Return what the viewer draws of one flight, or of two to be compared.
+
+    Parameters
+    ----------
+    flights : a label and the dataset of an orbit or a simulated flight, for one flight or for two.
+
+    Raises
+    ------
+    InvalidInputError : no flight or more than two, or one of more samples than a page can hold.
+    FileError : a dataset that holds no flight.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
+    >>> scene([("pigeon", flight.dataset)])["flights"][0]["strips"]
+    10
+    """
+    faults = FaultList()
+    if len(flights) not in (1, 2):
+        faults.add("flights", len(flights), "is no number of flights to show", "give one, or two to compare")
+    for label, dataset in flights:
+        if dataset.sizes.get("phase", 0) > MOST_SAMPLES:
+            rule = f"are more samples than the viewer's {MOST_SAMPLES}"
+            faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples a beat")
+    faults.raise_if_any()
+    return {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
+
+
+def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
+    if dataset.attrs.get(KIND) not in ("orbit", "flight") or "strip_corner" not in dataset:
+        kind = dataset.attrs.get(KIND, "not from wingbeat")
+        way = "give a file of `orbit -o` or `simulate -o` of this version"
+        raise FileError(f"cannot show {label!r}: it is {kind}, without the corners of its strips; {way}")
+    reached = flown(dataset)
+    if reached.sum() < 2:
+        raise FileError(f"cannot show {label!r}: nothing of it was flown; look at its status")
+    dataset = dataset.isel(phase=reached)
+    vehicle, air = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air"))
+    body, wing = vehicle["body"], vehicle["wing"]
+    beat = json.loads(dataset.attrs["wingbeat"])
+    weight = (body["mass"] + 2 * wing["mass"]) * air["gravity"]
+    return {
+        "label": label,
+        "summary": _summary(dataset, beat["frequency"]),
+        "strips": dataset.sizes["station"],
+        "semi_span": wing["semi_span"],
+        "frequency": beat["frequency"],
+        "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
+        "body_axes": body_axes(Body(**body)),
+        "downstrokes": _downstrokes(dataset["phase"].values, dataset["flap_rate"].values),
+        "arrays": {name: _packed(*array) for name, array in _arrays(dataset, weight).items()},
+    }
+
+
+def _summary(dataset: xr.Dataset, frequency: float) -> str:
+    about = dataset.attrs
+    if about[KIND] != "orbit":
+        return f"simulated from {float(dataset['u'][0]):.3g} m/s, {frequency:.3g} Hz"
+    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
+    loads = json.loads(about["aero"])["coefficients"]
+    status = "" if about["status"] == "converged" else f"; NOT CERTIFIED ({about['status']})"
+    return f"{about['species']} at {about['speed']:.3g} m/s{climb}, {loads}, {frequency:.3g} Hz{status}"
+
+
+def _downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[list[float]]:
+    """Return from which phase to which the wing goes down."""
+    down = (flap_rate[1:] + flap_rate[:-1]) < 0
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], down, [False]]).astype(int)))
+    return [[float(phase[a]), float(phase[b])] for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Return lift and drag of the left wing's strips as vectors in the world, shape (K, N, 3) [N].
+
+    Drag is against the strip's velocity across its span, and lift the rest of its air load.
+    """
+    corner, velocity = dataset["strip_corner"].values, dataset["strip_velocity"].values
+    span = corner[:, :, 1] - corner[:, :, 0]
+    span = span / np.linalg.norm(span, axis=-1, keepdims=True)
+    across = velocity - np.sum(velocity * span, axis=-1, keepdims=True) * span
+    speed = np.linalg.norm(across, axis=-1, keepdims=True)
+    drag = -dataset["drag"].values[..., None] * across / np.where(speed > 0, speed, 1.0)
+    return dataset["strip_force"].values - drag, drag
+
+
+def _arrays(dataset: xr.Dataset, weight: float) -> dict[str, tuple[np.ndarray, str]]:
+    """Return what moves, and as which kind of number: corners lie about the body, so that single precision does."""
+    place = np.stack([dataset["x"].values, np.zeros(dataset.sizes["phase"]), dataset["z"].values], axis=-1)
+    lift, drag = strip_loads(dataset)
+    alpha = dataset["alpha"]
+    exact = {name: dataset[name].values for name in ("phase", "time", "x", "z")}
+    single = {
+        "body_pitch": dataset["body_pitch"].values,
+        "corners": dataset["strip_corner"].values - place[:, None, None],
+        "alpha": alpha.values,
+        "strip_lift": dataset["lift"].values,
+        "lift": lift,
+        "drag": drag,
+        "force": dataset["strip_force"].values,
+        "thrust": dataset["force_x"].values / weight,
+        "support": dataset["force_z"].values / weight,
+        "alpha_arm": np.degrees(at_station(alpha.values, 0.25)),
+        "alpha_hand": np.degrees(at_station(alpha.values, 0.75)),
+        "power": dataset["hinge_power"].values,
+        "pitch_deg": np.degrees(dataset["body_pitch"].values),
+    }
+    return {n: (v, "f8") for n, v in exact.items()} | {n: (v, "f4") for n, v in single.items()}
+
+
+def _packed(values: np.ndarray, kind: str) -> dict[str, str]:
+    return {"kind": kind, "data": base64.b64encode(values.astype(f"<{kind}").tobytes()).decode()}

@@ -1,0 +1,68 @@
+// A flight as it is handed over from Python: arrays over the samples of a flight, read at any phase.
+
+const KINDS = { f4: Float32Array, f8: Float64Array };
+
+function unpacked({ kind, data }) {
+  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+  return new KINDS[kind](bytes.buffer);
+}
+
+export class Flight {
+  constructor(raw) {
+    Object.assign(this, raw);
+    this.arrays = Object.fromEntries(Object.entries(raw.arrays).map(([name, packed]) => [name, unpacked(packed)]));
+    this.phase = this.arrays.phase;
+    this.samples = this.phase.length;
+    this.last = this.phase[this.samples - 1];
+  }
+
+  // Where a phase lies: the sample before it, and the share of the way to the next.
+  locate(phase) {
+    let low = 0;
+    let high = this.samples - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.phase[middle] <= phase) low = middle;
+      else high = middle;
+    }
+    const share = (phase - this.phase[low]) / (this.phase[high] - this.phase[low]);
+    return { low, high, share: Math.min(Math.max(share, 0), 1) };
+  }
+
+  // The values of one array at a place, written into `out`.
+  read(name, place, out) {
+    const values = this.arrays[name];
+    const width = values.length / this.samples;
+    const before = place.low * width;
+    const after = place.high * width;
+    for (let i = 0; i < width; i++) {
+      out[i] = values[before + i] + place.share * (values[after + i] - values[before + i]);
+    }
+    return out;
+  }
+
+  number(name, place) {
+    return this.read(name, place, [0])[0];
+  }
+
+  // The point that the picture moves with: the mean flight of a periodic orbit, the body of any other.
+  pivot(phase, place) {
+    const { x, z } = this.arrays;
+    if (!this.periodic) return [this.number("x", place), this.number("z", place)];
+    const share = phase / this.last;
+    const end = this.samples - 1;
+    return [x[0] + share * (x[end] - x[0]), z[0] + share * (z[end] - z[0])];
+  }
+
+  // Largest size of an array's values, or of its vectors.
+  largest(name, vector = 1) {
+    const values = this.arrays[name];
+    let most = 0;
+    for (let i = 0; i < values.length; i += vector) {
+      let square = 0;
+      for (let k = 0; k < vector; k++) square += values[i + k] ** 2;
+      most = Math.max(most, square);
+    }
+    return Math.sqrt(most);
+  }
+}

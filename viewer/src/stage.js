@@ -1,0 +1,144 @@
+// The three-dimensional picture: light, ground, cameras, and the animals in it. It moves along with the mean flight.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Animal } from "./animal.js";
+import { round } from "./colours.js";
+
+// From where each camera looks, in semi-spans: ahead, to the left, above.
+export const CAMERAS = {
+  oblique: [2.3, 2.5, 1.1],
+  side: [0, -4, 0],
+  front: [4, 0, 0],
+  top: [-0.001, 0, 4.2],
+  following: [-3, 0, 1],
+};
+const GHOST = 0.32;
+
+export class Stage {
+  constructor(canvas, flights) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = false;
+    this.controls.addEventListener("change", () => this.draw());
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 2.6));
+    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
+    sun.position.set(1, 2, 4);
+    this.scene.add(sun);
+    this.animals = [];
+    this.body = new THREE.Vector3();
+    this.follows = false;
+    this.setFlights(flights);
+    this.setCamera("oblique");
+  }
+
+  setFlights(flights) {
+    for (const animal of this.animals) {
+      this.scene.remove(animal.group);
+      animal.dispose();
+    }
+    this.animals = flights.map((flight) => new Animal(flight, 1));
+    for (const animal of this.animals) this.scene.add(animal.group);
+    const span = Math.max(...flights.map((flight) => flight.semi_span));
+    const changed = span !== this.span;
+    this.span = span;
+    this.makeGround();
+    if (this.ink) this.tint(this.ink);
+    if (changed && this.view) this.setCamera(this.view);
+  }
+
+  // Two flights beside one another, or the second as a ghost in the place of the first.
+  arrange(ghost) {
+    const [first, second] = this.animals;
+    if (!second) return;
+    this.scene.remove(second.group);
+    second.dispose();
+    this.animals[1] = new Animal(second.flight, ghost ? GHOST : 1);
+    this.scene.add(this.animals[1].group);
+    const apart = ghost ? 0 : 1.25 * this.span;
+    this.offsets = new Map([
+      [first, apart],
+      [this.animals[1], -apart],
+    ]);
+    this.spread = ghost ? 1 : 1.75;
+    this.tint(this.ink);
+    this.setCamera(this.view);
+  }
+
+  makeGround() {
+    if (this.ground) {
+      this.scene.remove(this.ground);
+      this.ground.dispose();
+    }
+    this.cell = round(0.3 * this.span);
+    const cells = 2 * Math.ceil((5 * this.span) / this.cell);
+    this.ground = new THREE.GridHelper(cells * this.cell, cells).rotateX(Math.PI / 2);
+    this.ground.material.transparent = true;
+    this.ground.material.vertexColors = false;
+    this.scene.add(this.ground);
+  }
+
+  show(phase, look) {
+    for (const animal of this.animals) {
+      animal.show(phase, { ...look, offset: this.offsets?.get(animal) ?? 0 });
+    }
+    const flight = this.animals[0].flight;
+    const place = flight.locate(phase);
+    const [x, z] = flight.pivot(phase, place);
+    // The ground goes by; height is taken off, so that it stays in the picture in a climb.
+    this.ground.position.set(-(x - this.cell * Math.floor(x / this.cell)), 0, -1.15 * this.span);
+    const body = new THREE.Vector3(flight.number("x", place) - x, 0, flight.number("z", place) - z);
+    if (this.follows) {
+      const moved = body.clone().sub(this.body);
+      this.camera.position.add(moved);
+      this.controls.target.add(moved);
+      this.controls.update();
+    }
+    this.body.copy(body);
+    this.draw();
+  }
+
+  setCamera(name) {
+    this.view = name;
+    this.follows = name === "following";
+    const target = this.follows ? this.body : new THREE.Vector3();
+    const away = this.span * (this.spread ?? 1) * Math.max(1, 1.15 / (this.camera.aspect || 1));
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(new THREE.Vector3(...CAMERAS[name]), away);
+    this.controls.update();
+    this.draw();
+  }
+
+  tint(ink) {
+    this.ink = ink;
+    for (const animal of this.animals) animal.tint(ink);
+    this.ground.material.color.set(ink);
+    this.ground.material.opacity = 0.16;
+    this.draw();
+  }
+
+  resize(width, height) {
+    const was = this.camera.aspect;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (Math.abs(was - this.camera.aspect) > 0.1) this.setCamera(this.view);
+    this.draw();
+  }
+
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  dispose() {
+    for (const animal of this.animals) animal.dispose();
+    this.ground.dispose();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+}

@@ -1,0 +1,264 @@
+// The viewer: picture, controls and plots in step at one phase of the beat.
+
+import { ARROWS, gradient, round, written } from "./colours.js";
+import { make } from "./elements.js";
+import { Flight } from "./flight.js";
+import { Plots } from "./plots.js";
+import { CAMERAS, Stage } from "./stage.js";
+import styles from "./style.css";
+
+const RATES = [
+  [1, "real time"],
+  [0.25, "1/4 speed"],
+  [0.1, "1/10 speed"],
+  [0.03, "1/30 speed"],
+];
+const TINTS = {
+  alpha: { label: "effective angle of attack", unit: "deg", scale: 180 / Math.PI, most: Math.PI / 3 },
+  strip_lift: { label: "lift of a strip", unit: "N", scale: 1, most: Infinity },
+};
+const NAMES = { lift: "lift", drag: "drag", force: "resultant" };
+let made = 0;
+
+export class Viewer {
+  constructor(element, scene, { theme = "system", playing = true } = {}) {
+    this.id = `wb${++made}`;
+    this.look = { colour: "alpha", arrows: new Set(["force"]), trails: true };
+    this.rate = 0.1;
+    this.ghost = true;
+    this.phase = 0;
+    this.frame = 0;
+    this.root = make("section", { class: "wb-viewer", "aria-label": "Wingbeat viewer", tabindex: "0" });
+    this.root.append(make("style", {}, styles));
+    this.root.viewer = this;
+    this.canvas = make("canvas", { class: "wb-canvas", role: "img" });
+    this.build();
+    element.append(this.root);
+    this.root.addEventListener("keydown", (event) => this.key(event));
+    this.setTheme(theme);
+    this.media = window.matchMedia("(prefers-color-scheme: dark)");
+    this.onTheme = () => this.tint();
+    this.media.addEventListener("change", this.onTheme);
+    this.replace(scene);
+    this.watcher = new ResizeObserver(() => this.resize());
+    this.watcher.observe(this.picture);
+    const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (playing && !calm) this.play();
+  }
+
+  // Page ----------------------------------------------------------------------------------------------------------
+
+  build() {
+    const button = (text, label, act) => make("button", { type: "button", "aria-label": label, title: label, onclick: act }, text);
+    this.playButton = button("▶", "Play (space)", () => (this.playing ? this.pause() : this.play()));
+    this.scrubber = make("input", {
+      type: "range",
+      min: 0,
+      step: "any",
+      "aria-label": "Phase of the beat",
+      oninput: () => {
+        this.pause();
+        this.set(Number(this.scrubber.value));
+      },
+    });
+    this.readout = make("output", { class: "wb-readout" });
+    this.rates = this.choice("Speed", RATES, this.rate, (value) => (this.rate = Number(value)));
+    this.cameras = Object.keys(CAMERAS).map((name, nth) =>
+      make(
+        "button",
+        { type: "button", "aria-pressed": "false", title: `${name} view (${nth + 1})`, onclick: () => this.setCamera(name) },
+        name,
+      ),
+    );
+    const tints = Object.entries(TINTS).map(([name, { label }]) => [name, label]);
+    const toggles = Object.entries(NAMES).map(([name, label]) =>
+      this.toggle(label, this.look.arrows.has(name), ARROWS[name], (on) => {
+        this.look.arrows[on ? "add" : "delete"](name);
+        this.set(this.phase);
+      }),
+    );
+    const trails = this.toggle("trails", true, null, (on) => {
+      this.look.trails = on;
+      this.set(this.phase);
+    });
+    this.pairing = this.choice("Two flights", [["ghost", "second as ghost"], ["beside", "side by side"]], "ghost", (value) => {
+      this.ghost = value === "ghost";
+      this.arrange();
+    });
+    this.theme = this.choice("Theme", [["system", "as system"], ["light", "light"], ["dark", "dark"]], "system", (value) =>
+      this.setTheme(value),
+    );
+    this.heading = make("div", { class: "wb-heading" });
+    this.legend = make("div", { class: "wb-scale" });
+    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading, this.legend);
+    this.side = make("div", { class: "wb-side" });
+    const tint = this.choice("Strips", tints, "alpha", (value) => {
+      this.look.colour = value;
+      this.scaleTint();
+      this.set(this.phase);
+    });
+    const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
+    const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
+    this.root.append(
+      make(
+        "div",
+        { class: "wb-stage" },
+        make("div", { class: "wb-bar" }, cameras),
+        this.picture,
+        make("div", { class: "wb-bar wb-player" }, this.playButton, this.scrubber, this.readout, this.rates),
+        make("div", { class: "wb-bar" }, tint, forces, trails, this.pairing, this.theme),
+      ),
+      this.side,
+    );
+  }
+
+  choice(label, options, chosen, act) {
+    const id = `${this.id}-${label.replace(/\W/g, "")}`;
+    const select = make("select", { id, onchange: () => act(select.value) });
+    for (const [value, text] of options) select.append(make("option", { value, selected: value === chosen }, text));
+    return make("span", { class: "wb-choice" }, make("label", { for: id }, label), select);
+  }
+
+  toggle(label, on, colour, act) {
+    const box = make("input", { type: "checkbox", checked: on, onchange: () => act(box.checked) });
+    const swatch = colour ? [make("span", { class: "wb-swatch", style: `background:${colour}`, "aria-hidden": "true" })] : [];
+    return make("label", { class: "wb-toggle" }, box, ...swatch, label);
+  }
+
+  key(event) {
+    if (event.target.matches("select") || event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = (event.shiftKey ? 0.05 : 0.01) * (event.key === "ArrowLeft" ? -1 : 1);
+    const view = Object.keys(CAMERAS)[Number(event.key) - 1];
+    if (event.key === " " && !event.target.matches("button, input[type=checkbox]")) this.playing ? this.pause() : this.play();
+    else if (event.key === "ArrowLeft" || event.key === "ArrowRight") this.step(step);
+    else if (event.key === "Home" || event.key === "End") this.step(event.key === "Home" ? -this.phase : this.last - this.phase);
+    else if (view) this.setCamera(view);
+    else return;
+    event.preventDefault();
+  }
+
+  // State ---------------------------------------------------------------------------------------------------------
+
+  // Show another scene, and keep phase, camera and choices.
+  replace(scene) {
+    this.flights = scene.flights.map((raw) => new Flight(raw));
+    this.last = Math.min(...this.flights.map((flight) => flight.last));
+    this.scrubber.max = this.last;
+    if (this.stage) this.stage.setFlights(this.flights);
+    else this.stage = new Stage(this.canvas, this.flights);
+    this.pairing.hidden = this.flights.length < 2;
+    this.plots = new Plots(scene.panels, this.flights, this.last, (phase) => {
+      this.pause();
+      this.set(phase);
+    });
+    this.side.replaceChildren(this.plots.element);
+    const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
+    this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
+    this.canvas.setAttribute("aria-label", `Animation of ${this.flights.map((flight) => flight.label).join(" and ")}`);
+    const force = Math.max(...this.flights.map((flight) => flight.largest("force", 3)));
+    this.look.scale = force > 0 ? (0.55 * this.stage.span) / force : 0;
+    this.look.thickness = 0.009 * this.stage.span;
+    this.scaleTint();
+    this.tint();
+    this.arrange();
+    this.setCamera(this.stage.view);
+    this.set(Math.min(this.phase, this.last));
+  }
+
+  arrange() {
+    this.stage.arrange(this.ghost);
+    this.set(this.phase);
+  }
+
+  scaleTint() {
+    const { label, unit, scale, most } = TINTS[this.look.colour];
+    const largest = Math.max(...this.flights.map((flight) => flight.largest(this.look.colour)), 1e-12);
+    const range = round(Math.min(largest, most) * scale, [1, 1.5, 2, 3, 4, 5, 6, 8, 10]);
+    this.look.range = range / scale;
+    this.legend.replaceChildren(
+      make("div", { class: "wb-gradient", style: `background:${gradient()}` }),
+      make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, written(value)))),
+      make("div", {}, `${label} [${unit}]`),
+      make("div", {}, `squares of ${written(this.stage.cell)} m`),
+    );
+  }
+
+  setCamera(name) {
+    this.stage.setCamera(name);
+    for (const button of this.cameras) button.setAttribute("aria-pressed", String(button.textContent === name));
+  }
+
+  setTheme(theme) {
+    this.root.dataset.theme = theme;
+    if (this.stage) this.tint();
+  }
+
+  tint() {
+    this.stage.tint(getComputedStyle(this.root).color);
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.picture;
+    if (clientWidth && clientHeight) this.stage.resize(clientWidth, clientHeight);
+  }
+
+  // Time ----------------------------------------------------------------------------------------------------------
+
+  get playing() {
+    return this.clock !== undefined;
+  }
+
+  set(phase) {
+    this.phase = Math.min(Math.max(phase, 0), this.last);
+    this.frame += 1;
+    this.stage.show(this.phase, this.look);
+    this.plots.show(this.phase);
+    this.scrubber.value = this.phase;
+    const place = this.flights[0].locate(this.phase);
+    const time = 1000 * this.flights[0].number("time", place);
+    this.readout.textContent = `phase ${this.phase.toFixed(3)}, ${time.toFixed(1)} ms`;
+  }
+
+  step(by) {
+    this.pause();
+    this.set(this.phase + by);
+  }
+
+  play() {
+    if (this.playing) return;
+    let before = performance.now();
+    const tick = (now) => {
+      const beats = (now - before) * 0.001 * this.rate * this.flights[0].frequency;
+      before = now;
+      this.set((this.phase + Math.max(beats, 0)) % this.last);
+      this.clock = requestAnimationFrame(tick);
+    };
+    this.clock = requestAnimationFrame(tick);
+    this.playButton.textContent = "❚❚";
+    this.playButton.setAttribute("aria-label", "Pause (space)");
+  }
+
+  pause() {
+    cancelAnimationFrame(this.clock);
+    this.clock = undefined;
+    this.playButton.textContent = "▶";
+    this.playButton.setAttribute("aria-label", "Play (space)");
+  }
+
+  // What is drawn of a flight's wing now, in the world of its data: corners [m] and normals of every strip, flat lists.
+  drawn(flight = 0, side = "left") {
+    return this.stage.animals[flight].drawn(side);
+  }
+
+  corners(flight = 0, side = "left") {
+    return this.drawn(flight, side).corners;
+  }
+
+  destroy() {
+    this.pause();
+    this.watcher.disconnect();
+    this.media.removeEventListener("change", this.onTheme);
+    this.stage.dispose();
+    this.root.remove();
+  }
+}

@@ -130,11 +130,16 @@ export class Stage {
     this.draw();
   }
 
+  // However often it is asked for, the picture is drawn once, when the browser next shows one.
   draw() {
-    this.renderer.render(this.scene, this.camera);
+    this.due ??= requestAnimationFrame(() => {
+      this.due = undefined;
+      this.renderer.render(this.scene, this.camera);
+    });
   }
 
   dispose() {
+    cancelAnimationFrame(this.due);
     for (const animal of this.animals) animal.dispose();
     this.ground.dispose();
     this.controls.dispose();

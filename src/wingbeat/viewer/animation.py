@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.files import writing
+from wingbeat.results.dataset import flown
 from wingbeat.vehicle import Body
 from wingbeat.viewer.scene import scene
 from wingbeat.viewer.shape import body_axes
@@ -45,12 +46,13 @@ def animate(
     FileError : a dataset that holds no flight, or a file that cannot be written.
     """
     shown = scene(flights)["flights"]
-    from matplotlib import rc_context
+    flights = [(label, data.isel(phase=flown(data))) for label, data in flights]
+    from matplotlib import cm, rc_context
     from matplotlib.animation import PillowWriter
     from matplotlib.figure import Figure
 
     with rc_context({"font.size": 9}), writing(path) as beside:
-        figure = Figure(figsize=(4.6 * len(flights) + 0.9, 4.4), dpi=110, layout="constrained")
+        figure = Figure(figsize=(4.6 * len(flights) + 0.9, 3.6), dpi=110, layout="constrained")
         axes: Any = figure.subplots(1, len(flights), subplot_kw={"projection": "3d"}, squeeze=False)[0]
         load = max(float(np.linalg.norm(data["strip_force"].values, axis=-1).max()) for _, data in flights)
         span = max(flight["semi_span"] for flight in shown)
@@ -58,8 +60,11 @@ def animate(
             _Panel(panel, data, f"{flight['label']}\n{flight['summary']}", span, load)
             for panel, (_, data), flight in zip(axes, flights, shown, strict=True)
         ]
-        bar = figure.colorbar(panels[0].strips, ax=list(axes), shrink=0.55, pad=0.02, aspect=18)
+        scale = cm.ScalarMappable(panels[0].norm, panels[0].colours)
+        bar = figure.colorbar(scale, ax=list(axes), shrink=0.7, pad=0.02, aspect=18)
         bar.set_label("effective angle of attack [deg]")
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # else every frame is laid out anew
         writer = PillowWriter(fps=round(_FRAMES / _SECONDS))
         # Pillow names the kind of file by its suffix, which the file beside the wanted one lacks.
         with writer.saving(figure, beside, dpi=110):
@@ -87,21 +92,19 @@ class _Panel:
         self.corners = dataset["strip_corner"].values[beat] - place[:, None, None]
         self.roots = dataset["strip_position"].values[beat] - place[:, None]
         self.forces = dataset["strip_force"].values[beat] * (0.6 * span / load if load > 0 else 0.0)
-        colours = {"cmap": colormaps["RdBu_r"], "norm": Normalize(-_MOST_ALPHA, _MOST_ALPHA)}
-        self.strips = Poly3DCollection([], edgecolor="0.25", linewidth=0.4, **colours)
-        self.strips.set_array(np.zeros(0))
+        self.colours, self.norm = colormaps["RdBu_r"], Normalize(-_MOST_ALPHA, _MOST_ALPHA)
+        # One collection of body and wings: matplotlib sorts faces by depth within each alone.
+        self.faces = Poly3DCollection([], linewidth=0.4)
         self.loads = Line3DCollection([], colors=_LOAD, linewidths=1.3)
         body = json.loads(dataset.attrs["vehicle"])["body"]
         self.body = _ellipsoid(*body_axes(Body(**body)))
-        self.trunk = Poly3DCollection([], facecolor="0.62", edgecolor="none", shade=False)
-        axes.add_collection3d(self.trunk, autolim=False)
-        axes.add_collection3d(self.strips, autolim=False)
+        axes.add_collection3d(self.faces, autolim=False)
         axes.add_collection3d(self.loads, autolim=False)
         tip = self.roots[:, -1]
         for side in (1.0, -1.0):
             axes.plot(tip[:, 0], side * tip[:, 1], tip[:, 2], color="0.55", linewidth=0.7)
         axes.set(xlim=(-0.75 * span, 0.75 * span), ylim=(-span, span), zlim=(-0.8 * span, 0.8 * span))
-        axes.set_box_aspect((1.5, 2.0, 1.6), zoom=1.35)
+        axes.set_box_aspect((1.5, 2.0, 1.6), zoom=1.5)
         axes.view_init(elev=18, azim=48)
         axes.set_axis_off()
         axes.set_title(title, fontsize=9)
@@ -111,13 +114,18 @@ class _Panel:
         """Show the beat at a phase."""
         k = int(np.argmin(np.abs(self.phase - phase)))
         mirror = np.array([1.0, -1.0, 1.0])
-        self.strips.set_verts(list(np.concatenate([self.corners[k], self.corners[k] * mirror])))
-        self.strips.set_array(np.concatenate([self.alpha[k], self.alpha[k]]))
-        ends = np.stack([self.roots[k], self.roots[k] + self.forces[k]], axis=1)
-        self.loads.set_segments(list(np.concatenate([ends, ends * mirror])))
         nose, up = math.cos(self.pitch[k]), math.sin(self.pitch[k])
         turn = np.array([[nose, 0.0, -up], [0.0, 1.0, 0.0], [up, 0.0, nose]])
-        self.trunk.set_verts(list(self.body @ turn.T))
+        trunk = self.body @ turn.T
+        # Lighter where it faces up: the roundness of the body is seen.
+        height = trunk.mean(axis=1)[:, 2] / np.abs(trunk[..., 2]).max()
+        grey = np.repeat((0.62 + 0.22 * height)[:, None], 3, axis=1)
+        wing = self.colours(self.norm(self.alpha[k]))[:, :3]
+        self.faces.set_verts([*self.corners[k], *(self.corners[k] * mirror), *trunk])
+        self.faces.set_facecolor(np.concatenate([wing, wing, grey]))
+        self.faces.set_edgecolor(np.concatenate([np.full((2 * len(wing), 3), 0.25), grey]))
+        ends = np.stack([self.roots[k], self.roots[k] + self.forces[k]], axis=1)
+        self.loads.set_segments(list(np.concatenate([ends, ends * mirror])))
         self.text.set_text(f"phase {self.phase[k]:.2f} of the beat")
 
 

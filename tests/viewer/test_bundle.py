@@ -1,0 +1,42 @@
+"""The committed bundle: small, current, and without addresses to ask."""
+
+import gzip
+import hashlib
+import re
+import shutil
+import subprocess
+
+import pytest
+
+import wingbeat as wb
+from viewer.conftest import ROOT
+
+SOURCES = ROOT / "viewer"
+
+
+def test_the_bundle_is_made_from_the_sources_beside_it():
+    names = ["build.mjs", "package.json", *sorted(f"src/{path.name}" for path in (SOURCES / "src").iterdir())]
+    digest = hashlib.sha256()
+    for name in names:
+        digest.update(f"{name}\n".encode() + (SOURCES / name).read_bytes())
+    first = wb.viewer.bundle_path().read_text("utf-8").split("\n", 1)[0]
+    assert first.endswith(f"sha256:{digest.hexdigest()}"), "run `npm ci && npm run build` in the folder viewer"
+
+
+def test_the_same_sources_give_the_same_bundle(tmp_path):
+    if shutil.which("node") is None or not (SOURCES / "node_modules" / "esbuild").exists():
+        pytest.skip("needs node and the packages of viewer/package.json: npm ci in the folder viewer")
+    made = tmp_path / "viewer.js"
+    subprocess.run(["node", "build.mjs", str(made)], cwd=SOURCES, check=True, timeout=120)
+    assert made.read_bytes() == wb.viewer.bundle_path().read_bytes()
+
+
+def test_the_bundle_is_small_and_a_page_too(page_of_one):
+    assert len(gzip.compress(wb.viewer.bundle_path().read_bytes(), 9)) <= 250_000
+    assert page_of_one.stat().st_size <= 1_500_000
+
+
+def test_the_lock_file_pins_and_names_no_address():
+    lock = (SOURCES / "package-lock.json").read_text()
+    assert '"resolved"' not in lock
+    assert re.search(r'"node_modules/three": \{\s+"version": "[\d.]+",\s+"integrity"', lock)

@@ -1,5 +1,6 @@
 """The command, the animated picture and the notebook's widget."""
 
+import base64
 import itertools
 import json
 import sys
@@ -9,6 +10,7 @@ import pytest
 from PIL import Image
 
 import wingbeat as wb
+from viewer.conftest import PATIENCE
 from wingbeat.cli import main
 
 
@@ -80,3 +82,32 @@ def test_without_the_extra_the_widget_says_how_to_get_it(bats, monkeypatch):
 
 def test_the_viewer_is_among_the_public_names():
     assert {"write_page", "animate", "scene", "bundle_path"} <= set(wb.viewer.__all__)
+
+
+def test_the_widget_is_drawn_by_what_notebooks_call(browser, bats):
+    """A notebook imports the bundle and calls its `render`; here the page does."""
+    pytest.importorskip("anywidget")
+    scenes = [orbit.view().scene for orbit in bats.values()]
+    page = browser.new_page(reduced_motion="reduce")
+    page.set_default_timeout(PATIENCE)
+    bundle = base64.b64encode(wb.viewer.bundle_path().read_bytes()).decode()
+    shown = page.evaluate(
+        """async ([bundle, first, second]) => {
+            const { default: widget } = await import(`data:text/javascript;base64,${bundle}`);
+            let scene = first, changed;
+            const on = (event, act) => { if (event === "change:scene") changed = act; };
+            const model = { get: () => scene, on };
+            const clear = widget.render({ model, el: document.body });
+            const told = [document.querySelector(".wb-heading").innerText];
+            scene = second;
+            changed();
+            told.push(document.querySelector(".wb-heading").innerText);
+            clear();
+            return [...told, document.querySelectorAll(".wb-viewer").length];
+        }""",
+        [bundle, *scenes],
+    )
+    page.close()
+    assert "su-fan" in shown[0]
+    assert "dickinson" in shown[1]
+    assert shown[2] == 0

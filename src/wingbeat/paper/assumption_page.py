@@ -73,7 +73,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "## Claim by claim",
         "",
         "*Told* is the share of sets whose orbits exist to test the claim; *holds* the share of those that "
-        "satisfy it. "
+        "satisfy it, with the standard error that so many sets leave. "
         "*Hangs on* names the assumptions that explain at least a twentieth of the claim's number in a quadratic "
         "response surface (share of the variance of its rank), *quality* how much of numbers it has not seen the "
         f"surface explains; below {_TRUSTED:g} it says little.",
@@ -83,7 +83,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
     ]
     for claim, holds, hang in zip(study.claims, study.holds.T, hangs, strict=True):
         told = np.isfinite(holds)
-        share = f"{100 * holds[told].mean():.0f}" if told.any() else "-"
+        share = _share(holds[told])
         quality = "-" if hang is None else f"{hang.quality:.2f}"
         lines.append(f"| {claim.claim} | {share} | {100 * told.mean():.0f} | {_named(hang)} | {quality} |")
     lines += [
@@ -110,6 +110,19 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         span = ", ".join(a.choices) if a.choices else f"{a.low:g} to {a.high:g}"
         lines.append(f"| {a.name}: {a.words} | {span} | {a.source} |")
     return "\n".join(lines) + "\n"
+
+
+def _share(holds: np.ndarray) -> str:
+    """Return the share of sets that satisfy a claim, in percent, with its standard error where it is not sure.
+
+    >>> _share(np.array([1.0, 1.0, 0.0, 1.0]))
+    '75 ± 22'
+    """
+    if not len(holds):
+        return "-"
+    share = holds.mean()
+    error = 100 * np.sqrt(share * (1 - share) / len(holds))
+    return f"{100 * share:.0f} ± {error:.{0 if error >= 1 else 1}f}" if error else f"{100 * share:.0f}"
 
 
 def _named(hang: Importance | None) -> str:

@@ -1,0 +1,84 @@
+"""One worker process as its owner sees it: started, given a job, listened to, ended."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+__all__ = ["WorkerProcess"]
+
+# As many processes as there are cores, each with one thread in the libraries.
+_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+
+
+class WorkerProcess:
+    """A fresh Python that runs `wingbeat.app.worker`.
+
+    Parameters
+    ----------
+    work : what it does with a job, ``MODULE:FUNCTION``.
+    """
+
+    def __init__(self, work: str) -> None:
+        environment = dict(os.environ) | dict.fromkeys(_ONE_THREAD, "1")
+        # The package that serves is the one that works, wherever it was imported from.
+        home = str(Path(__file__).resolve().parents[2])
+        environment["PYTHONPATH"] = os.pathsep.join([home, *filter(None, [environment.get("PYTHONPATH")])])
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "wingbeat.app.worker", work],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+            start_new_session=True,  # Ctrl-C is for the server, which then ends its workers
+        )
+        self._lock = threading.Lock()
+
+    @property
+    def pid(self) -> int:
+        """The number of the process."""
+        return self._process.pid
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process runs."""
+        return self._process.poll() is None
+
+    def send(self, what: dict[str, Any]) -> None:
+        """Hand over a line; a process that has died says so by the end of what it tells."""
+        assert self._process.stdin is not None
+        with self._lock, suppress(OSError, ValueError):
+            self._process.stdin.write(json.dumps(what).encode() + b"\n")
+            self._process.stdin.flush()
+
+    def lines(self) -> Iterator[dict[str, Any]]:
+        """Yield what the process tells, until it ends."""
+        assert self._process.stdout is not None
+        while (line := self._process.stdout.readline()).endswith(b"\n"):
+            yield json.loads(line)
+
+    def kill(self) -> None:
+        """End the process now, whatever it does; safe to call twice."""
+        with suppress(OSError):
+            self._process.kill()
+
+    def bury(self) -> str:
+        """End the process, close its pipes, and return how it ended."""
+        self.kill()
+        code = self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            with self._lock, suppress(OSError):
+                assert pipe is not None
+                pipe.close()
+        if code >= 0:
+            return f"exit code {code}"
+        with suppress(ValueError):
+            return signal.Signals(-code).name
+        return f"signal {-code}"

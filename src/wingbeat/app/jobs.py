@@ -1,0 +1,203 @@
+"""What a worker does for the explorer: orbits, what they hang on, files. Everything in and out is fit for JSON."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.app.links import from_plain
+from wingbeat.app.scenario import problem_of
+from wingbeat.app.uploads import read_upload, scenario_of
+from wingbeat.app.worker import Hand
+from wingbeat.errors import FileError, InvalidInputError
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solve import follow
+from wingbeat.results.orbit import Orbit, solve_orbit
+from wingbeat.results.provenance import problem_from
+from wingbeat.results.rows import orbit_groups
+from wingbeat.results.sensitivities import sensitivities
+from wingbeat.viewer import scene
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["do"]
+
+# A continued orbit must be better by this share before the page says that it is.
+_BETTER = 1e-4
+_MOST_RANKED = 12
+
+
+def do(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Do a job; what is refused comes back as ``{"refused": [[where, message], ...]}``."""
+    kinds: dict[str, Callable[[dict[str, Any], Hand], dict[str, Any]]] = {
+        "orbit": _orbit,
+        "point": _point,
+        "scene": _scene,
+        "influence": _influence,
+        "file": _file,
+        "read": _read,
+    }
+    try:
+        return kinds[what["do"]](what, hand)
+    except InvalidInputError as error:
+        return {"refused": [[fault.where, _sentence(fault)] for fault in error.faults]}
+    except FileError as error:
+        return {"refused": [["file", str(error)]]}
+
+
+def _sentence(fault: Any) -> str:
+    return f"{fault.where.replace('_', ' ')}: {fault.rule}" + (f"; {fault.fix}" if fault.fix else "")
+
+
+def _orbit(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Continue the answer before, hand that over, then search as the command line does."""
+    begun = time.perf_counter()
+    problem = problem_of(from_plain(what["scenario"]))
+    continued = _continued(problem, what.get("near"))
+    if continued is not None:
+        first = answer_of(Orbit.of(continued, 1), what.get("beside"), begun)
+        if what.get("brief"):
+            return first
+        hand.part(first)
+    begun = time.perf_counter()
+    orbit = solve_orbit(problem, what["scenario"].get("starts"), what["scenario"].get("seed", 0), hand.progress)
+    hand.check()
+    answer = answer_of(orbit, what.get("beside"), begun)
+    best = answer["record"].get("objective_value")
+    if continued is not None and best is not None and orbit.status is Status.CONVERGED:
+        better = continued.objective < best - _BETTER * abs(best)
+        answer["continued_better"] = continued.objective if better else None
+    return answer
+
+
+def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:
+    """Return the orbit that one search from the unknowns of another leads to, if it is certified."""
+    if near is None or tuple(near["free"]) != problem.free:
+        return None
+    import numpy as np
+
+    return follow(problem, np.array(near["unknowns"], dtype=float))
+
+
+def _point(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Return one point of a curve: the better of its own searches and the neighbour's answer continued."""
+    scenario = from_plain(what["scenario"])
+    problem = problem_of(scenario)
+    continued = _continued(problem, what.get("near"))
+    orbit = solve_orbit(problem, scenario.starts, scenario.seed, hand.progress)
+    hand.check()
+    other = None if continued is None else Orbit.of(continued, 1)
+    if other is not None and (
+        orbit.status is not Status.CONVERGED
+        or other.record()["objective_value"] < orbit.record()["objective_value"]
+    ):
+        orbit = other
+    record = orbit.record()
+    near = _near(orbit) if orbit.status is Status.CONVERGED else None
+    names = ("frequency", "flap_amplitude")
+    kept = {name: record[name] for name in ("status", "mean_positive_power", "active_bounds", "objective_value")}
+    return {"speed": scenario.speed, **kept, **{n: record["wingbeat"][n] for n in names}, "near": near}
+
+
+def _near(orbit: Orbit) -> dict[str, Any]:
+    return {"free": list(orbit.problem.free), "unknowns": orbit.unknowns.tolist()}
+
+
+def answer_of(orbit: Orbit, beside: dict[str, Any] | None, begun: float) -> dict[str, Any]:
+    """Return all that the page shows of an orbit, beside another one where it is compared."""
+    record = orbit.record()
+    return {
+        "record": record,
+        "inputs": orbit.inputs,
+        "groups": orbit_groups(record),
+        "near": _near(orbit) if orbit.status is Status.CONVERGED else None,
+        "scene": _drawn(orbit, beside),
+        "seconds": time.perf_counter() - begun,
+        "solver_seconds": record["solve_seconds"],
+    }
+
+
+def _drawn(orbit: Orbit, beside: dict[str, Any] | None) -> str:
+    flights = [(label_of(orbit.record()), orbit.dataset)]
+    if beside is not None:
+        other = orbit_again(beside)
+        flights.append((label_of(other.record()), other.dataset))
+    return json.dumps(scene(flights), allow_nan=False)
+
+
+def label_of(record: dict[str, Any]) -> str:
+    """Return how a flight is called beside another one."""
+    return f"{record['species']}, {record['speed']:g} m/s, {record['aero']['coefficients']}"
+
+
+def orbit_again(known: dict[str, Any]) -> Orbit:
+    """Return the orbit of a record and the inputs that it answers."""
+    inputs = known["inputs"]
+    return Orbit.of_record(known["record"], problem_from(inputs), inputs["starts"], inputs["seed"])
+
+
+def _scene(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    return {"scene": _drawn(orbit_again(what["of"]), what.get("beside"))}
+
+
+def _influence(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Return error bars, what matters most, and what the active bounds cost."""
+    orbit = orbit_again(what["of"])
+    found = sensitivities(orbit)
+    bars = [found.error_bar(name)._asdict() for name in found.values]
+    first = next(iter(found.values))
+    ranked = [
+        {
+            "path": slope.parameter.path,
+            "plausible": slope.parameter.plausible,
+            "unit": slope.parameter.unit,
+            "swings": {name: list(found.swing(slope, name)) for name in found.values},
+        }
+        for slope in found.ranked(first)[:_MOST_RANKED]
+    ]
+    prices = [
+        {"path": p.parameter.path, "unit": p.parameter.unit, "size": p.parameter.size, "by": p.quantities}
+        for p in found.prices
+    ]
+    return {"values": found.values, "units": found.units, "bars": bars, "ranked": ranked, "prices": prices}
+
+
+def _file(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Return an orbit as the bytes of a file, in base 64."""
+    dataset = orbit_again(what["of"]).dataset
+    content = bytes(dataset.to_netcdf(engine="h5netcdf")) if what["as"] == "nc" else _figure(dataset, what["as"])
+    return {"content": base64.b64encode(content).decode()}
+
+
+def _figure(dataset: xr.Dataset, kind: str) -> bytes:
+    from wingbeat.plots import wingbeat_page
+
+    with io.BytesIO() as file:
+        wingbeat_page(dataset).savefig(file, format=kind, dpi=200)
+        return file.getvalue()
+
+
+def _read(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+    """Return what an uploaded file holds: a scenario, or an orbit with the scenario that it answers."""
+    found = read_upload(what["path"], what["label"])
+    if isinstance(found, Orbit):
+        return _answer_of_file(found, what["label"])
+    return found
+
+
+def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
+    """Return the answer in a file, and the scenario that it answers where the page can ask for it."""
+    begun = time.perf_counter()
+    try:
+        answer = answer_of(orbit, None, begun)
+    except Exception as error:  # whatever can be wrong with what somebody wrote into a file
+        reason = f"{type(error).__name__}: {error}".split("\n")[0][:200]
+        raise FileError(f"cannot show the orbit in {label!r}: it is damaged ({reason}); solve it again") from None
+    scenario, why_not = scenario_of(orbit)
+    return {"answer": answer, "scenario": scenario, "why_not": why_not}

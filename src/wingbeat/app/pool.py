@@ -1,0 +1,266 @@
+"""Jobs of several sessions on a few worker processes: fair, limited, and none the worse for a process that dies."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from wingbeat.app.crew import WorkerProcess
+
+__all__ = ["Event", "Job", "Pool"]
+
+# Processes that end before they are ready, in a row, after which no more are started for the same job.
+_FALSE_STARTS = 3
+# Seconds in which a job that is not wanted any more may end by itself before its process is ended.
+_GRACE = 20.0
+
+
+class Event(NamedTuple):
+    """What happened to a job.
+
+    Parameters
+    ----------
+    kind : ``waiting`` (value: place in the queue, 1 is next), ``started``, ``progress`` (value: [done, total]),
+        ``part`` (value: part of the answer), and one of the endings ``done`` (value: the answer), ``stopped``,
+        ``failed`` (value: what went wrong), ``lost`` (value: how its process ended), ``late`` (value: seconds).
+    value : see `kind`.
+    """
+
+    kind: str
+    value: Any = None
+
+    @property
+    def ends(self) -> bool:
+        """Whether nothing follows."""
+        return self.kind in ("done", "stopped", "failed", "lost", "late")
+
+
+@dataclass(eq=False)
+class Job:
+    """Something to do for a session; made by `Pool.submit`."""
+
+    session: str
+    what: Any
+    tell: Callable[[Event], None]
+    number: int
+    turn: int
+    unwanted: bool = False
+    place: int = 0
+    tries: int = 0
+
+
+@dataclass(eq=False)
+class _Desk:
+    """A place for one worker process, and the thread that looks after it."""
+
+    wake: threading.Condition
+    worker: WorkerProcess | None = None
+    job: Job | None = None
+    ready: bool = False
+    late: bool = False
+    served: str = ""
+    thread: threading.Thread | None = None
+    false_starts: int = 0
+
+
+@dataclass
+class _Turns:
+    """Who is next: each session's jobs take turns with those of the others, first come first served."""
+
+    now: int = 0
+    last: dict[str, int] = field(default_factory=dict)
+
+    def of(self, session: str) -> int:
+        """Return the turn of a session's next job."""
+        turn = self.last[session] = max(self.now, self.last.get(session, -1) + 1)
+        return turn
+
+
+class Pool:
+    """A pool of worker processes with a fair queue; events come from threads of its own.
+
+    Parameters
+    ----------
+    work : what a worker does with a job, ``MODULE:FUNCTION``, called with the job and a `worker.Hand`.
+    processes : how many workers.
+    most_waiting : jobs of one session that may wait at a time.
+    seconds : a job that takes longer is ended, and so is its process.
+    """
+
+    def __init__(self, work: str, processes: int, most_waiting: int = 6, seconds: float = 300.0) -> None:
+        self._work, self._most_waiting, self._seconds = work, most_waiting, seconds
+        self._lock = threading.RLock()
+        self._waiting: list[Job] = []
+        self._turns = _Turns()
+        self._numbers = itertools.count(1)
+        self._open = True
+        self.memory: dict[int, int] = {}
+        self._desks = [_Desk(threading.Condition(self._lock)) for _ in range(processes)]
+        for desk in self._desks:
+            desk.thread = threading.Thread(target=self._look_after, args=(desk,), daemon=True)
+            desk.thread.start()
+
+    @property
+    def workers(self) -> list[int]:
+        """The numbers of the worker processes that run."""
+        with self._lock:
+            return [desk.worker.pid for desk in self._desks if desk.worker is not None and desk.worker.alive]
+
+    def submit(self, session: str, what: Any, tell: Callable[[Event], None]) -> Job | None:
+        """Queue a job, or return None where the session has as many waiting as it may.
+
+        Parameters
+        ----------
+        session : whose job it is.
+        what : fit for JSON; what the worker's function gets.
+        tell : called with each `Event`, from another thread.
+        """
+        with self._lock:
+            if not self._open or sum(job.session == session for job in self._waiting) >= self._most_waiting:
+                return None
+            job = Job(session, what, tell, next(self._numbers), self._turns.of(session))
+            self._waiting.append(job)
+            self._assign()
+            return job
+
+    def cancel(self, job: Job) -> None:
+        """Drop a job: out of the queue, or ended at its next step, or with its process where it takes too long."""
+        with self._lock:
+            if job.unwanted:
+                return
+            job.unwanted = True
+            if job in self._waiting:
+                self._waiting.remove(job)
+                job.tell(Event("stopped"))
+                self._tell_places()
+                return
+            for desk in self._desks:
+                if desk.job is job and desk.worker is not None:
+                    desk.worker.send({"stop": job.number})
+                    self._later(_GRACE, desk, job, late=False)
+
+    def leave(self, session: str) -> None:
+        """Drop every job of a session that is gone."""
+        with self._lock:
+            working = [desk.job for desk in self._desks if desk.job is not None]
+            for job in [*self._waiting, *working]:
+                if job.session == session:
+                    self.cancel(job)
+            self._turns.last.pop(session, None)
+
+    def close(self) -> None:
+        """End every worker now, whatever it does."""
+        with self._lock:
+            self._open = False
+            self._waiting.clear()
+            for desk in self._desks:
+                if desk.worker is not None:
+                    desk.worker.kill()
+                desk.wake.notify_all()
+        for desk in self._desks:
+            if desk.thread is not None:
+                desk.thread.join(5.0)
+
+    def _assign(self) -> None:
+        """Give waiting jobs to idle workers, a session's to the worker that served it last where that is idle."""
+        self._waiting.sort(key=lambda job: (job.turn, job.number))
+        while self._waiting and (idle := [desk for desk in self._desks if desk.job is None]):
+            job = self._waiting.pop(0)
+            desk = max(idle, key=lambda desk: (desk.served == job.session, desk.ready))
+            desk.job, desk.served, job.place = job, job.session, 0
+            self._turns.now = max(self._turns.now, job.turn)
+            desk.wake.notify_all()
+        self._tell_places()
+
+    def _tell_places(self) -> None:
+        for place, job in enumerate(self._waiting, start=1):
+            if job.place != place:
+                job.place = place
+                job.tell(Event("waiting", place))
+
+    def _later(self, seconds: float, desk: _Desk, job: Job, late: bool) -> threading.Timer:
+        """End the process of a job that still runs after so many seconds."""
+
+        def end() -> None:
+            with self._lock:
+                if desk.job is job and desk.worker is not None:
+                    desk.late = late
+                    desk.worker.kill()
+
+        timer = threading.Timer(seconds, end)
+        timer.daemon = True
+        timer.start()
+        return timer
+
+    def _look_after(self, desk: _Desk) -> None:
+        """Keep a process at a desk, and see its jobs through, one after the other."""
+        while self._open:
+            if desk.worker is None:
+                self._seat(desk)
+            with self._lock:
+                while self._open and desk.job is None:
+                    desk.wake.wait()
+                job = desk.job
+            if job is not None and self._open:
+                ending = self._see_through(desk, job)
+                with self._lock:
+                    desk.job = None
+                    if ending is None:  # its process had gone before it took the job: once more
+                        self._waiting.append(job)
+                    else:
+                        job.tell(ending)
+                    self._assign()
+        if desk.worker is not None:
+            desk.worker.bury()
+
+    def _seat(self, desk: _Desk) -> None:
+        """Start a process and wait until it is ready; one that cannot start is left for the next job to try."""
+        worker = WorkerProcess(self._work)
+        with self._lock:
+            desk.worker, desk.ready = worker, False
+            if not self._open:
+                worker.kill()
+        desk.ready = next(worker.lines(), None) is not None
+        desk.false_starts = 0 if desk.ready else desk.false_starts + 1
+        if not desk.ready and desk.false_starts < _FALSE_STARTS and self._open:
+            worker.bury()
+            self._seat(desk)
+
+    def _see_through(self, desk: _Desk, job: Job) -> Event | None:
+        """Return how a job ended, or None where its process was gone before it took it."""
+        worker = desk.worker
+        assert worker is not None
+        if job.unwanted:
+            return Event("stopped")
+        desk.late, took, leaves, ending = False, False, False, None
+        clock = self._later(self._seconds, desk, job, late=True)
+        worker.send({"number": job.number, "what": job.what})
+        for told in worker.lines():
+            kind, value = told["kind"], told.get("value")
+            if kind == "took":
+                took = True
+                job.tell(Event("started"))
+            elif Event(kind).ends:
+                self.memory[worker.pid], leaves, ending = told["memory"], told["leaves"], Event(kind, value)
+                break
+            elif not job.unwanted:
+                job.tell(Event(kind, value))
+        clock.cancel()
+        if ending is None or leaves:
+            how = worker.bury()
+            self.memory.pop(worker.pid, None)
+            desk.worker, desk.ready = None, False
+            ending = ending or self._loss(desk, job, took, how)
+        return Event("stopped") if ending is not None and job.unwanted else ending
+
+    def _loss(self, desk: _Desk, job: Job, took: bool, how: str) -> Event | None:
+        """Say what became of a job whose process ended."""
+        if desk.late:
+            return Event("late", self._seconds)
+        job.tries += 1
+        if took or job.tries > 1:
+            return Event("lost", how)
+        return None

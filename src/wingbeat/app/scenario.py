@@ -1,0 +1,174 @@
+"""What somebody asks of the explorer: every choice of the page, checked, and the orbit problem it stands for."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from wingbeat.aero import EXTENSIONS, LIBRARY, BladeElement, load_coefficients
+from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.species import Species, load_species, species_names
+from wingbeat.species.loading import species_of
+from wingbeat.species_schema import read_species_text
+
+__all__ = ["FORCE_POINTS", "MOST_STARTS", "Scenario", "problem_of", "species_from_text", "species_in"]
+
+FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
+# What one visitor may ask of a machine that others use, too.
+MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
+LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Every choice of the page; SI units and radians.
+
+    Parameters
+    ----------
+    species : name of a species in the box, or the one in `species_file`.
+    species_file : TOML text of a species of the visitor's own, empty if it is one in the box.
+    speed, climb : mean velocity [m/s].
+    aero, extension, blend_width_deg, strips, force_point : the air loads, as on the command line.
+    minimise : name of the quantity made least.
+    limits : what is kept within limits, texts as for ``--subject-to``.
+    bounds : bounds of free parameters in place of the species' own.
+    values : numbers of the species that were changed, by their paths.
+    starts : searches, None for as many as is usual.
+    seed : of the random starts.
+    sweep : first and last speed and step of the curve [m/s].
+    """
+
+    species: str = "pigeon"
+    species_file: str = ""
+    speed: float = 10.0
+    climb: float = 0.0
+    aero: str = "su-fan"
+    extension: str = "mirrored"
+    blend_width_deg: float = 1.0
+    strips: int = 10
+    force_point: str = "quarter-chord"
+    minimise: str = "frequency"
+    limits: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    values: Mapping[str, float | tuple[float, ...]] = field(default_factory=dict)
+    starts: int | None = None
+    seed: int = 0
+    sweep: tuple[float, float, float] = (4.0, 16.0, 1.0)
+
+    def faults(self) -> FaultList:
+        """Return what is wrong with each choice by itself; what they make together `problem_of` checks."""
+        faults = FaultList()
+        if not self.species_file:
+            faults.choice("species", self.species, species_names())
+        elif len(self.species_file) > LARGEST_FILE:
+            faults.add("species_file", f"{len(self.species_file)} characters", f"must be <= {LARGEST_FILE}")
+        faults.number("speed", self.speed, at_least=0, at_most=100, unit="m/s", fix="0 is hover")
+        faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
+        faults.choice("aero", self.aero, tuple(LIBRARY))
+        faults.choice("extension", self.extension, EXTENSIONS)
+        faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
+        faults.choice("force_point", self.force_point, FORCE_POINTS)
+        faults.choice("minimise", self.minimise, tuple(QUANTITIES))
+        _whole(faults, "strips", self.strips, 1, MOST_STRIPS)
+        _whole(faults, "seed", self.seed, 0, 100_000)
+        if self.starts is not None:
+            _whole(faults, "starts", self.starts, 1, MOST_STARTS)
+        for name, count, most in (
+            ("limits", len(self.limits), MOST_LIMITS),
+            ("bounds", len(self.bounds), MOST_NUMBERS),
+            ("set", len(self.values), MOST_NUMBERS),
+        ):
+            if count > most:
+                faults.add(name, count, f"must be at most {most}", "leave some out")
+        self._check_sweep(faults)
+        return faults
+
+    def _check_sweep(self, faults: FaultList) -> None:
+        first, last, step = self.sweep
+        good = faults.number("sweep.from", first, at_least=0, at_most=100, unit="m/s")
+        good &= faults.number("sweep.to", last, at_least=0, at_most=100, unit="m/s")
+        if faults.number("sweep.step", step, above=0, at_most=100, unit="m/s") and good:
+            if not first < last:
+                faults.add("sweep.to", last, f"must be > {first:g} m/s", "the curve runs from slow to fast")
+            elif (last - first) / step > MOST_SPEEDS - 1 + 1e-9:
+                faults.add("sweep.step", step, f"gives more than {MOST_SPEEDS} speeds", "take longer steps")
+
+    def speeds(self) -> list[float]:
+        """Return the speeds of the curve [m/s]."""
+        first, last, step = self.sweep
+        return [round(first + i * step, 9) for i in range(math.floor((last - first) / step + 1e-9) + 1)]
+
+    def at(self, speed: float) -> Scenario:
+        """Return this at another speed [m/s]."""
+        return dataclasses.replace(self, speed=speed)
+
+
+def _whole(faults: FaultList, where: str, value: Any, least: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+        faults.add(where, value, f"must be a whole number from {least} to {most}")
+
+
+@functools.lru_cache(maxsize=32)
+def species_from_text(text: str, label: str) -> Species:
+    """Return the species that the text of a species file describes.
+
+    Raises
+    ------
+    FileError : not TOML. InvalidInputError : everything that is wrong with it.
+    """
+    faults = FaultList()
+    return species_of(read_species_text(text, label, label.removesuffix(".toml"), faults), faults)
+
+
+@functools.lru_cache(maxsize=64)
+def _species_in_box(name: str) -> Species:
+    return load_species(name)
+
+
+def species_in(scenario: Scenario) -> Species:
+    """Return the species as its file has it, before any number is changed."""
+    if scenario.species_file:
+        return species_from_text(scenario.species_file, f"{scenario.species}.toml")
+    return _species_in_box(scenario.species)
+
+
+def problem_of(scenario: Scenario) -> OrbitProblem:
+    """Return the orbit problem that a scenario stands for, the same as the command line's.
+
+    Raises
+    ------
+    InvalidInputError : everything that is wrong with it; `where` names the choice.
+    """
+    faults = scenario.faults()
+    faults.raise_if_any()
+    species, loads = None, None
+    try:
+        species = species_in(scenario)
+        if scenario.values:
+            species = species.with_values(dict(scenario.values))
+    except InvalidInputError as error:
+        faults.faults += error.faults
+    except FileError as error:
+        faults.add("species_file", scenario.species, str(error))
+    try:
+        coefficients = load_coefficients(scenario.aero, scenario.extension, scenario.blend_width_deg)
+        loads = BladeElement(coefficients, scenario.strips, scenario.force_point)
+    except InvalidInputError as error:
+        faults.faults += error.faults
+    faults.raise_if_any()
+    assert species is not None
+    return OrbitProblem(
+        species,
+        scenario.speed,
+        climb=scenario.climb,
+        aero=loads,
+        bounds=dict(scenario.bounds),
+        minimise=scenario.minimise,
+        subject_to=scenario.limits,
+    )

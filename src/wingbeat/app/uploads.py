@@ -1,0 +1,199 @@
+"""Files that somebody sent: looked at with suspicion, in a worker process, before anything is believed."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.app.links import from_json, to_plain
+from wingbeat.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
+from wingbeat.errors import FileError
+from wingbeat.files import read_text
+from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.results.orbit import Orbit, load_orbit
+from wingbeat.results.provenance import inputs_of
+from wingbeat.species import species_text
+
+if TYPE_CHECKING:
+    import h5py
+
+__all__ = ["MOST_BYTES", "MOST_DECLARED", "clean_label", "read_upload", "scenario_of"]
+
+MOST_BYTES = 5_000_000
+# What all arrays of a file may take once they are unpacked; an orbit takes less than one million.
+MOST_DECLARED = 50_000_000
+_MOST_OBJECTS = 400
+_MOST_ATTRIBUTE = 1_000_000
+# Many texts may share one place in a file of modest size, and all be unpacked.
+_MOST_TEXTS = 8
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+
+
+def clean_label(name: str) -> str:
+    r"""Return what a file is called in messages: the last part of its name, printable and short; never a path.
+
+    >>> clean_label("../../etc/my\nbat.toml")
+    'mybat.toml'
+    """
+    last = name.replace("\\", "/").rpartition("/")[2]
+    return "".join(c for c in last if c.isprintable()).strip()[:60] or "the file"
+
+
+def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
+    """Return the orbit in a file, or ``{"scenario": ...}`` of a saved state, or ``{"species": ..., "text": ...}``.
+
+    Parameters
+    ----------
+    path : where the server put it, under a name of its own.
+    label : what the visitor calls it.
+
+    Raises
+    ------
+    FileError, InvalidInputError : everything that is wrong with it, in words.
+    """
+    with open(path, "rb") as file:
+        start = file.read(8)
+    try:
+        if start == _HDF5:
+            check_hdf5(path, label)
+            return _checked(load_orbit(path), label)
+        text = read_text(path)
+        if text.lstrip()[:1] == "{":
+            return {"scenario": to_plain(from_json(text, label))}
+        species = species_from_text(text, label)
+    except FileError as error:
+        raise FileError(str(error).replace(path, label)) from None
+    return {"species": clean_label(species.name), "text": text}
+
+
+def check_hdf5(path: str, label: str) -> None:
+    """Refuse a file of too many or too large arrays, or one that reaches for other files, before it is read.
+
+    Raises
+    ------
+    FileError : which rule it breaks.
+    """
+    import h5py
+
+    def refuse(why: str) -> FileError:
+        return FileError(f"cannot take {label!r}: {why}; give a file of `wingbeat orbit -o`")
+
+    declared, objects = 0, 0
+    try:
+        with h5py.File(path, "r") as file:
+            pending: list[h5py.Group] = [file]
+            _check_attributes(file, refuse)
+            while pending:
+                group = pending.pop()
+                for name in group:
+                    objects += 1
+                    if objects > _MOST_OBJECTS:
+                        raise refuse(f"it holds more than {_MOST_OBJECTS} arrays")
+                    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+                        raise refuse("it points to other places or files")
+                    item = group[name]
+                    _check_attributes(item, refuse)
+                    if isinstance(item, h5py.Group):
+                        pending.append(item)
+                    elif isinstance(item, h5py.Dataset):
+                        declared += _declared(item, refuse)
+                    if declared > MOST_DECLARED:
+                        raise refuse(f"unpacked it would take more than {MOST_DECLARED // 1_000_000} million bytes")
+    except FileError:
+        raise
+    except Exception as error:  # HDF5 reports damage through many kinds of exception
+        reason = str(error).split("\n")[0][:200]
+        raise FileError(f"cannot read {label!r}: it is damaged or cut short ({reason}); solve it again") from None
+
+
+def _declared(item: h5py.Dataset, refuse: Any) -> int:
+    """Return the bytes of an array once unpacked, whichever is more: all of it, or one of its chunks."""
+    if item.external or item.is_virtual:
+        raise refuse("it points to other places or files")
+    count = math.prod(item.shape or (1,))
+    if item.dtype.kind == "O" and count > _MOST_TEXTS:
+        raise refuse("it holds arrays that are no numbers")
+    whole = count * item.dtype.itemsize
+    chunk = math.prod(item.chunks or (0,)) * item.dtype.itemsize
+    return max(whole, chunk)
+
+
+def _check_attributes(item: Any, refuse: Any) -> None:
+    if len(item.attrs) > _MOST_OBJECTS:
+        raise refuse(f"it holds more than {_MOST_OBJECTS} attributes at one place")
+    texts = 0
+    for name in item.attrs:
+        about = item.attrs.get_id(name)
+        count = math.prod(about.shape or (1,))
+        if count * about.dtype.itemsize > _MOST_ATTRIBUTE or (about.dtype.kind == "O" and count > _MOST_TEXTS):
+            raise refuse("it holds an attribute too large")
+        if about.dtype.kind == "O":
+            texts += len(str(item.attrs[name]))
+        if texts > _MOST_ATTRIBUTE:
+            raise refuse("it holds too much text")
+
+
+def _checked(orbit: Orbit, label: str) -> Orbit:
+    """Return an orbit whose numbers are numbers."""
+    import numpy as np
+
+    for name, values in orbit.dataset.variables.items():
+        if values.dtype.kind == "f" and not np.isfinite(values.values).all():
+            raise FileError(
+                f"cannot show {label!r}: {name} holds values that are no numbers; solve the orbit again"
+            )
+    return orbit
+
+
+def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
+    """Return the scenario whose problem is that of an orbit, or None and why there is none."""
+    inputs, why_not = orbit.inputs, ""
+    for written_out in (False, True):
+        try:
+            scenario = _asking_for(orbit.problem, inputs, written_out)
+            again = inputs_of(problem_of(scenario), inputs["starts"], inputs["seed"])
+        except (LookupError, TypeError, ValueError, AttributeError, FileError) as error:
+            why_not = str(error).splitlines()[0][:160]
+            continue
+        parts = ("vehicle", "stock_wingbeat", "aero", "air", "free", "bounds", "objective", "constraints")
+        odd = [part for part in parts if again[part] != inputs[part]]
+        if not odd:
+            return to_plain(scenario), ""
+        why_not = f"{odd[0].replace('_', ' ')} would not be the same"
+    return None, why_not
+
+
+def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool) -> Scenario:
+    """Return a scenario of the problem, of the species in the box of its name or with the species written out."""
+    species, aero = problem.species, problem.aero
+    name, text = species.name, ""
+    if written_out:
+        # A file keeps no reasons for its bounds, and its numbers to six digits; the rest is set below.
+        text = species_text(
+            dataclasses.replace(species, reasons=dict.fromkeys((*species.bounds, "body_pitch"), ""))
+        )
+        name = clean_label(name)
+    known = species_in(Scenario(species=name, species_file=text))
+    bounds = {**known.bounds, "body_pitch": known.body_pitch_bounds}
+    return Scenario(
+        species=name,
+        species_file=text,
+        speed=problem.speed,
+        climb=problem.climb,
+        aero=aero.coefficients.name,
+        extension=aero.coefficients.extension,
+        blend_width_deg=aero.coefficients.blend_width_deg,
+        strips=aero.strips,
+        force_point=aero.force_point,
+        minimise=problem.minimise.name,
+        limits=tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to),
+        bounds={n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)},
+        values={
+            path: number.value
+            for path, number in species.numbers.items()
+            if path != "vehicle.mass" and known.numbers[path].value != number.value
+        },
+        starts=min(inputs["starts"], MOST_STARTS),
+        seed=inputs["seed"],
+    )

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["do"]
 
-# A continued orbit must be better by this share before the page says that it is.
-_BETTER = 1e-4
 _MOST_RANKED = 12
 
 
@@ -56,24 +54,16 @@ def _sentence(fault: Any) -> str:
 
 
 def _orbit(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
-    """Continue the answer before, hand that over, then search as the command line does."""
+    """Continue the answer before where there is one near; else search as the command line does."""
     begun = time.perf_counter()
-    problem = problem_of(from_plain(what["scenario"]))
+    scenario = from_plain(what["scenario"])
+    problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
     if continued is not None:
-        first = answer_of(Orbit.of(continued, 1), what.get("beside"), begun)
-        if what.get("brief"):
-            return first
-        hand.part(first)
-    begun = time.perf_counter()
-    orbit = solve_orbit(problem, what["scenario"].get("starts"), what["scenario"].get("seed", 0), hand.progress)
+        return answer_of(Orbit.of(continued, 1), what.get("beside"), begun) | {"continued": True}
+    orbit = solve_orbit(problem, scenario.starts, scenario.seed, hand.progress)
     hand.check()
-    answer = answer_of(orbit, what.get("beside"), begun)
-    best = answer["record"].get("objective_value")
-    if continued is not None and best is not None and orbit.status is Status.CONVERGED:
-        better = continued.objective < best - _BETTER * abs(best)
-        answer["continued_better"] = continued.objective if better else None
-    return answer
+    return answer_of(orbit, what.get("beside"), begun)
 
 
 def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:

@@ -24,7 +24,7 @@ class Event(NamedTuple):
     Parameters
     ----------
     kind : ``waiting`` (value: place in the queue, 1 is next), ``started``, ``progress`` (value: [done, total]),
-        ``part`` (value: part of the answer), and one of the endings ``done`` (value: the answer), ``stopped``,
+        and one of the endings ``done`` (value: the answer), ``stopped``,
         ``failed`` (value: what went wrong), ``lost`` (value: how its process ended), ``late`` (value: seconds).
     value : see `kind`.
     """

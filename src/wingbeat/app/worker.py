@@ -42,11 +42,6 @@ class Hand:
         self.check()
         self._tell({"kind": "progress", "value": [done, total]})
 
-    def part(self, value: Any) -> None:
-        """Hand over part of the answer; ends the job here if it is no longer wanted."""
-        self.check()
-        self._tell({"kind": "part", "value": value})
-
 
 def _read(jobs: queue.SimpleQueue[Any], unwanted: set[int]) -> None:
     for line in sys.stdin.buffer:

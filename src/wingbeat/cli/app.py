@@ -43,9 +43,17 @@ COMMANDS = {
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
+    "app": "Open the explorer in a browser: choose, slide, and see it fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }
+
+# Commands whose module goes by another name.
+_HOMES = {"app": "explorer"}
+
+
+def _module(name: str) -> str:
+    return f"wingbeat.cli.{_HOMES.get(name, name)}"
 
 
 def build_app(chosen: str = "") -> App:
@@ -55,7 +63,9 @@ def build_app(chosen: str = "") -> App:
     """
     app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
-        app.command(f"wingbeat.cli.{name}:{name}", name=name, **({} if name == chosen else {"help": text}))
+        app.command(
+            f"wingbeat.cli.{_HOMES.get(name, name)}:{name}", name=name, **({} if name == chosen else {"help": text})
+        )
     return app
 
 
@@ -128,7 +138,7 @@ def _missing_command(error: ImportError) -> str | None:
     """Return which command's own module is absent, or None if an import failed for another reason."""
     cause = error.__cause__
     for name in COMMANDS:
-        if isinstance(cause, ModuleNotFoundError) and cause.name == f"wingbeat.cli.{name}":
+        if isinstance(cause, ModuleNotFoundError) and cause.name == _module(name):
             return name
     return None
 

@@ -1,0 +1,172 @@
+"""The answer on the page: headline numbers, status, certificate, warnings, and what the answer hangs on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat.app.widgets import Rows, box, button, tag
+from wingbeat.app.words import number, tiles
+
+__all__ = ["Answer", "Headline", "Influence"]
+
+
+class Headline:
+    """Status and the few numbers that everybody looks at first."""
+
+    def __init__(self) -> None:
+        self._place = tag("section", classes="headline", aria_label="Answer in short")
+        self._tiles: dict[str, tuple[Any, Any]] = {}
+        with self._place:
+            with tag("div", classes="verdict"):
+                self._badge = tag("p", "Not solved yet", "badge none")
+                self._title = tag("h2", "", "what")
+                self._message = tag("p", "", "message")
+            self._strip = tag("dl", classes="tiles")
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Show the numbers of an answer."""
+        record = answer["record"]
+        good = record["status"] == "converged"
+        self._badge.set_text("Certified" if good else f"Not certified: {record['status']}")
+        self._badge.classes(remove="none good bad", add="good" if good else "bad")
+        climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
+        aero = record["aero"]["coefficients"]
+        self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
+        self._message.set_text(_message(answer))
+        for label, value, unit, exact in tiles(record):
+            if label not in self._tiles:
+                with self._strip, tag("div", classes="tile"):
+                    tag("dt", label)
+                    with tag("dd"):
+                        shown = tag("output", value, "value")
+                        tag("span", unit, "unit")
+                self._tiles[label] = shown, None
+            shown = self._tiles[label][0]
+            if shown.text != value:
+                shown.set_text(value)
+            shown.props["title"] = f"{exact} {unit}".strip()
+            shown.props["data-exact"] = exact
+
+
+def _message(answer: dict[str, Any]) -> str:
+    parts = [str(answer["record"]["message"]).removeprefix("certified: ")]
+    if answer.get("from_file"):
+        parts.append(f"As the file {answer['from_file']} says; not solved here.")
+    elif answer.get("continued"):
+        parts.append("Continued from the answer before, one search.")
+    if answer.get("continued_better") is not None:
+        better = number(answer["continued_better"])
+        parts.append(f"Continued from its neighbour a better one is known: {better}. More starts may meet it.")
+    text = ". ".join(part.rstrip(".") for part in parts if part)
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+class Answer:
+    """Everything else that is known of an answer, and what can be done with it.
+
+    Parameters
+    ----------
+    acts : what the buttons do, by their texts.
+    """
+
+    def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
+        with box("section", "The answer", "answer"):
+            with tag("div", classes="acts"):
+                self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
+            self._warnings = tag("ul", classes="warnings hidden", aria_label="Warnings")
+            self._rows = Rows()
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Show an answer."""
+        record = answer["record"]
+        for each in self._buttons:
+            each.props.pop("disabled", None)
+        self._rows.show(answer["groups"])
+        texts = [str(text) for text in record.get("warnings") or []]
+        if texts != getattr(self, "_shown", None):
+            self._shown = texts
+            self._warnings.clear()
+            with self._warnings:
+                for text in texts:
+                    tag("li", text)
+            self._warnings.classes(remove="hidden") if texts else self._warnings.classes("hidden")
+
+
+class Influence:
+    """What the answer hangs on: error bars, what matters most, what bounds cost."""
+
+    def __init__(self, ask: Callable[[], Any]) -> None:
+        with box("section", "What it hangs on", "influence"):
+            tag("p", "Exact derivatives of the certified optimum by every number it hangs on.", "note")
+            with tag("div", classes="acts"):
+                button("Differentiate this answer", ask)
+            self._state = tag("p", "", "note", role="status")
+            self._place = tag("div")
+
+    def say(self, text: str) -> None:
+        """Say how far it is, or what went wrong."""
+        self._state.set_text(text)
+
+    def clear(self) -> None:
+        """Show nothing: the answer has changed."""
+        self._state.set_text("")
+        self._place.clear()
+
+    def show(self, found: dict[str, Any]) -> None:
+        """Show what was found."""
+        names = list(found["values"])
+        self._place.clear()
+        with self._place:
+            with tag("ul", classes="plain"):
+                for bar in found["bars"]:
+                    unit = "" if bar["unit"] == "1" else f" {bar['unit']}"
+                    what = str(bar["quantity"]).replace("_", " ")
+                    tag(
+                        "li", f"{what} {number(bar['value'])} ± {number(bar['deviation'], 2)}{unit}, to first order"
+                    )
+            with (
+                tag("div", classes="scroll", tabindex="0", role="region", aria_label="Sensitivities"),
+                tag("table"),
+            ):
+                tag("caption", "Change to the low and the high end of each plausible range, the largest first")
+                with tag("thead"), tag("tr"):
+                    tag("th", "Number", scope="col")
+                    tag("th", "Plausible", scope="col")
+                    for name in names:
+                        tag("th", f"{name.replace('_', ' ')} [{found['units'][name]}]", scope="col")
+                with tag("tbody"):
+                    for one in found["ranked"]:
+                        _ranked(one, names)
+            tag("h3", "What the active bounds cost")
+            with tag("ul", classes="plain"):
+                for price in found["prices"]:
+                    tag("li", _price(price, found["units"]))
+                if not found["prices"]:
+                    tag("li", "No bound is active.")
+
+
+def _scroll(label: str) -> Any:
+    return tag("div", classes="scroll", tabindex="0", role="region", aria_label=label)
+
+
+def _ranked(one: dict[str, Any], names: list[str]) -> None:
+    with tag("tr"):
+        tag("th", one["path"], scope="row")
+        ends, unit = one["plausible"], "" if one["unit"] == "1" else f" {one['unit']}"
+        if ends and one["unit"] == "rad":
+            ends, unit = [math.degrees(end) for end in ends], " deg"
+        tag("td", "±1 %" if ends is None else f"{ends[0]:.3g} to {ends[1]:.3g}{unit}")
+        for name in names:
+            tag("td", "{:+.2g}, {:+.2g}".format(*one["swings"][name]))
+
+
+def _price(price: dict[str, Any], units: dict[str, str]) -> str:
+    in_degrees = price["unit"] == "rad"
+    per = math.radians(1.0) if in_degrees else 0.01 * price["size"]
+    amount = "1 deg" if in_degrees else f"{per:.3g} {price['unit']}"
+    changes = [
+        f"{slope * per:+.3g} {units[name]} of {name.replace('_', ' ')}" for name, slope in price["by"].items()
+    ]
+    return f"{amount} more of {price['path']}: {', '.join(changes)}"

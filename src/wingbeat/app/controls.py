@@ -1,0 +1,168 @@
+"""The form: animal, flight, air loads, search, bounds and every number of the animal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat.aero import EXTENSIONS, LIBRARY
+from wingbeat.app.numbers import Numbers
+from wingbeat.app.scenario import FORCE_POINTS, Scenario, species_in
+from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
+from wingbeat.app.words import from_shown
+from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.species import species_names
+
+__all__ = ["Controls"]
+
+_OWN = "(loaded file)"
+_FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
+
+
+class Controls:
+    """The controls of one page.
+
+    Parameters
+    ----------
+    scenario : what they show at first.
+    change : called with the choices that were changed.
+    """
+
+    def __init__(self, scenario: Scenario, change: Callable[..., Any]) -> None:
+        self._scenario, self._change = scenario, change
+        self._fields: dict[str, Field] = {}
+        self._species = ""
+
+    def build_flight(self) -> None:
+        """Make the controls that everybody wants first: animal and flight."""
+        now = self._scenario
+        with box("section", "Animal and flight", "first"):
+            names = [(name, name) for name in species_names()]
+            self._own = (_OWN, f"{now.species} (loaded file)") if now.species_file else None
+            self._animal_place = tag("div")
+            with self._animal_place:
+                self._build_animal(names)
+            self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
+            self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
+            self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
+            quantities = [(name, _quantity(name)) for name in QUANTITIES]
+            self._fields["minimise"] = choice_field("Make least", quantities, now.minimise, self._word("minimise"))
+
+    def _build_animal(self, names: list[tuple[str, str]]) -> None:
+        own = [self._own] if self._own else []
+        value = _OWN if self._scenario.species_file else self._scenario.species
+        self._fields["species"] = choice_field("Animal", [*own, *names], value, self._choose_animal)
+
+    def build_loads(self) -> None:
+        """Make the controls of air loads, search, bounds and numbers."""
+        now = self._scenario
+        with box("section", "Air loads"):
+            models, points = [[(name, name) for name in each] for each in (LIBRARY, FORCE_POINTS)]
+            reach = [(name, name) for name in EXTENSIONS]
+            self._fields["aero"] = choice_field("Model", models, now.aero, self._word("aero"))
+            self._fields["extension"] = choice_field("Extension", reach, now.extension, self._word("extension"))
+            self._fields["force_point"] = choice_field(
+                "Force acts at", points, now.force_point, self._word("force_point")
+            )
+            width, strips = f"{now.blend_width_deg:g}", str(now.strips)
+            self._fields["blend_width_deg"] = number_field(
+                "Blend", width, self._number("blend_width_deg"), unit="deg"
+            )
+            self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
+        with box("section", "Search"):
+            starts = "" if now.starts is None else str(now.starts)
+            hint = "empty: as many as is usual"
+            self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
+            self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
+            hint = "such as peak_power<=30, body_pitch_range<=10 deg; commas between"
+            limits = ", ".join(now.limits)
+            self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
+        self._numbers_place = tag("div", classes="numbers")
+        self._build_numbers()
+
+    def _build_numbers(self) -> None:
+        self._species = self._scenario.species_file or self._scenario.species
+        self._numbers_place.clear()
+        with self._numbers_place:
+            self._numbers = Numbers(species_in(self._scenario), self._scenario, self._change)
+
+    def show(self, scenario: Scenario) -> None:
+        """Show another scenario."""
+        before, self._scenario = self._scenario, scenario
+        if (scenario.species_file or scenario.species) != self._species:
+            self._own = (_OWN, f"{scenario.species} (loaded file)") if scenario.species_file else None
+            self._animal_place.clear()
+            with self._animal_place:
+                self._build_animal([(name, name) for name in species_names()])
+            self._build_numbers()
+        elif scenario.values != before.values or scenario.bounds != before.bounds:
+            self._numbers.show(scenario)
+        for name in ("speed", "climb", "blend_width_deg"):
+            self._fields[name].show(f"{getattr(scenario, name):g}")
+        for name in ("aero", "extension", "force_point", "minimise"):
+            self._fields[name].show(getattr(scenario, name))
+        for name in ("strips", "starts", "seed"):
+            value = getattr(scenario, name)
+            self._fields[name].show("" if value is None else str(value))
+        self._fields["limits"].show(", ".join(scenario.limits))
+        if self._slider.props.get("value") != f"{scenario.speed:g}":
+            self._slider.props["value"] = f"{scenario.speed:g}"
+
+    def refuse(self, refusals: list[list[str]]) -> list[str]:
+        """Tell each fault beside its control, and return those that belong to none."""
+        told: dict[Field, list[str]] = {}
+        homeless = []
+        for where, message in refusals:
+            field = self._field_of(where)
+            if field is None:
+                homeless.append(message)
+            else:
+                told.setdefault(field, []).append(message)
+        for field in [*self._fields.values(), *self._numbers.fields]:
+            field.refuse("; ".join(told.get(field, [])))
+        return homeless
+
+    def _field_of(self, where: str) -> Field | None:
+        aliases = {"coefficients": "aero", "quantity": "minimise", "constraint": "limits", "subject_to": "limits"}
+        name = aliases.get(where.partition("[")[0], where)
+        return self._fields.get(name) or self._numbers.field_of(where)
+
+    def _choose_animal(self, name: str) -> None:
+        if name != _OWN:
+            # The numbers that were changed were another animal's.
+            self._change(species=name, species_file="", values={}, bounds={})
+
+    def _word(self, name: str) -> Callable[[str], None]:
+        return lambda text: self._change(**{name: text})
+
+    def _number(self, name: str) -> Callable[[str], None]:
+        def act(text: str) -> None:
+            value = from_shown(text, "", several=False)
+            if isinstance(value, float):
+                self._change(**{name: value})
+            else:
+                self._fields[name].refuse(f"{text[:30]!r} is not a number")
+
+        return act
+
+    def _whole(self, name: str) -> Callable[[str], None]:
+        def act(text: str) -> None:
+            value = from_shown(text, "", several=False)
+            if name == "starts" and not text.strip():
+                self._change(starts=None)
+            elif isinstance(value, float) and value == math.floor(value):
+                self._change(**{name: int(value)})
+            else:
+                self._fields[name].refuse(f"{text[:30]!r} is not a whole number")
+
+        return act
+
+    def _limits(self, text: str) -> None:
+        self._change(limits=tuple(part.strip() for part in text.split(",") if part.strip()))
+
+
+def _quantity(name: str) -> str:
+    unit = QUANTITIES[name].unit
+    shown = {"1": "", "rad": " [deg]", "m s-2": " [m/s²]"}.get(unit, f" [{unit}]")
+    return name.replace("_", " ") + shown

@@ -1,0 +1,71 @@
+"""The flying animal on the page: the one place that knows how the viewer is mounted and fed."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from wingbeat.app.shelf import Shelf, Thing
+from wingbeat.app.widgets import run_script, tag
+from wingbeat.viewer import bundle_path
+
+__all__ = ["BUNDLE", "SCRIPT", "Flying", "bundle"]
+
+BUNDLE = "/wingbeat/viewer.js"
+# Scenes come by their own requests; one that is overtaken by a later one is not shown.
+SCRIPT = f"""
+window.wingbeatFlying = {{
+  handle: null, asked: 0, shown: 0, theme: "system",
+  async show(place, url) {{
+    const mine = ++this.asked;
+    const [scene, viewer] = await Promise.all([fetch(url).then((r) => r.ok ? r.json() : null), import("{BUNDLE}")]);
+    if (!scene || mine < this.shown) return;
+    this.shown = mine;
+    if (this.handle) this.handle.replace(scene);
+    else {{
+      const element = document.getElementById(place);
+      element.textContent = "";
+      this.handle = viewer.mount(element, scene, {{ theme: this.theme }});
+    }}
+  }},
+  setTheme(theme) {{
+    this.theme = theme;
+    this.handle?.setTheme?.(theme);
+  }},
+}};
+"""
+
+
+def bundle() -> bytes:
+    """Return the viewer's module."""
+    return bundle_path().read_bytes()
+
+
+class Flying:
+    """The place of the viewer on one page.
+
+    Parameters
+    ----------
+    shelf, session : where scenes are laid out for the browser to fetch.
+    """
+
+    def __init__(self, shelf: Shelf, session: str) -> None:
+        self._shelf, self._session = shelf, session
+        self._place: Any = tag("div", classes="flying", role="region", aria_label="The flying animal")
+        self._place.props["id"] = self._place.html_id
+        with self._place:
+            tag(
+                "p",
+                "The first wingbeat is being solved. The first solve after a start takes some seconds.",
+                "empty",
+            )
+
+    def show(self, scene: str) -> None:
+        """Show a scene, the JSON text that the viewer takes."""
+        name = self._shelf.put(self._session, Thing(scene.encode(), "application/json"))
+        url = json.dumps(f"/wingbeat/shelf/{name}")
+        run_script(f"wingbeatFlying.show({json.dumps(self._place.html_id)}, {url})")
+
+    def set_theme(self, theme: str) -> None:
+        """Show the viewer as the ``system`` has it, ``light`` or ``dark``."""
+        run_script(f"wingbeatFlying.setTheme({json.dumps(theme)})")

@@ -1,0 +1,152 @@
+"""Bounds and numbers of the animal on the page: each with its unit, its source and what is plausible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat.app.scenario import Scenario
+from wingbeat.app.widgets import Field, button, number_field, tag
+from wingbeat.app.words import from_shown, range_text, shown_text, spoken_path, unit_of
+from wingbeat.kinematics import ANGLES
+from wingbeat.species import Number, Species
+
+__all__ = ["Numbers"]
+
+_GROUPS = {"vehicle.body": "Body", "vehicle.wing": "Wing", "wingbeat": "Held in the wingbeat", "air": "Air"}
+
+
+class Numbers:
+    """Fields of one animal.
+
+    Parameters
+    ----------
+    species : as its file has it.
+    scenario : what was changed of it.
+    change : called with ``values`` or ``bounds`` in place of those before.
+    """
+
+    def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
+        self._species, self._change = species, change
+        self._scenario = scenario
+        self._values: dict[str, Field] = {}
+        self._bounds: dict[tuple[str, int], Field] = {}
+        self._resets: list[Any] = []
+        with _folded("Bounds of what is free"):
+            for name in (*species.bounds, "body_pitch"):
+                self._build_bound(name)
+            self._resets.append(button("As the animal's file has them", lambda: change(bounds={}), "quiet"))
+        for group, title in _GROUPS.items():
+            held = [path for path in species.numbers if self._is_shown(path) and path.startswith(f"{group}.")]
+            with _folded(title):
+                for path in held:
+                    self._build_number(path)
+        self.show(scenario)
+
+    @property
+    def fields(self) -> list[Field]:
+        """Every field."""
+        return [*self._values.values(), *self._bounds.values()]
+
+    def _is_shown(self, path: str) -> bool:
+        number, free = self._species.numbers[path], self._species.free
+        return path != "vehicle.mass" and path.partition("wingbeat.")[2] not in free and number.value != ()
+
+    def _build_number(self, path: str) -> None:
+        number = self._species.numbers[path]
+        tip = f"Source: {' '.join(number.source.split())}" if number.source else "No source is given."
+        self._values[path] = number_field(
+            spoken_path(path), shown_text(path, number), self._set(path), unit=unit_of(number), tip=tip
+        )
+
+    def _build_bound(self, name: str) -> None:
+        unit, tip = (
+            "deg" if self._is_angle(name) else "Hz" if name == "frequency" else "",
+            self._species.reasons.get(name, ""),
+        )
+        guess = "a guess" if name in self._species.guessed_bounds else ""
+        with tag("div", classes="pair", role="group", aria_label=f"Bounds of {name.replace('_', ' ')}"):
+            tag("span", name.replace("_", " "), "pair-name")
+            for end, word in enumerate(("from", "to")):
+                act = self._bound(name, end)
+                tip_here = " ".join(part for part in (tip, f"({guess})" if guess else "") if part)
+                self._bounds[name, end] = number_field(word, "", act, unit=unit, tip=tip_here)
+
+    def show(self, scenario: Scenario) -> None:
+        """Show the values of a scenario, and mark those outside what is plausible."""
+        self._scenario = scenario
+        for path, field in self._values.items():
+            number = self._species.numbers[path]
+            changed = path in scenario.values
+            now = number._replace(value=scenario.values[path]) if changed else number
+            field.show(shown_text(path, now))
+            outside = _is_outside(now)
+            hint = range_text(path, now)
+            if changed:
+                hint = f"{hint}; changed from {shown_text(path, number)}".removeprefix("; ")
+            field.mark(f"Outside: {hint}" if outside else hint, outside)
+        for (name, end), field in self._bounds.items():
+            field.show(self._bound_text(self._now(name)[end], name))
+
+    def _is_angle(self, name: str) -> bool:
+        return name in ANGLES or name == "body_pitch"
+
+    def _now(self, name: str) -> tuple[float, float]:
+        own = self._species.bounds.get(name, self._species.body_pitch_bounds)
+        low, high = self._scenario.bounds.get(name, own)
+        return low, high
+
+    def _bound_text(self, value: float, name: str) -> str:
+        return f"{math.degrees(value) if self._is_angle(name) else value:.6g}"
+
+    def field_of(self, where: str) -> Field | None:
+        """Return the field that a fault belongs to."""
+        name = where.removeprefix("bounds.")
+        if (name, 0) in self._bounds and where.startswith("bounds."):
+            return self._bounds[name, 0]
+        bare = where.removesuffix("_deg").partition("[")[0]
+        return next((self._values[p] for p in (bare, f"vehicle.{bare}") if p in self._values), None)
+
+    def _set(self, path: str) -> Callable[[str], None]:
+        number: Number = self._species.numbers[path]
+
+        def act(text: str) -> None:
+            several = isinstance(number.value, tuple) or path.endswith(".chord")
+            value = from_shown(text, number.unit, several)
+            values = dict(self._scenario.values)
+            if not text.strip() or text == shown_text(path, number):
+                values.pop(path, None)
+            elif value is None:
+                self._values[path].refuse(f"{text[:30]!r} is not a number")
+                return
+            else:
+                values[path] = value
+            self._change(values=values)
+
+        return act
+
+    def _bound(self, name: str, end: int) -> Callable[[str], None]:
+        def act(text: str) -> None:
+            value = from_shown(text, "rad" if self._is_angle(name) else "", several=False)
+            if not isinstance(value, float):
+                self._bounds[name, end].refuse(f"{text[:30]!r} is not a number")
+                return
+            low, high = self._now(name)
+            pair = (value, high) if end == 0 else (low, value)
+            self._change(bounds={**self._scenario.bounds, name: pair})
+
+        return act
+
+
+def _folded(title: str) -> Any:
+    """Return a part of the form that is folded up until it is wanted."""
+    fold = tag("details", classes="box fold")
+    with fold:
+        tag("summary", title)
+    return fold
+
+
+def _is_outside(number: Number) -> bool:
+    values = number.value if isinstance(number.value, tuple) else (number.value,)
+    return number.range is not None and not all(number.range[0] <= value <= number.range[1] for value in values)

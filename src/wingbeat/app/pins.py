@@ -1,0 +1,101 @@
+"""Pinned answers: a table to compare, bring back, or fly as a ghost beside the answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat.app.widgets import box, button, tag
+from wingbeat.app.words import number, tiles
+
+__all__ = ["MOST_PINS", "Pins"]
+
+MOST_PINS = 8
+
+
+class Pins:
+    """The pinned answers of a page.
+
+    Parameters
+    ----------
+    fly_beside : called with the answer to fly as a ghost, None for none.
+    bring_back : called with the answer whose choices are wanted again.
+    """
+
+    def __init__(self, fly_beside: Callable[[Any], Any], bring_back: Callable[[Any], Any]) -> None:
+        self._fly_beside, self._bring_back = fly_beside, bring_back
+        self._answers: list[dict[str, Any]] = []
+        self._ghost: dict[str, Any] | None = None
+        with box("section", "Pinned answers", "pins"):
+            self._note = tag("p", "Pin an answer to compare it with the next one, or to fly it as a ghost.", "note")
+            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned answers")
+
+    def pin(self, answer: dict[str, Any]) -> None:
+        """Keep an answer; the oldest leaves where there are too many."""
+        if any(each is answer for each in self._answers):
+            self._note.set_text("This answer is pinned already.")
+            return
+        self._answers.append(answer)
+        text = "Pinned."
+        if len(self._answers) > MOST_PINS:
+            gone = self._answers.pop(0)
+            text = f"Pinned; the oldest of more than {MOST_PINS} was let go."
+            if gone is self._ghost:
+                self._fly(None)
+        self._note.set_text(text)
+        self._draw()
+
+    def _fly(self, answer: dict[str, Any] | None) -> None:
+        self._ghost = answer
+        self._draw()
+        self._fly_beside(answer)
+
+    def _drop(self, answer: dict[str, Any]) -> None:
+        self._answers = [each for each in self._answers if each is not answer]
+        if answer is self._ghost:
+            self._fly(None)
+        self._draw()
+
+    def _draw(self) -> None:
+        self._place.clear()
+        if not self._answers:
+            return
+        with self._place, tag("table"):
+            tag("caption", "Pinned answers", "unseen")
+            heads = [
+                f"{label} [{unit}]" if unit else label for label, _, unit, _ in tiles(self._answers[0]["record"])
+            ]
+            with tag("thead"), tag("tr"):
+                for head in ("What", *heads, "Stable", "Do"):
+                    tag("th", head, scope="col")
+            with tag("tbody"):
+                for answer in self._answers:
+                    self._row(answer)
+
+    def _row(self, answer: dict[str, Any]) -> None:
+        record = answer["record"]
+        aero, least = record["aero"]["coefficients"], record["objective"].replace("_", " ")
+        name = f"{record['species']} at {number(record['speed'])} m/s, {aero}, least {least}"
+        flies = answer is self._ghost
+        with tag("tr"):
+            with tag("th", scope="row"):
+                tag("span", name)
+                if record["status"] != "converged":
+                    tag("span", f" ({record['status']})", "bad-text")
+            for _, value, _, _ in tiles(record):
+                tag("td", value)
+            stable = record.get("stable")
+            tag("td", "–" if stable is None else "yes" if stable else "no")
+            with tag("td", classes="acts"):
+                ghost = button(
+                    "Ghost",
+                    lambda: self._fly(None if flies else answer),
+                    "small",
+                    aria_label=f"Fly as ghost: {name}",
+                )
+                ghost.props["aria-pressed"] = "true" if flies else "false"
+                if answer.get("scenario"):
+                    button(
+                        "Bring back", lambda: self._bring_back(answer), "small", aria_label=f"Bring back: {name}"
+                    )
+                button("Remove", lambda: self._drop(answer), "small", aria_label=f"Remove: {name}")

@@ -1,0 +1,193 @@
+"""The server: one page a visitor, files in and out, one pool of workers behind them all."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import socket
+import tempfile
+import threading
+import webbrowser
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI, Request, Response
+from nicegui import Client, ui
+from starlette.middleware.trustedhost import TrustedHostMiddleware
+from starlette.requests import ClientDisconnect
+
+from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
+from wingbeat.app.page import Page
+from wingbeat.app.pool import Pool
+from wingbeat.app.shelf import Shelf
+from wingbeat.app.uploads import MOST_BYTES, clean_label
+from wingbeat.errors import Fault, InvalidInputError
+
+__all__ = ["serve"]
+
+_WORK = "wingbeat.app.jobs:do"
+_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_HEADERS = {
+    # Nothing is fetched from elsewhere, and nobody else's page frames this one.
+    "content-security-policy": "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
+    "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'; object-src 'none'",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+}
+_HEAD = """<link rel="stylesheet" href="/wingbeat/page.css"><script src="/wingbeat/page.js"></script>
+<script src="/wingbeat/flying.js"></script>"""
+_ICON = "🐦"
+
+
+class House:
+    """What all visitors share: the pool, what lies ready to be fetched, who is here."""
+
+    def __init__(self, processes: int) -> None:
+        self.pool = Pool(_WORK, processes)
+        self.shelf = Shelf()
+        self.pages: dict[str, Page] = {}
+        self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
+
+    def open_page(self, client: Client, query: str) -> None:
+        """Build a page for a visitor who has just come."""
+        name = secrets.token_urlsafe(12)
+        page = self.pages[name] = Page(name, self.pool, self.shelf, query)
+
+        def leave() -> None:
+            del self.pages[name]
+            page.leave()
+
+        client.on_delete(leave)
+
+    def close(self) -> None:
+        """End the workers and leave nothing behind."""
+        self.pool.close()
+        self.folder.cleanup()
+
+
+def serve(host: str, port: int, processes: int, opens: bool) -> None:
+    """Serve the explorer until it is interrupted.
+
+    Parameters
+    ----------
+    host, port : where to listen; port 0 is any that is free.
+    processes : worker processes.
+    opens : whether a browser is opened.
+
+    Raises
+    ------
+    InvalidInputError : the address cannot be listened at.
+    """
+    try:
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        listening = socket.create_server((host, port), family=family)
+    except OSError as error:
+        rule = f"cannot be listened at: {(error.strerror or str(error)).lower()}"
+        raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
+    house = House(processes)
+    shown = f"[{host}]" if ":" in host else host
+    address = f"http://{shown}:{listening.getsockname()[1]}"
+    print(f"wingbeat explorer: {address} (Ctrl-C ends it)", flush=True)
+    if host not in _LOOPBACK:
+        print("Whoever reaches this address can use it: there are no passwords.", flush=True)
+    if opens:
+        threading.Timer(1.0, webbrowser.open, [address]).start()
+    app = build(house, host)
+    settings = uvicorn.Config(app, log_level="warning", ws_max_size=1 << 20, timeout_graceful_shutdown=2)
+    try:
+        uvicorn.Server(settings).run(sockets=[listening])
+    finally:
+        house.close()
+
+
+def build(house: House, host: str) -> Any:
+    """Return the web application."""
+
+    @contextlib.asynccontextmanager
+    async def life(_: FastAPI) -> AsyncIterator[None]:
+        yield
+
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None, lifespan=life)
+    _add_files(app, house)
+
+    @app.post("/wingbeat/upload/{session}")
+    async def upload(session: str, request: Request) -> Response:
+        return await _take(house, session, request)
+
+    @ui.page("/", title="wingbeat explorer")
+    def page(request: Request, client: Client) -> None:
+        ui.add_head_html(_HEAD)
+        house.open_page(client, request.url.query)
+
+    ui.run_with(app, title="wingbeat explorer", favicon=_ICON, dark=None, language="en-US", tailwind=False)
+
+    @app.middleware("http")
+    async def with_headers(request: Request, call_next: Any) -> Response:
+        response = await call_next(request)
+        response.headers.update(_HEADERS)
+        return response
+
+    if host in _LOOPBACK:  # a page elsewhere may give this machine a name of its own and ask through that
+        app.add_middleware(TrustedHostMiddleware, allowed_hosts=["127.0.0.1", "localhost", "[::1]"])
+    return app
+
+
+def _add_files(app: FastAPI, house: House) -> None:
+    """Serve the page's own few files and what lies on the shelf."""
+    here = Path(__file__).parent
+    script, style = ((here / name).read_bytes() for name in ("page.js", "page.css"))
+    fixed = {
+        "/wingbeat/page.js": (script, "text/javascript"),
+        "/wingbeat/flying.js": (SCRIPT.encode(), "text/javascript"),
+        "/wingbeat/page.css": (style, "text/css"),
+        BUNDLE: (bundle(), "text/javascript"),
+    }
+    for path, (content, kind) in fixed.items():
+        app.add_api_route(path, lambda content=content, kind=kind: Response(content, media_type=kind))
+
+    @app.get("/wingbeat/shelf/{name}")
+    def shelf(name: str) -> Response:
+        thing = house.shelf.get(name)
+        if thing is None:
+            return Response("This is kept no longer; ask for it again.", 404, media_type="text/plain")
+        headers = {"cache-control": "no-store"}
+        if thing.name:
+            headers["content-disposition"] = f'attachment; filename="{thing.name}"'
+        return Response(thing.content, media_type=thing.kind, headers=headers)
+
+
+async def _take(house: House, session: str, request: Request) -> Response:
+    """Take a file of a visitor who is here, piece by piece, and no more of it than is allowed."""
+    page = house.pages.get(session)
+    label = clean_label(request.query_params.get("name", ""))
+    rule = f"{label} was refused: a file may have at most {MOST_BYTES // 1_000_000} million bytes."
+    if page is None:
+        return Response("This page is closed; load it again.", 404, media_type="text/plain")
+    told = request.headers.get("content-length", "0")
+    if not told.isdecimal() or int(told) > MOST_BYTES:
+        return Response(rule, 413, media_type="text/plain", headers={"connection": "close"})
+    # A name of our own: the visitor's is only ever shown.
+    path = Path(house.folder.name) / secrets.token_hex(12)
+    size = 0
+    try:
+        with open(path, "xb") as file:
+            async for piece in request.stream():
+                size += len(piece)
+                if size > MOST_BYTES:
+                    path.unlink()
+                    return Response(rule, 413, media_type="text/plain", headers={"connection": "close"})
+                file.write(piece)
+    except (ClientDisconnect, OSError):
+        path.unlink(missing_ok=True)
+        return Response("The file did not arrive whole; send it again.", 400, media_type="text/plain")
+    page.read_file(str(path), label, lambda: _remove(path))
+    return Response(status_code=204)
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        os.unlink(path)

@@ -1,0 +1,226 @@
+"""One visitor's session: what is asked, what is being solved, what is shown. It knows no element of the page."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+from collections.abc import Callable
+from contextlib import AbstractContextManager, suppress
+from typing import Any, Protocol
+
+from wingbeat.app.links import to_plain
+from wingbeat.app.pool import Event, Job, Pool
+from wingbeat.app.scenario import Scenario
+
+__all__ = ["Session", "View"]
+
+# Seconds without a change after which an answer that was continued is searched for anew, from every start.
+_CALM = 0.35
+# A continuation that takes no longer is worth waiting for while the slider moves on.
+_BRIEF = 0.4
+# A continued orbit must be better by this share before the page says so.
+_BETTER = 1e-4
+_ENDINGS = {
+    "lost": "The solver process ended ({}). It was started again; solve again.",
+    "late": "No answer within {:g} s, so the search was ended; ask for fewer starts, or solve again.",
+    "failed": "The solver failed ({}); this is a fault of wingbeat, please report it with the link of this page.",
+    "busy": "Too many of your jobs are waiting already; wait for them, or cancel some.",
+}
+
+
+class View(Protocol):
+    """What a page shows of its session."""
+
+    def context(self) -> AbstractContextManager[Any]:
+        """Return the context in which the page may be changed."""
+        ...
+
+    def show_scenario(self, scenario: Scenario) -> None:
+        """Show what is asked."""
+
+    def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
+        """Say what the session is doing; `done` is the share that is done."""
+
+    def show_answer(self, answer: dict[str, Any]) -> None:
+        """Show an answer."""
+
+    def show_refusals(self, refusals: list[list[str]]) -> None:
+        """Show what was refused, [where, message] each; none takes earlier ones away."""
+
+    def show_trouble(self, text: str) -> None:
+        """Say that something went wrong."""
+
+
+class Session:
+    """What one page asks of the pool.
+
+    Parameters
+    ----------
+    name : of the session, unlike any other's.
+    pool : where the work is done.
+    scenario : what is asked at first.
+    """
+
+    def __init__(self, name: str, pool: Pool, scenario: Scenario, view: View) -> None:
+        self.name, self.scenario = name, scenario
+        self.answer: dict[str, Any] | None = None
+        self.beside: dict[str, Any] | None = None
+        self._pool, self._view = pool, view
+        self._loop = asyncio.get_running_loop()
+        self._job: Job | None = None
+        self._brief_since: float | None = None
+        self._continued: float | None = None
+        self._again = False
+        self._calm: asyncio.TimerHandle | None = None
+        self._asked = 0
+        self._gone = False
+
+    def change(self, **choices: Any) -> bool:
+        """Ask for another scenario; say whether its choices can be, one by one."""
+        self.scenario = dataclasses.replace(self.scenario, **choices)
+        return self.ask()
+
+    def rearrange(self, **choices: Any) -> None:
+        """Change what does not concern the answer."""
+        self.scenario = dataclasses.replace(self.scenario, **choices)
+        self._tell_faults()
+        self._view.show_scenario(self.scenario)
+
+    def _tell_faults(self) -> bool:
+        faults = self.scenario.faults().faults
+        self._view.show_refusals([[f.where, f"{f.rule}; {f.fix}" if f.fix else f.rule] for f in faults])
+        return bool(faults)
+
+    def ask(self, whole: bool = False) -> bool:
+        """Solve the scenario: continued from the answer before where there is one, or by a `whole` search."""
+        self._cancel_calm()
+        self._continued = None
+        self._view.show_scenario(self.scenario)
+        if self._tell_faults():
+            self.stop("Not solved: a choice cannot be, see the mark beside it.")
+            return False
+        near = None if whole or self.answer is None else self.answer.get("near")
+        if self._brief_since is not None and self._loop.time() - self._brief_since < _BRIEF and not whole:
+            self._again = True  # it ends in a blink, and its answer is on the way to this one
+            return True
+        self._submit(near)
+        return True
+
+    def _submit(self, near: dict[str, Any] | None) -> None:
+        self._again = False
+        if self._job is not None:
+            self._pool.cancel(self._job)
+        self._asked += 1
+        asked, scenario = self._asked, self.scenario
+        what = {"do": "orbit", "scenario": to_plain(scenario), "near": near, "beside": self.beside}
+        self._brief_since = self._loop.time() if near is not None else None
+        self._job = self.start(what, lambda event: self._hear(asked, scenario, event))
+        if self._job is None:
+            self._brief_since = None
+            self._view.show_trouble(_ENDINGS["busy"])
+
+    def start(self, what: dict[str, Any], hear: Callable[[Event], None]) -> Job | None:
+        """Give the pool a job; events come to `hear` on the page's own thread."""
+
+        def tell(event: Event) -> None:
+            with suppress(RuntimeError):  # the server has closed, and its loop with it
+                self._loop.call_soon_threadsafe(self._inside, hear, event)
+
+        return self._pool.submit(self.name, what, tell)
+
+    def _inside(self, act: Callable[[Any], None], what: Any) -> None:
+        """Do something to the page, unless it is gone."""
+        if not self._gone:
+            with self._view.context():
+                act(what)
+
+    def cancel(self, job: Job) -> None:
+        """Drop a job."""
+        self._pool.cancel(job)
+
+    def stop(self, text: str = "Cancelled.") -> None:
+        """Drop what is being solved."""
+        self._cancel_calm()
+        self._asked += 1  # whatever comes of it is not shown
+        self._again, self._brief_since = False, None
+        if self._job is not None:
+            self._pool.cancel(self._job)
+            self._job = None
+        self._view.show_state(text, busy=False)
+
+    def leave(self) -> None:
+        """Drop everything of a page that is gone."""
+        self._cancel_calm()
+        self._gone = True
+        self._pool.leave(self.name)
+
+    def _hear(self, asked: int, scenario: Scenario, event: Event) -> None:
+        if asked != self._asked:  # an answer to what is asked no more
+            return
+        if event.kind == "waiting":
+            self._view.show_state(f"Waiting: number {event.value} in the queue.", busy=True)
+        elif event.kind == "started":
+            self._view.show_state("Solving.", busy=True)
+        elif event.kind == "progress":
+            done, total = event.value
+            self._view.show_state(f"Solving: {done} of {total} searches.", busy=True, done=done / max(total, 1))
+        elif event.ends:
+            self._end(scenario, event)
+
+    def _end(self, scenario: Scenario, event: Event) -> None:
+        self._job, self._brief_since = None, None
+        if event.kind == "done" and "refused" not in event.value:
+            self._take(scenario, event.value)
+        elif event.kind == "done":
+            self._view.show_refusals(event.value["refused"])
+            self._view.show_state("Not solved: a choice cannot be, see the mark beside it.", busy=False)
+        else:
+            self.tell_ending(event)
+        if self._again:
+            self.ask()
+
+    def tell_ending(self, event: Event) -> None:
+        """Say how a job ended that has no answer."""
+        text = _ENDINGS[event.kind].format(event.value) if event.kind in _ENDINGS else "Cancelled."
+        self._view.show_state(text, busy=False)
+        if event.kind in _ENDINGS:
+            self._view.show_trouble(text)
+
+    def _take(self, scenario: Scenario, answer: dict[str, Any]) -> None:
+        """Show an answer, and where it was continued search anew once nothing changes."""
+        answer["scenario"] = to_plain(scenario)
+        best = answer["record"].get("objective_value")
+        if answer.get("continued"):
+            self._continued = best
+        elif self._continued is not None and best is not None and answer["near"] is not None:
+            better = self._continued < best - _BETTER * abs(best)
+            answer["continued_better"] = self._continued if better else None
+        self._show(answer)
+        if answer.get("continued") and not self._again:
+            self._view.show_state("Continued from the answer before; now searching from every start.", busy=True)
+            self._calm = self._loop.call_later(_CALM, self._inside, self._submit, None)
+        elif not self._again:
+            self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)
+
+    def take_file(self, answer: dict[str, Any], scenario: Scenario | None) -> None:
+        """Show an answer that came from a file, and ask for its scenario from now on."""
+        self.stop("From a file; nothing was solved.")
+        if scenario is not None:
+            self.scenario = scenario
+        answer["scenario"] = to_plain(self.scenario) if scenario is not None else None
+        self._show(answer)
+
+    def _show(self, answer: dict[str, Any]) -> None:
+        self.answer = answer
+        self._continued = self._continued if answer.get("continued") else None
+        self._view.show_answer(answer)
+
+    def _cancel_calm(self) -> None:
+        if self._calm is not None:
+            self._calm.cancel()
+            self._calm = None
+
+
+def known(answer: dict[str, Any]) -> dict[str, Any]:
+    """Return what brings the orbit of an answer back."""
+    return {"record": answer["record"], "inputs": answer["inputs"]}

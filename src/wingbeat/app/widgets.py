@@ -1,0 +1,198 @@
+"""Plain HTML controls with their labels, units, hints and faults: what assistive technology knows best."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from nicegui import ui
+from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
+
+__all__ = ["Field", "Rows", "box", "button", "choice_field", "number_field", "tag", "text_field"]
+
+# The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.
+_EMIT = "(event) => emit(event.target.value)"
+
+
+def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
+    """Return an HTML element with a text, always shown as text and never read as HTML.
+
+    Parameters
+    ----------
+    attributes : underscores stand for hyphens, one at the end for none: ``aria_label``, ``for_``.
+    """
+    made = Element(tag=name) if text is None else TextElement(tag=name, text=text)
+    if classes:
+        made.classes(classes)
+    for key, value in attributes.items():
+        made.props[key.rstrip("_").replace("_", "-")] = value
+    return made
+
+
+def box(name: str, title: str, classes: str = "", level: int = 2) -> Any:
+    """Return a section named by its heading; what follows in its ``with`` block stands below."""
+    section = tag(name, classes=f"box {classes}")
+    with section:
+        heading = tag(f"h{level}", title)
+    section.props["aria-labelledby"] = heading.html_id
+    heading.props["id"] = heading.html_id
+    return section
+
+
+def button(text: str, act: Callable[[], Any], classes: str = "", **attributes: Any) -> Any:
+    """Return a button."""
+    made = tag("button", text, f"button {classes}", type="button", **attributes)
+    made.on("click", lambda _: act(), args=[])
+    return made
+
+
+class Field:
+    """A control with its label, unit, hint and the place where its fault is told.
+
+    Parameters
+    ----------
+    control : the element that holds the value, made inside `row`.
+    """
+
+    def __init__(self, row: Element, control: Any, fault: Any, hint: Any) -> None:
+        self.row, self.control, self._fault, self._hint = row, control, fault, hint
+
+    def show(self, value: Any) -> None:
+        """Show a value, unless it is shown already."""
+        if self.control.props.get("value") != value:
+            self.control.props["value"] = value
+
+    def refuse(self, message: str) -> None:
+        """Tell what is wrong with the value; nothing if it is empty."""
+        if self._fault.text == message:
+            return
+        self._fault.set_text(message)
+        self._fault.classes(remove="hidden") if message else self._fault.classes("hidden")
+        self.control.props.set_optional("aria-invalid", "true" if message else None)
+
+    def mark(self, text: str, odd: bool) -> None:
+        """Say what is plausible, and whether the value is not."""
+        self._hint.set_text(text)
+        self.row.classes("odd") if odd else self.row.classes(remove="odd")
+
+
+def _field(label: str, unit: str, hint: str, tip: str, make: Callable[[], Any], wide: bool) -> Field:
+    row = tag("div", classes="field wide" if wide else "field")
+    with row:
+        name = tag("label", label)
+        control = make()
+        control.props["id"] = control.html_id
+        name.props["for"] = control.html_id
+        if unit:
+            tag("span", unit, "unit", aria_hidden="true")
+            name.set_text(label)
+            control.props["aria-label"] = f"{label} [{unit}]"
+        described = []
+        below = tag("p", hint, "hint")
+        below.props["id"] = below.html_id
+        described.append(below.html_id)
+        if tip:
+            bubble = tag("span", tip, "tip", role="tooltip")
+            bubble.props["id"] = bubble.html_id
+            described.append(bubble.html_id)
+        fault = tag("p", "", "fault hidden", role="alert")
+        fault.props["id"] = fault.html_id
+        control.props["aria-describedby"] = " ".join([*described, fault.html_id])
+    return Field(row, control, fault, below)
+
+
+def _heard(control: Any, event: str, act: Callable[[str], Any], throttle: float = 0.0) -> None:
+    def hear(event: Any) -> None:
+        if isinstance(event.args, str) and len(event.args) < 5000:
+            control.props._suspend_count += 1  # what the browser shows need not be sent back to it
+            control.props["value"] = event.args
+            control.props._suspend_count -= 1
+            act(event.args)
+
+    control.on(event, hear, js_handler=_EMIT, throttle=throttle, leading_events=True, trailing_events=True)
+
+
+def number_field(
+    label: str, value: str, act: Callable[[str], Any], *, unit: str = "", hint: str = "", tip: str = ""
+) -> Field:
+    """Return a field for a number, or several with commas between; `act` gets the text when it is entered."""
+
+    def make() -> Any:
+        control = tag("input", type="text", inputmode="decimal", autocomplete="off", value=value)
+        _heard(control, "change", act)
+        return control
+
+    return _field(label, unit, hint, tip, make, wide=False)
+
+
+def text_field(label: str, value: str, act: Callable[[str], Any], *, hint: str = "") -> Field:
+    """Return a field for a text."""
+
+    def make() -> Any:
+        control = tag("input", type="text", autocomplete="off", spellcheck="false", value=value)
+        _heard(control, "change", act)
+        return control
+
+    return _field(label, "", hint, "", make, wide=True)
+
+
+def choice_field(
+    label: str, options: Sequence[tuple[str, str]], value: str, act: Callable[[str], Any], *, hint: str = ""
+) -> Field:
+    """Return a field for one of several (value, label)."""
+
+    def make() -> Any:
+        control = tag("select", value=value)
+        with control:
+            for key, text in options:
+                tag("option", text, value=key)
+        _heard(control, "change", act)
+        return control
+
+    return _field(label, "", hint, "", make, wide=True)
+
+
+def slider(label: str, value: float, least: float, most: float, step: float, act: Callable[[str], Any]) -> Any:
+    """Return a slider; `act` hears every movement, at most some twenty a second."""
+    control = tag("input", classes="slider", type="range", min=least, max=most, step=step, aria_label=label)
+    control.props["value"] = value
+    _heard(control, "input", act, throttle=0.05)
+    return control
+
+
+class Rows:
+    """Groups of labels and values that change in place."""
+
+    def __init__(self) -> None:
+        self._whole = tag("div", classes="groups")
+        self._labels: list[tuple[str, str]] = []
+        self._values: list[Any] = []
+
+    def show(self, groups: Mapping[str, Sequence[Sequence[str]]]) -> None:
+        """Show groups by their titles; those without rows are left out."""
+        flat = [(title, label, value) for title, rows in groups.items() for label, value in rows]
+        labels = [(title, label) for title, label, _ in flat]
+        if labels != self._labels:
+            self._build({title: rows for title, rows in groups.items() if rows}, labels)
+        for element, (_, _, value) in zip(self._values, flat, strict=True):
+            if element.text != value:
+                element.set_text(value)
+
+    def _build(self, groups: Mapping[str, Sequence[Sequence[str]]], labels: list[tuple[str, str]]) -> None:
+        self._whole.clear()
+        self._labels, self._values = labels, []
+        with self._whole:
+            for title, rows in groups.items():
+                with tag("div", classes="group"):
+                    tag("h3", title)
+                    with tag("dl"):
+                        for label, value in rows:
+                            with tag("div"):
+                                tag("dt", label)
+                                self._values.append(tag("dd", value))
+
+
+def run_script(text: str) -> None:
+    """Run a script in the visitor's browser; what it holds of theirs must be quoted by `json.dumps`."""
+    ui.run_javascript(text)

@@ -1,0 +1,68 @@
+"""Numbers of the page in words: with their units, angles in degrees, as short as is honest."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wingbeat.species_schema import Number, display
+
+__all__ = ["from_shown", "number", "range_text", "shown_text", "spoken_path", "tiles", "unit_of"]
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """Return a number as short as so many digits allow; a dash for none."""
+    return "–" if value is None else f"{value:.{digits}g}"
+
+
+def spoken_path(path: str) -> str:
+    """Return the name of a number: ``vehicle.wing.mass`` is ``mass``."""
+    return path.rpartition(".")[2].replace("_", " ")
+
+
+def unit_of(number: Number) -> str:
+    """Return the unit in which a number is shown."""
+    unit = "deg" if number.unit == "rad" else number.unit
+    return "" if unit == "1" else unit
+
+
+def shown_text(path: str, number: Number) -> str:
+    """Return a number as it is typed, angles in degrees."""
+    value = display(path, number)[1].value
+    return ", ".join(f"{part:.10g}" for part in value) if isinstance(value, tuple) else f"{value:.10g}"
+
+
+def range_text(path: str, number: Number) -> str:
+    """Return the plausible range of a number; nothing if none is known."""
+    limits = display(path, number)[1].range
+    return "" if limits is None else f"plausible {limits[0]:.4g} to {limits[1]:.4g}"
+
+
+def from_shown(text: str, unit: str, several: bool) -> float | tuple[float, ...] | None:
+    """Return a typed number, or several with commas between, in SI units and radians; None if it is none."""
+    try:
+        parts = tuple(float(part) for part in text.replace(";", ",").split(","))
+    except ValueError:
+        return None
+    if not all(math.isfinite(part) for part in parts) or (len(parts) > 1 and not several):
+        return None
+    # An angle goes through math.radians, as it does in a species file, so that the same number comes out.
+    values = [math.radians(part) for part in parts] if unit == "rad" else list(parts)
+    return tuple(values) if len(values) > 1 else values[0]
+
+
+def tiles(record: dict[str, Any]) -> list[tuple[str, str, str, str]]:
+    """Return the headline numbers of a record: label, number, unit, and all digits."""
+    vehicle, power = record["vehicle"], record.get("mean_positive_power")
+    mass = vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]
+    frequency = record["wingbeat"]["frequency"]
+    amplitude = math.degrees(record["wingbeat"]["flap_amplitude"])
+    cost = record.get("cost_of_transport")
+    found = [
+        ("Wingbeat frequency", number(frequency), "Hz", repr(frequency)),
+        ("Mean positive power", number(power), "W", repr(power)),
+        ("Power per mass", number(None if power is None else power / mass, 3), "W/kg", repr(power)),
+        ("Flap amplitude", number(amplitude, 3), "deg", repr(amplitude)),
+        ("Cost of transport", number(cost, 3), "", repr(cost)),
+    ]
+    return found

@@ -1,0 +1,44 @@
+"""``wingbeat app``: the explorer in the browser."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.options import Whole
+from wingbeat.errors import Fault, FaultList, InvalidInputError
+
+_MOST_PROCESSES = 64
+
+
+def app(
+    *,
+    host: Annotated[str, Parameter(help="Address to listen at; there are no passwords.")] = "127.0.0.1",
+    port: Annotated[Whole, Parameter(help="Port to listen at; 0 is any that is free.")] = 8080,
+    processes: Annotated[
+        Whole | None, Parameter(help="Solver processes; if not given as many as there are cores, at most 4.")
+    ] = None,
+    open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
+) -> int:
+    """Open the explorer in a browser: choose, slide, and see it fly; Ctrl-C ends it.
+
+    It needs the extra app: pip install 'wingbeat[app]'.
+
+    Examples: wingbeat app; wingbeat app --port 0 --no-open
+    """
+    faults = FaultList()
+    faults.number("--port", port, at_least=0, at_most=65535)
+    if processes is not None:
+        faults.number("--processes", processes, at_least=1, at_most=_MOST_PROCESSES)
+    faults.raise_if_any()
+    if importlib.util.find_spec("nicegui") is None:
+        rule, fix = "needs NiceGUI, which is not installed", "pip install 'wingbeat[app]'"
+        raise InvalidInputError([Fault("wingbeat app", "extra app", rule, fix)])
+    from wingbeat.app.server import serve
+
+    serve(host, port, processes or min(os.cpu_count() or 1, 4), open_)
+    return EXIT_GOOD

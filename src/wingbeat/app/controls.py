@@ -67,7 +67,7 @@ class Controls:
             )
             width, strips = f"{now.blend_width_deg:g}", str(now.strips)
             self._fields["blend_width_deg"] = number_field(
-                "Blend", width, self._number("blend_width_deg"), unit="deg"
+                "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
             )
             self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
         with box("section", "Search"):

@@ -10,7 +10,7 @@ from wingbeat.aero import EXTENSIONS, LIBRARY
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import FORCE_POINTS, Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
-from wingbeat.app.words import from_shown
+from wingbeat.app.words import from_shown, sentence
 from wingbeat.orbits.quantities import QUANTITIES
 from wingbeat.species import species_names
 
@@ -116,7 +116,7 @@ class Controls:
         for where, message in refusals:
             field = self._field_of(where)
             if field is None:
-                homeless.append(message)
+                homeless.append(sentence(where, message))
             else:
                 told.setdefault(field, []).append(message)
         for field in [*self._fields.values(), *self._numbers.fields]:

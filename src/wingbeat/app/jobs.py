@@ -46,11 +46,11 @@ def do(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
     except InvalidInputError as error:
         return {"refused": [[fault.where, _sentence(fault)] for fault in error.faults]}
     except FileError as error:
-        return {"refused": [["file", str(error)]]}
+        return {"refused": [["", str(error)]]}
 
 
 def _sentence(fault: Any) -> str:
-    return f"{fault.where.replace('_', ' ')}: {fault.rule}" + (f"; {fault.fix}" if fault.fix else "")
+    return fault.rule + (f"; {fault.fix}" if fault.fix else "")
 
 
 def _orbit(what: dict[str, Any], hand: Hand) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session, known
 from wingbeat.app.shelf import Shelf, Thing
 from wingbeat.app.widgets import button, choice_field, run_script, tag
+from wingbeat.app.words import sentence
 from wingbeat.errors import InvalidInputError
 
 __all__ = ["Page"]
@@ -208,7 +209,7 @@ class Page:
             if event.kind == "waiting":
                 say(f"Waiting: number {event.value} in the queue.")
             elif event.kind == "done" and "refused" in event.value:
-                text = " ".join(message for _, message in event.value["refused"][:8])
+                text = " ".join(sentence(*each) for each in event.value["refused"][:8])
                 say("Refused.")
                 self.show_trouble(text)
             elif event.kind == "done":

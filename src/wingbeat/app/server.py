@@ -41,6 +41,8 @@ _HEADERS = {
 _HEAD = """<link rel="stylesheet" href="/wingbeat/page.css"><script src="/wingbeat/page.js"></script>
 <script src="/wingbeat/flying.js"></script>"""
 _ICON = "🐦"
+# Seconds that a page may be silent, on a busy machine or a train, before it is taken to be gone.
+_PATIENCE = 30.0
 
 
 class House:
@@ -123,7 +125,15 @@ def build(house: House, host: str) -> Any:
         ui.add_head_html(_HEAD)
         house.open_page(client, request.url.query)
 
-    ui.run_with(app, title="wingbeat explorer", favicon=_ICON, dark=None, language="en-US", tailwind=False)
+    ui.run_with(
+        app,
+        title="wingbeat explorer",
+        favicon=_ICON,
+        dark=None,
+        language="en-US",
+        tailwind=False,
+        reconnect_timeout=_PATIENCE,
+    )
 
     @app.middleware("http")
     async def with_headers(request: Request, call_next: Any) -> Response:

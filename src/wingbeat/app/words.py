@@ -7,12 +7,17 @@ from typing import Any
 
 from wingbeat.species_schema import Number, display
 
-__all__ = ["from_shown", "number", "range_text", "shown_text", "spoken_path", "tiles", "unit_of"]
+__all__ = ["from_shown", "number", "range_text", "sentence", "shown_text", "spoken_path", "tiles", "unit_of"]
 
 
 def number(value: float | None, digits: int = 4) -> str:
     """Return a number as short as so many digits allow; a dash for none."""
     return "–" if value is None else f"{value:.{digits}g}"
+
+
+def sentence(where: str, message: str) -> str:
+    """Return what was refused and why, as a sentence that stands by itself."""
+    return f"{where}: {message}." if where else f"{message}."
 
 
 def spoken_path(path: str) -> str:

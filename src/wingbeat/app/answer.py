@@ -34,6 +34,7 @@ class Headline:
         climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
         aero = record["aero"]["coefficients"]
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
+        self._title.props["data-solver-seconds"] = answer["solver_seconds"]
         self._message.set_text(_message(answer))
         for label, value, unit, exact in tiles(record):
             if label not in self._tiles:

@@ -15,8 +15,8 @@ from typing import Any
 
 __all__ = ["WorkerProcess"]
 
-# As many processes as there are cores, each with one thread in the libraries.
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+# Seconds in which a process that has closed its pipe may end by itself, so that its own exit code is told.
+_LAST_BREATH = 2.0
 
 
 class WorkerProcess:
@@ -28,7 +28,9 @@ class WorkerProcess:
     """
 
     def __init__(self, work: str) -> None:
-        environment = dict(os.environ) | dict.fromkeys(_ONE_THREAD, "1")
+        # The libraries keep the threads they have on the command line: with others they add up in another order, and
+        # the tenth digit of an answer would not be the command line's.
+        environment = dict(os.environ)
         # The package that serves is the one that works, wherever it was imported from.
         home = str(Path(__file__).resolve().parents[2])
         environment["PYTHONPATH"] = os.pathsep.join([home, *filter(None, [environment.get("PYTHONPATH")])])
@@ -70,9 +72,12 @@ class WorkerProcess:
             self._process.kill()
 
     def bury(self) -> str:
-        """End the process, close its pipes, and return how it ended."""
-        self.kill()
-        code = self._process.wait()
+        """Close the pipes of a process that is ending, or end it, and return how it ended."""
+        try:
+            code = self._process.wait(_LAST_BREATH)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            code = self._process.wait()
         for pipe in (self._process.stdin, self._process.stdout):
             with self._lock, suppress(OSError):
                 assert pipe is not None

@@ -61,7 +61,9 @@ class Flying:
             )
 
     def show(self, scene: str) -> None:
-        """Show a scene, the JSON text that the viewer takes."""
+        """Show a scene, the JSON text that the viewer takes; where there is none, what was shown stays."""
+        if not scene:
+            return
         name = self._shelf.put(self._session, Thing(scene.encode(), "application/json"))
         url = json.dumps(f"/wingbeat/shelf/{name}")
         run_script(f"wingbeatFlying.show({json.dumps(self._place.html_id)}, {url})")

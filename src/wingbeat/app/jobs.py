@@ -114,16 +114,16 @@ def answer_of(orbit: Orbit, beside: dict[str, Any] | None, begun: float) -> dict
 
 
 def _drawn(orbit: Orbit, beside: dict[str, Any] | None) -> str:
-    flights = [(label_of(orbit.record()), orbit.dataset)]
-    if beside is not None:
-        other = orbit_again(beside)
-        flights.append((label_of(other.record()), other.dataset))
-    return json.dumps(scene(flights), allow_nan=False)
-
-
-def label_of(record: dict[str, Any]) -> str:
-    """Return how a flight is called beside another one."""
-    return f"{record['species']}, {record['speed']:g} m/s, {record['aero']['coefficients']}"
+    if beside is None:
+        flights = [("this answer", orbit.dataset)]
+    else:
+        flights = [("this answer", orbit.dataset), ("pinned", orbit_again(beside).dataset)]
+    try:
+        return json.dumps(scene(flights), allow_nan=False)
+    except FileError:
+        if orbit.status is Status.CONVERGED:
+            raise
+        return ""  # next to nothing was flown of a beat that is no orbit
 
 
 def orbit_again(known: dict[str, Any]) -> Orbit:

@@ -28,6 +28,7 @@ __all__ = ["Page"]
 
 _KINDS = {"nc": "application/x-netcdf", "png": "image/png", "pdf": "application/pdf", "json": "application/json"}
 _THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
+_MOST_LINES = 10
 _ACCEPT = ".toml,.nc,.json"
 
 
@@ -52,7 +53,7 @@ class Page:
         self._session = Session(name, pool, scenario, self)
         self._build(scenario)
         if refusals:
-            self.show_trouble(" ".join(refusals[:5]))
+            self.show_trouble(*refusals)
         self._session.ask(whole=True)
 
     def context(self) -> AbstractContextManager[Any]:
@@ -79,6 +80,7 @@ class Page:
             with tag("div", classes="middle", id="answer", tabindex="-1"):
                 self._headline = Headline()
                 self._flying = Flying(self._shelf, self.name)
+                self._pins = Pins(self._fly_beside, self._bring_back)
                 with tag("div", classes="below"):
                     self._build_panels()
             with tag("div", classes="side more"):
@@ -105,7 +107,7 @@ class Page:
         self._stop = button("Cancel", self._session.stop, disabled=True)
         self._trouble = tag("div", classes="trouble hidden", role="alert")
         with self._trouble:
-            self._trouble_text = tag("p", "")
+            self._trouble_lines = tag("ul", classes="plain")
             button("Close", self._close_trouble, "small")
 
     def _build_panels(self) -> None:
@@ -120,7 +122,6 @@ class Page:
         )
         with tag("div", classes="column"):
             self._curve = CurvePanel(self._session, lambda speed: self._session.change(speed=speed))
-            self._pins = Pins(self._fly_beside, self._bring_back)
             self._influence = Influence(self._differentiate)
 
     # What the session says ---------------------------------------------------------------------------------------
@@ -153,11 +154,16 @@ class Page:
         self._curve.refuse(refusals)
         homeless = self._controls.refuse([each for each in refusals if not each[0].startswith("sweep.")])
         if homeless:
-            self.show_trouble(" ".join(homeless[:5]))
+            self.show_trouble(*homeless)
 
-    def show_trouble(self, text: str) -> None:
+    def show_trouble(self, *lines: str) -> None:
         """Say that something went wrong."""
-        self._trouble_text.set_text(text)
+        self._trouble_lines.clear()
+        with self._trouble_lines:
+            for line in lines[:_MOST_LINES]:
+                tag("li", line)
+            if len(lines) > _MOST_LINES:
+                tag("li", f"And {len(lines) - _MOST_LINES} more.")
         self._trouble.classes(remove="hidden")
 
     def _close_trouble(self) -> None:
@@ -209,9 +215,8 @@ class Page:
             if event.kind == "waiting":
                 say(f"Waiting: number {event.value} in the queue.")
             elif event.kind == "done" and "refused" in event.value:
-                text = " ".join(sentence(*each) for each in event.value["refused"][:8])
                 say("Refused.")
-                self.show_trouble(text)
+                self.show_trouble(*(sentence(*each) for each in event.value["refused"]))
             elif event.kind == "done":
                 say("Done.")
                 show(event.value)

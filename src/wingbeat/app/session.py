@@ -47,7 +47,7 @@ class View(Protocol):
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show what was refused, [where, message] each; none takes earlier ones away."""
 
-    def show_trouble(self, text: str) -> None:
+    def show_trouble(self, *lines: str) -> None:
         """Say that something went wrong."""
 
 

@@ -57,7 +57,7 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     try:
         if start == _HDF5:
             check_hdf5(path, label)
-            return _checked(load_orbit(path), label)
+            return _checked(path, label)
         text = read_text(path)
         if text.lstrip()[:1] == "{":
             return {"scenario": to_plain(from_json(text, label))}
@@ -134,10 +134,15 @@ def _check_attributes(item: Any, refuse: Any) -> None:
             raise refuse("it holds too much text")
 
 
-def _checked(orbit: Orbit, label: str) -> Orbit:
-    """Return an orbit whose numbers are numbers."""
+def _checked(path: str, label: str) -> Orbit:
+    """Return the orbit in a file, if its numbers are numbers."""
     import numpy as np
 
+    try:
+        orbit = load_orbit(path)
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        reason = str(error).split("\n")[0][:200]
+        raise FileError(f"cannot read {label!r}: it is damaged ({reason}); solve it again") from None
     for name, values in orbit.dataset.variables.items():
         if values.dtype.kind == "f" and not np.isfinite(values.values).all():
             raise FileError(

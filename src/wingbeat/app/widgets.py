@@ -43,7 +43,12 @@ def box(name: str, title: str, classes: str = "", level: int = 2) -> Any:
 def button(text: str, act: Callable[[], Any], classes: str = "", **attributes: Any) -> Any:
     """Return a button."""
     made = tag("button", text, f"button {classes}", type="button", **attributes)
-    made.on("click", lambda _: act(), args=[])
+
+    def press(_: Any) -> None:
+        with made.client:  # what it does may take away the part of the page that the button is in
+            act()
+
+    made.on("click", press, args=[])
     return made
 
 
@@ -108,7 +113,8 @@ def _heard(control: Any, event: str, act: Callable[[str], Any], throttle: float 
             control.props._suspend_count += 1  # what the browser shows need not be sent back to it
             control.props["value"] = event.args
             control.props._suspend_count -= 1
-            act(event.args)
+            with control.client:  # what it does may take away the part of the page that the control is in
+                act(event.args)
 
     control.on(event, hear, js_handler=_EMIT, throttle=throttle, leading_events=True, trailing_events=True)
 

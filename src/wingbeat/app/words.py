@@ -17,7 +17,8 @@ def number(value: float | None, digits: int = 4) -> str:
 
 def sentence(where: str, message: str) -> str:
     """Return what was refused and why, as a sentence that stands by itself."""
-    return f"{where}: {message}." if where else f"{message}."
+    text = message if message.endswith((".", "?")) else f"{message}."
+    return f"{where}: {text}" if where else text
 
 
 def spoken_path(path: str) -> str:

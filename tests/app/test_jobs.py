@@ -1,0 +1,102 @@
+"""What the workers do: the same answers as the command line's, and the same memory after many of them."""
+
+import base64
+import json
+import threading
+
+import pytest
+
+import wingbeat as wb
+from wingbeat.app.jobs import do
+from wingbeat.app.links import to_plain
+from wingbeat.app.pool import Pool
+from wingbeat.app.scenario import Scenario
+from wingbeat.app.worker import Hand, StoppedError
+
+PIGEON = Scenario(species="pigeon", speed=10.0, starts=1)
+
+
+def work(what, unwanted=()):
+    told = []
+    answer = do(what, Hand(1, told.append, set(unwanted)))
+    json.dumps(answer, allow_nan=False)  # fit to travel
+    return answer
+
+
+@pytest.fixture(scope="module")
+def answer():
+    return work({"do": "orbit", "scenario": to_plain(PIGEON)})
+
+
+@pytest.fixture(scope="module")
+def known(answer):
+    return {"record": answer["record"], "inputs": answer["inputs"]}
+
+
+def test_an_orbit_is_that_of_the_library(answer):
+    record = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), 10.0), starts=1).record()
+    same = {name: value for name, value in answer["record"].items() if name != "solve_seconds"}
+    assert same == {name: value for name, value in record.items() if name != "solve_seconds"}
+    assert json.loads(answer["scene"])["flights"][0]["label"] == "this answer"
+
+
+def test_a_neighbour_is_continued_in_one_search(answer):
+    near = work({"do": "orbit", "scenario": to_plain(PIGEON.at(10.2)), "near": answer["near"]})
+    assert near["continued"]
+    assert near["record"]["starts"] == 1
+    assert near["record"]["status"] == "converged"
+
+
+def test_what_is_near_something_else_is_not_continued(answer):
+    other = {"free": ["frequency"], "unknowns": answer["near"]["unknowns"]}
+    assert "continued" not in work({"do": "orbit", "scenario": to_plain(PIGEON), "near": other})
+
+
+def test_a_point_is_no_worse_than_its_own_search(answer):
+    point = work({"do": "point", "scenario": to_plain(PIGEON), "near": answer["near"]})
+    assert point["frequency"] <= answer["record"]["wingbeat"]["frequency"] * (1 + 1e-9)
+    assert point["status"] == "converged"
+
+
+def test_two_flights_are_drawn_beside_each_other(known):
+    drawn = json.loads(work({"do": "scene", "of": known, "beside": known})["scene"])
+    assert [flight["label"] for flight in drawn["flights"]] == ["this answer", "pinned"]
+
+
+@pytest.mark.parametrize(("kind", "start"), [("png", b"\x89PNG"), ("pdf", b"%PDF")])
+def test_figures_are_written(known, kind, start):
+    assert base64.b64decode(work({"do": "file", "as": kind, "of": known})["content"]).startswith(start)
+
+
+def test_what_is_refused_names_the_choice():
+    scenario = to_plain(PIGEON) | {"set": {"vehicle.wing.mass": -1.0}}
+    assert work({"do": "orbit", "scenario": scenario}) == {"refused": [["vehicle.wing.mass", "must be > 0 kg"]]}
+
+
+def test_a_search_that_is_not_wanted_any_more_stops():
+    with pytest.raises(StoppedError):
+        work({"do": "orbit", "scenario": to_plain(PIGEON)}, unwanted=[1])
+
+
+def test_memory_is_flat_over_two_hundred_solves():
+    pool, memory = Pool("wingbeat.app.jobs:do", 1), []
+    near = None
+    try:
+        for count in range(200):
+            ended = threading.Event()
+            endings = []
+
+            def tell(event, endings=endings, ended=ended):
+                if event.ends:
+                    endings.append(event)
+                    ended.set()
+
+            scenario = to_plain(PIGEON.at(9.0 + 0.02 * (count % 100)))
+            assert pool.submit("a", {"do": "orbit", "scenario": scenario, "near": near}, tell) is not None
+            assert ended.wait(120.0)
+            assert endings[0].kind == "done"
+            near = endings[0].value["near"]
+            memory.append(next(iter(pool.memory.values())))
+    finally:
+        pool.close()
+    assert memory[-1] < 1.05 * memory[40], [round(m / 1e6) for m in memory[::20]]

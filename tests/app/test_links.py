@@ -1,0 +1,147 @@
+"""Scenarios as links and JSON: they come back as they were, or are refused in words."""
+
+import base64
+import json
+import zlib
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from wingbeat.aero import EXTENSIONS, LIBRARY
+from wingbeat.app.links import from_json, from_plain, from_query, to_json, to_plain, to_query
+from wingbeat.app.scenario import LARGEST_FILE, Scenario, problem_of
+from wingbeat.errors import FileError, InvalidInputError
+from wingbeat.species import species_names, template
+
+numbers = st.floats(-1e6, 1e6)
+scenarios = st.builds(
+    Scenario,
+    species=st.sampled_from(species_names()),
+    speed=st.floats(0, 100),
+    climb=st.floats(-100, 100),
+    aero=st.sampled_from(sorted(LIBRARY)),
+    extension=st.sampled_from(EXTENSIONS),
+    blend_width_deg=st.floats(0.01, 3),
+    strips=st.integers(1, 60),
+    minimise=st.sampled_from(["frequency", "mean_positive_power"]),
+    limits=st.lists(st.sampled_from(["peak_power<=30", "a & b = c", "ä+%"]), max_size=3).map(tuple),
+    bounds=st.dictionaries(st.sampled_from(["frequency", "flap_mean"]), st.tuples(numbers, numbers)),
+    values=st.dictionaries(
+        st.sampled_from(["vehicle.wing.mass", "vehicle.wing.chord"]),
+        numbers | st.lists(numbers, min_size=2, max_size=4).map(tuple),
+    ),
+    starts=st.none() | st.integers(1, 100),
+    seed=st.integers(0, 100_000),
+    sweep=st.tuples(st.floats(0, 10), st.floats(11, 20), st.floats(1, 5)),
+)
+
+
+@given(scenarios)
+@settings(max_examples=60, deadline=None)
+def test_a_scenario_survives_link_and_file(scenario):
+    assert from_query(to_query(scenario)) == scenario
+    assert from_json(to_json(scenario), "state.json") == scenario
+
+
+def test_a_species_file_travels_in_the_link():
+    scenario = Scenario(species="mine", species_file=template())
+    assert from_query(to_query(scenario)) == scenario
+    assert problem_of(scenario).species.vehicle.mass > 0
+
+
+@given(st.text(max_size=80))
+@settings(max_examples=200, deadline=None)
+def test_no_text_breaks_the_reader(text):
+    for read in (from_query, lambda t: from_json(t, "x")):
+        try:
+            read(text)
+        except (InvalidInputError, FileError):
+            continue
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.floats() | st.text(max_size=5),
+        lambda inner: (
+            st.lists(inner)
+            | st.dictionaries(st.sampled_from(["species", "speed", "set", "bounds", "sweep", "limits", "a"]), inner)
+        ),
+        max_leaves=8,
+    )
+)
+@settings(max_examples=200, deadline=None)
+def test_no_json_breaks_the_reader(plain):
+    try:
+        scenario = from_plain(plain)
+    except InvalidInputError:
+        return
+    assert from_plain(to_plain(scenario)) == scenario
+
+
+BOMB = base64.urlsafe_b64encode(zlib.compress(b"a" * 50_000_000, 9)).decode().rstrip("=")
+
+
+@pytest.mark.parametrize(
+    ("query", "words"),
+    [
+        ("speed=fast", "speed = 'fast': must be a number"),
+        ("speed=nan", "must be a number"),
+        ("speed=1e999", "must be a number"),
+        ("speed=101", "must be >= 0 and <= 100 m/s"),
+        ("speed=1&speed=2", "is given twice"),
+        ("sped=1", "is not part of a link; known are"),
+        ("species=dodo", "is not a known choice"),
+        ("starts=1.5", "must be a whole number"),
+        ("starts=1000", "must be a whole number from 1 to 100"),
+        ("bound=frequency:1", "must be name:lowest:highest"),
+        ("set=wing.mass", "must be path=number"),
+        ("set=wing.mass=1&set=wing.mass=2", "is given twice"),
+        ("sweep=1:2", "sweep"),
+        ("sweep=0:100:0.1", "gives more than 60 speeds"),
+        ("species_file=AAAA", "is not a packed species file"),
+        ("species=%00", "is not understood"),
+        ("species=%ff", "is not a query"),
+        ("nonsense", "is not a query"),
+        ("a=" + 30_000 * "b", "must be at most 24000"),
+    ],
+)
+def test_a_link_that_cannot_be_is_refused_in_words(query, words):
+    with pytest.raises(InvalidInputError, match=r".") as refused:
+        from_query(query)
+    assert words in str(refused.value)
+
+
+def test_a_packed_bomb_is_not_blown_up():
+    for size in (20_000, len(BOMB)):
+        with pytest.raises(InvalidInputError):
+            from_query(f"species_file={BOMB[:size]}")
+    assert len(zlib.compress(b"a" * 10 * LARGEST_FILE)) < 24_000  # one that would fit into a link
+    small = base64.urlsafe_b64encode(zlib.compress(b"a" * 10 * LARGEST_FILE)).decode()
+    with pytest.raises(InvalidInputError, match="is not a packed species file"):
+        from_query(f"species_file={small}")
+
+
+def test_all_faults_are_told_at_once():
+    with pytest.raises(InvalidInputError) as refused:
+        from_query("speed=-1&climb=1000&seed=-3")
+    assert {fault.where for fault in refused.value.faults} == {"speed", "climb", "seed"}
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"wingbeat_explorer": 2}', "[" * 100_000, "nan"])
+def test_a_file_of_something_else_is_refused(text):
+    with pytest.raises(FileError, match=r"load a file that"):
+        from_json(text, "x.json")
+
+
+def test_faults_of_the_problem_name_the_choice():
+    scenario = Scenario(
+        values={"vehicle.wing.mass": -1.0, "vehicle.wing.semi_span": 0.0},
+        force_point="centre-of-pressure",
+        aero="byl",
+    )
+    with pytest.raises(InvalidInputError) as refused:
+        problem_of(scenario)
+    assert {"vehicle.wing.mass", "vehicle.wing.semi_span"} <= {fault.where for fault in refused.value.faults}
+    assert len(refused.value.faults) == 3
+    assert json.loads(to_json(scenario))["units"] == "SI units and radians"

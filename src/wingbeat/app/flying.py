@@ -26,6 +26,7 @@ window.wingbeatFlying = {{
       const element = document.getElementById(place);
       element.textContent = "";
       this.handle = viewer.mount(element, scene, {{ theme: this.theme }});
+      if (this.handle.theme) this.handle.theme.hidden = true; // the page has one for itself and the viewer
     }}
   }},
   setTheme(theme) {{

@@ -28,8 +28,8 @@ class WorkerProcess:
     """
 
     def __init__(self, work: str) -> None:
-        # The libraries keep the threads they have on the command line: with others they add up in another order, and
-        # the tenth digit of an answer would not be the command line's.
+        # The libraries keep the threads they have on the command line: with others they add up in another order,
+        # and the tenth digit of an answer would not be the command line's.
         environment = dict(os.environ)
         # The package that serves is the one that works, wherever it was imported from.
         home = str(Path(__file__).resolve().parents[2])

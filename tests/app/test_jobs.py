@@ -70,7 +70,8 @@ def test_figures_are_written(known, kind, start):
 
 def test_what_is_refused_names_the_choice():
     scenario = to_plain(PIGEON) | {"set": {"vehicle.wing.mass": -1.0}}
-    assert work({"do": "orbit", "scenario": scenario}) == {"refused": [["vehicle.wing.mass", "must be > 0 kg"]]}
+    (where, message) = work({"do": "orbit", "scenario": scenario})["refused"][0]
+    assert (where, message) == ("vehicle.wing.mass", "must be > 0 kg; give the mass of one wing")
 
 
 def test_a_search_that_is_not_wanted_any_more_stops():

@@ -100,6 +100,17 @@ def test_faults_are_told_beside_their_control(visit):
     page.locator(".odd .hint", has_text="Outside: plausible 0.25 to 0.335; changed from 0.279").wait_for()
 
 
+def test_what_is_typed_and_chosen_stays_while_answers_come(visit):
+    page = visit()
+    solved(page, "pigeon")
+    page.get_by_label("Model", exact=True).select_option("dickinson")
+    field = page.get_by_label("Climb [m/s]", exact=True)
+    field.fill("0.5")  # not entered yet
+    solved(page, "dickinson")
+    assert page.get_by_label("Model", exact=True).input_value() == "dickinson"
+    assert field.input_value() == "0.5"
+
+
 def test_a_curve_fills_in_and_can_be_cancelled(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:11:1")
     solved(page, "pigeon")

@@ -11,8 +11,10 @@ from nicegui.elements.mixins.text_element import TextElement
 
 __all__ = ["Field", "Rows", "box", "button", "choice_field", "number_field", "tag", "text_field"]
 
+# What is being typed is kept where the page is drawn from, or the next change of anything would undo it.
+_KEEP = "(event) => { element.props.value = event.target.value; }"
 # The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.
-_EMIT = "(event) => emit(event.target.value)"
+_EMIT = "(event) => { element.props.value = event.target.value; emit(event.target.value); }"
 
 
 def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
@@ -116,6 +118,8 @@ def _heard(control: Any, event: str, act: Callable[[str], Any], throttle: float 
             with control.client:  # what it does may take away the part of the page that the control is in
                 act(event.args)
 
+    if event != "input":
+        control.on("input", js_handler=_KEEP)
     control.on(event, hear, js_handler=_EMIT, throttle=throttle, leading_events=True, trailing_events=True)
 
 

@@ -63,9 +63,7 @@ def build_app(chosen: str = "") -> App:
     """
     app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
-        app.command(
-            f"wingbeat.cli.{_HOMES.get(name, name)}:{name}", name=name, **({} if name == chosen else {"help": text})
-        )
+        app.command(f"{_module(name)}:{name}", name=name, **({} if name == chosen else {"help": text}))
     return app
 
 

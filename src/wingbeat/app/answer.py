@@ -148,10 +148,6 @@ class Influence:
                     tag("li", "No bound is active.")
 
 
-def _scroll(label: str) -> Any:
-    return tag("div", classes="scroll", tabindex="0", role="region", aria_label=label)
-
-
 def _ranked(one: dict[str, Any], names: list[str]) -> None:
     with tag("tr"):
         tag("th", one["path"], scope="row")

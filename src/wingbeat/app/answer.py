@@ -150,7 +150,8 @@ class Influence:
 
 def _ranked(one: dict[str, Any], names: list[str]) -> None:
     with tag("tr"):
-        tag("th", one["path"], scope="row")
+        # Spaces let a narrow column break the path between its words.
+        tag("th", one["path"].replace(".", " ").replace("_", " "), scope="row")
         ends, unit = one["plausible"], "" if one["unit"] == "1" else f" {one['unit']}"
         if ends and one["unit"] == "rad":
             ends, unit = [math.degrees(end) for end in ends], " deg"

@@ -1,10 +1,12 @@
-"""Solved orbits shared by the tests, and re-flights of them by SciPy, no relation of the package's own."""
+"""What tests share: solved orbits, re-flights of them by SciPy, no relation of the package's own, and a browser."""
 
 import dataclasses
+import shutil
 from typing import Any
 
 import numpy as np
 import pytest
+from browsers import FLAGS, PATIENCE
 from reflight import Reflight, refly
 
 import wingbeat as wb
@@ -75,3 +77,16 @@ def solved(request) -> Solved:
 def reflight(solved) -> Reflight:
     """The same orbit flown by SciPy."""
     return refly(solved.model, solved.wingbeat, solved.start)
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium, driven by Playwright."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    if chromium is None:
+        pytest.skip("needs Chromium: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=chromium, args=list(FLAGS), timeout=PATIENCE)
+        yield browser
+        browser.close()

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from viewer.conftest import PATIENCE, browser  # noqa: F401  # the same browser drives viewer and explorer
+from browsers import PATIENCE
 
 import wingbeat as wb
 
@@ -43,7 +43,7 @@ def served() -> Iterator[Served]:
 
 
 @pytest.fixture
-def visit(browser, served) -> Iterator:  # noqa: F811
+def visit(browser, served) -> Iterator:
     """Open pages of the explorer, and see in the end that nothing was complained of or asked for elsewhere."""
     contexts, complaints, requests = [], [], []
 

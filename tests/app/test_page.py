@@ -7,15 +7,15 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from viewer.conftest import PATIENCE, ROOT
+from browsers import AXE, PATIENCE
 
+import wingbeat as wb
 from wingbeat.cli import main
-
-AXE = ROOT / "viewer" / "node_modules" / "axe-core" / "axe.min.js"
 
 
 def solved(page, what):
@@ -79,7 +79,9 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     trouble = page.locator(".trouble li")
     trouble.first.wait_for()
     assert "vehicle.wing.mass: must be a number; take it out of the quotes" in trouble.first.inner_text()
-    path.write_text((ROOT / "src/wingbeat/data/pigeon.toml").read_text().replace('"pigeon"', '"<b>x</b>"', 1))
+    path.write_text(
+        (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text().replace('"pigeon"', '"<b>x</b>"', 1)
+    )
     page.locator("input[type=file]").set_input_files(path)
     solved(page, "b>")  # the name of a species is only ever shown
     assert page.locator(".what b, select b, .what script").count() == 0

@@ -1,33 +1,13 @@
-"""A real browser, where the machine has one, and flights to show in it."""
+"""Pages with a viewer in them, and flights to show there."""
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from browsers import PATIENCE
 
 import wingbeat as wb
-
-FLAGS = (
-    *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
-    *("--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"),
-)
-PATIENCE = 60_000  # ms; a browser on a busy machine starts slowly
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope="session")
-def browser():
-    """Debian's Chromium, driven by Playwright."""
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
-    if chromium is None:
-        pytest.skip("needs Chromium: apt-get install chromium")
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=chromium, args=list(FLAGS), timeout=PATIENCE)
-        yield browser
-        browser.close()
 
 
 class Shown(NamedTuple):

@@ -1,10 +1,7 @@
 """What axe finds in the page."""
 
 import pytest
-
-from viewer.conftest import ROOT
-
-AXE = ROOT / "viewer" / "node_modules" / "axe-core" / "axe.min.js"
+from browsers import AXE
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

@@ -7,11 +7,11 @@ import shutil
 import subprocess
 
 import pytest
+from browsers import NODE_MODULES
 
 import wingbeat as wb
-from viewer.conftest import ROOT
 
-SOURCES = ROOT / "viewer"
+SOURCES = NODE_MODULES.parent
 
 
 def test_the_bundle_is_made_from_the_sources_beside_it():
@@ -24,7 +24,7 @@ def test_the_bundle_is_made_from_the_sources_beside_it():
 
 
 def test_the_same_sources_give_the_same_bundle(tmp_path):
-    if shutil.which("node") is None or not (SOURCES / "node_modules" / "esbuild").exists():
+    if shutil.which("node") is None or not (NODE_MODULES / "esbuild").exists():
         pytest.skip("needs node and the packages of viewer/package.json: npm ci in the folder viewer")
     made = tmp_path / "viewer.js"
     subprocess.run(["node", "build.mjs", str(made)], cwd=SOURCES, check=True, timeout=120)

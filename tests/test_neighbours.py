@@ -9,7 +9,7 @@ import wingbeat as wb
 from wingbeat.bench import mixed_problems
 from wingbeat.orbits import batch, neighbours
 from wingbeat.orbits.batch import find_orbits
-from wingbeat.orbits.neighbours import Answers, alike, differences, numbers_of
+from wingbeat.orbits.neighbours import Answers, Known, alike, differences, numbers_of
 from wingbeat.orbits.solution import Status, better_of
 from wingbeat.orbits.solve import find_orbit, settle
 
@@ -23,8 +23,10 @@ def pigeons():
 def test_groups_hold_every_problem_once_and_only_what_differs_in_numbers():
     problems = list(mixed_problems(40))
     groups = alike(problems)
-    assert sorted(i for group in groups for i in group) == list(range(40))
-    kinds = [{(problems[i].species.name, problems[i].aero.coefficients.name) for i in group} for group in groups]
+    assert sorted(i for group in groups for i in group.first) == list(range(40))
+    kinds = [
+        {(problems[i].species.name, problems[i].aero.coefficients.name) for i in group.first} for group in groups
+    ]
     assert all(len(kind) == 1 for kind in kinds)
     assert len(kinds) == 4
 
@@ -33,47 +35,52 @@ def test_what_is_free_or_made_least_or_how_many_strips_keeps_problems_apart(pige
     first = pigeons[0]
     fewer = dataclasses.replace(first, free=("frequency", "flap_amplitude", "pitch_amplitude"), bounds={})
     strips = dataclasses.replace(first, aero=wb.aero.BladeElement(wb.aero.SuFan(), strips=12))
-    assert sorted(map(len, alike([first, fewer, strips, pigeons[1]]))) == [1, 1, 2]
+    assert sorted(len(group.first) for group in alike([first, fewer, strips, pigeons[1]])) == [1, 1, 2]
 
 
 def test_large_groups_are_cut_where_the_numbers_differ_most(monkeypatch):
     monkeypatch.setattr(neighbours, "TOGETHER", 4)
     pigeon = wb.load_species("pigeon")
-    problems = [wb.OrbitProblem(pigeon, speed=float(u)) for u in np.random.default_rng(0).permutation(8) + 5]
-    speeds = [sorted(problems[i].speed for i in group) for group in alike(problems)]
-    assert speeds == [[5.0, 6.0, 7.0, 8.0], [9.0, 10.0, 11.0, 12.0]]
+    monkeypatch.setattr(neighbours, "FIRST", 3)
+    problems = [wb.OrbitProblem(pigeon, speed=float(u)) for u in np.random.default_rng(0).permutation(11) + 5]
+    (group,) = alike(problems)
+    assert [problems[i].speed for i in group.first] == [10.0, 15.0, 5.0]
+    speeds = [sorted(problems[i].speed for i in part) for part in group.parts]
+    assert speeds == [[6.0, 7.0, 8.0, 9.0], [11.0, 12.0, 13.0, 14.0]]
 
 
 def test_problems_that_are_all_the_same_are_one_group(pigeons):
-    assert sorted(alike([pigeons[0]] * 3)[0]) == [0, 1, 2]
+    assert sorted(alike([pigeons[0]] * 3)[0].first) == [0, 1, 2]
     assert differences([numbers_of(pigeons[0])] * 3).shape == (3, 0)
 
 
 def test_an_order_to_learn_from_goes_to_what_is_farthest():
     pigeon = wb.load_species("pigeon")
     problems = [wb.OrbitProblem(pigeon, speed=u) for u in (5.0, 6.0, 9.0, 12.0, 14.0)]
-    assert [problems[i].speed for i in alike(problems)[0]][:3] == [9.0, 14.0, 5.0]
+    assert [problems[i].speed for i in alike(problems)[0].first][:3] == [9.0, 14.0, 5.0]
 
 
 def test_answers_that_lie_on_a_plane_are_foretold_exactly(pigeons):
     described = [numbers_of(pigeon) for pigeon in pigeons]
-    answers, places = Answers(described), differences(described)
+    answers, places = Answers([], described), differences(described)
     slopes = np.random.default_rng(1).normal(size=(places.shape[1], 9))
     enough = places.shape[1] + 2
     for i in range(enough):
         assert answers.foretell(enough) == []
-        answers.add(i, 1.0 + places[i] @ slopes, (), None)
-    ((unknowns, polish),) = answers.foretell(enough)
-    assert polish is None
-    np.testing.assert_allclose(unknowns, 1.0 + places[enough] @ slopes, rtol=1e-9)
+        answers.add(i, Known(described[i], 1.0 + places[i] @ slopes, (), None))
+    before = [Known(described[i], 1.0 + places[i] @ slopes, (), None) for i in range(enough)]
+    for told, place in ((answers, enough), (Answers(before, described[enough:]), 0)):
+        ((unknowns, learned),) = told.foretell(place)
+        assert learned is None
+        np.testing.assert_allclose(unknowns, 1.0 + places[enough] @ slopes, rtol=1e-9)
 
 
 def test_where_families_meet_each_foretells_its_own_if_enough_is_known_of_it(pigeons):
     described = [numbers_of(pigeon) for pigeon in pigeons]
-    answers, enough = Answers(described), differences(described).shape[1] + 2
+    answers, enough = Answers([], described), differences(described).shape[1] + 2
     for i in range(2 * enough):
         assert answers.foretell(2 * enough) == []
-        answers.add(i, np.full(9, float(i % 2)), ("flap_mean",) * (i % 2), None)
+        answers.add(i, Known(described[i], np.full(9, float(i % 2)), ("flap_mean",) * (i % 2), None))
     foretold = answers.foretell(2 * enough)
     assert sorted(unknowns.round(9).tolist() for unknowns, _ in foretold) == [[0.0] * 9, [1.0] * 9]
 
@@ -100,9 +107,9 @@ def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search
 
 def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
     found = find_orbit(pigeons[0], 1, threads=1)
-    again, polish = settle(pigeons[0], found.unknowns, None)
+    again, learned = settle(pigeons[0], found.unknowns, None)
     assert again.objective == pytest.approx(found.objective, rel=1e-8)
-    once_more, _ = settle(pigeons[0], found.unknowns, polish)
+    once_more, _ = settle(pigeons[0], found.unknowns, learned)
     assert once_more.objective == pytest.approx(found.objective, rel=1e-8)
     away = found.unknowns.copy()
     away[1] += 6.0

@@ -16,6 +16,8 @@ import threading
 import traceback
 from typing import Any
 
+from wingbeat.garbage import collect_seldom
+
 __all__ = ["Hand", "StoppedError", "main"]
 
 # Memory after which a worker leaves between two jobs, to be replaced: compiled programs pile up.
@@ -65,6 +67,7 @@ def _memory() -> int:
 def main(work: str) -> None:
     """Work until stdin closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    collect_seldom()
     # Answers go out where stdout was; what the work prints goes to stderr.
     out = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)

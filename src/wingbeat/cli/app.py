@@ -14,6 +14,7 @@ from cyclopts import App, CycloptsError, UnknownCommandError
 
 from wingbeat._version import __version__
 from wingbeat.errors import WingbeatError
+from wingbeat.garbage import collect_seldom
 
 __all__ = ["EXIT_BAD_INPUT", "EXIT_GOOD", "EXIT_NOT_CERTIFIED", "build_app", "main"]
 
@@ -101,6 +102,7 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
 
 def program() -> int:
     """Run the process's command line; what is in memory at its end is left to the system to clear away."""
+    collect_seldom()
     code = main()
     gc.freeze()  # or the interpreter spends half a second at exit looking for garbage in what JAX holds
     return code

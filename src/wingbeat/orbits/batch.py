@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import functools
-import itertools
 import multiprocessing
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from typing import Any, TypeVar
+from contextlib import contextmanager
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.neighbours import Answers, alike, numbers_of
-from wingbeat.orbits.polish import Polish
+from wingbeat.garbage import collect_seldom
+from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
+from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
@@ -23,6 +24,17 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 _MOST_PROCESSES = 1024
+
+
+class Part(NamedTuple):
+    """Problems of one kind that are solved one after the other, and answers of others to begin with."""
+
+    problems: list[OrbitProblem]
+    known: list[Known]
+
+
+# A solution, and what it tells of other problems if it is certified.
+Answer = tuple[Solution, Known | None]
 
 
 def find_orbits(
@@ -37,7 +49,8 @@ def find_orbits(
     """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
 
     Of problems that differ in numbers only, the first are searched as in `find_orbit`. Of a later one the first
-    search starts from what their answers foretell; if that leads to no certified orbit, it does not count.
+    search starts from what their answers foretell; if that leads to no certified orbit, it does not count. Of many
+    that are alike some go first and foretell the rest, which is shared out.
 
     Parameters
     ----------
@@ -57,7 +70,7 @@ def find_orbits(
     check_processes(faults, processes)
     faults.raise_if_any()
     check_search(1 if starts is None else starts, seed, 1 if most_starts is None else most_starts)
-    solve = functools.partial(_solve_alike, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
+    solve = functools.partial(_solve_part, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
     return _in_order(solve, problems, processes, progress)
 
 
@@ -68,7 +81,7 @@ def check_processes(faults: FaultList, processes: Any) -> None:
 
 
 def _in_order(
-    solve: Callable[[Sequence[OrbitProblem]], Iterator[Solution]],
+    solve: Callable[[Part], Iterator[Answer]],
     problems: Sequence[OrbitProblem],
     processes: int,
     progress: Progress | None,
@@ -76,41 +89,63 @@ def _in_order(
     """Solve group by group, and yield each solution when its turn comes."""
     groups = alike(problems)
     work = solve if processes == 1 else functools.partial(_all_of, solve)
-    found = in_processes(work, [[problems[i] for i in group] for group in groups], processes)
     waiting: dict[int, Solution] = {}
     due = 0
-    indices = itertools.chain.from_iterable(groups)
-    for index, solution in zip(indices, itertools.chain.from_iterable(found), strict=True):
-        waiting[index] = solution
-        if progress is not None:
-            progress(due + len(waiting), len(problems))
-        while due in waiting:
-            yield waiting.pop(due)
-            due += 1
+    with spread(processes, max(len(groups), sum(len(group.parts) for group in groups))) as over:
+        for index, solution in _by_groups(functools.partial(over, work), problems, groups):
+            waiting[index] = solution
+            if progress is not None:
+                progress(due + len(waiting), len(problems))
+            while due in waiting:
+                yield waiting.pop(due)
+                due += 1
+
+
+def _by_groups(
+    solve: Callable[[list[Part]], Iterator[Iterable[Answer]]],
+    problems: Sequence[OrbitProblem],
+    groups: Sequence[Group],
+) -> Iterator[tuple[int, Solution]]:
+    """Yield index and solution of each problem: those of a group that go first, then the parts that they help."""
+    known: list[list[Known]] = [[] for _ in groups]
+    first = [Part([problems[i] for i in group.first], []) for group in groups]
+    for group, learned, answers in zip(groups, known, solve(first), strict=True):
+        for index, (solution, answer) in zip(group.first, answers, strict=True):
+            if answer is not None:
+                learned.append(answer)
+            yield index, solution
+    rest = [(part, learned) for group, learned in zip(groups, known, strict=True) for part in group.parts]
+    found = solve([Part([problems[i] for i in part], learned) for part, learned in rest])
+    for (part, _), answers in zip(rest, found, strict=True):
+        for index, (solution, _) in zip(part, answers, strict=True):
+            yield index, solution
 
 
 def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
     return list(solve(item))
 
 
-def _solve_alike(
-    problems: Sequence[OrbitProblem], starts: int | None, seed: int, most_starts: int | None, advise: bool
-) -> Iterator[Solution]:
-    """Solve problems of one group in turn, each helped by the answers before."""
-    answers = Answers([numbers_of(problem) for problem in problems])
-    for i, problem in enumerate(problems):
+def _solve_part(
+    part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool
+) -> Iterator[Answer]:
+    """Solve the problems of a part in turn, each helped by the answers before."""
+    numbers = [numbers_of(problem) for problem in part.problems]
+    answers = Answers(part.known, numbers)
+    for i, problem in enumerate(part.problems):
         count = usual_starts(problem) if starts is None else starts
-        settled, polish = settle_foretold(problem, answers.foretell(i))
+        settled, learned = settle_foretold(problem, answers.foretell(i))
         best = find_helped(problem, settled, count, seed, most_starts, advise)
+        known = None
         if best.status is Status.CONVERGED:
-            answers.add(i, best.unknowns, best.active_bounds, polish)
-        yield best
+            known = Known(numbers[i], best.unknowns, best.active_bounds, learned)
+            answers.add(i, known)
+        yield best, known
 
 
 def settle_foretold(
-    problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Polish | None]]
-) -> tuple[Solution | None, Polish | None]:
-    """Return the best certified orbit next to what answers foretell, and what corrected it; or None and None."""
+    problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Curvature | None]]
+) -> tuple[Solution | None, Curvature | None]:
+    """Return the best certified orbit next to what answers foretell, and what was learned of it, or None each."""
     settled = [found for guess in guesses if (found := settle(problem, *guess)) is not None]
     return min(settled, key=lambda found: found[0].objective, default=(None, None))
 
@@ -157,13 +192,20 @@ def in_processes(
                 progress(done, len(items))
             yield result
 
+    with spread(processes, len(items)) as over:
+        yield from told(over(work, items))
+
+
+@contextmanager
+def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
+    """Give a `map` over so many processes, as many as there is work for at most; with 1 it is Python's own."""
     if processes == 1:
-        yield from told(map(work, items))
+        yield map
         return
     # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(processes, max(len(items), 1)), context) as pool:
+    with ProcessPoolExecutor(min(processes, max(most, 1)), context, collect_seldom) as pool:
         try:
-            yield from told(pool.map(work, items))
+            yield pool.map
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

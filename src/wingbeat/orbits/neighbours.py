@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from wingbeat.jax64 import jax
-from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
 
-# Problems that learn from one another: enough for good guesses, few enough to share a batch out over processes.
+# Problems that are solved one after the other, each helped by those before: few enough to share a batch out over
+# processes. Of more that are alike so many go first and help all others.
 TOGETHER = 256
+FIRST = 128
 # Answers nearer than this share of the farthest one asked weigh alike.
 _NEAR = 0.3
 # Relative differences between numbers that come from rounding.
 _ROUNDING = 1e-12
 
 
-def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
-    """Return the indices of problems in groups that differ in numbers only, each group in an order to learn from.
+class Group(NamedTuple):
+    """Indices of problems that differ in numbers only: those that are solved first, and parts that they help."""
 
-    A group is of one species and one coefficient model, by name. It has neighbouring numbers, and its order goes to
+    first: list[int]
+    parts: list[list[int]]
+
+
+def alike(problems: Sequence[OrbitProblem]) -> list[Group]:
+    """Return the problems in groups that differ in numbers only, all in an order to learn from.
+
+    A group is of one species and one coefficient model, by name; its parts have neighbouring numbers. Orders go to
     what is farthest from all that came before. Groups hang on the problems alone, not on who solves them.
     """
     kinds: dict[object, list[int]] = {}
@@ -30,7 +40,11 @@ def alike(problems: Sequence[OrbitProblem]) -> list[list[int]]:
     groups = []
     for members in kinds.values():
         places = differences([numbers_of(problems[i]) for i in members])
-        groups += [[members[j] for j in _spread(places, part)] for part in _parts(places, np.arange(len(members)))]
+        whole = np.arange(len(members))
+        first = _spread(places, whole, len(members) if len(members) <= TOGETHER else FIRST)
+        rest = np.setdiff1d(whole, first)
+        parts = [_spread(places, part, part.size) for part in _parts(places, rest)] if rest.size else []
+        groups.append(Group([members[j] for j in first], [[members[j] for j in part] for part in parts]))
     return groups
 
 
@@ -78,12 +92,12 @@ def _parts(places: np.ndarray, members: np.ndarray) -> list[np.ndarray]:
     return _parts(places, order[:half]) + _parts(places, order[half:])
 
 
-def _spread(places: np.ndarray, members: np.ndarray) -> np.ndarray:
-    """Return the members from the middle on, each the farthest from those before it."""
+def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
+    """Return so many members from the middle on, each the farthest from those before it."""
     here = places[members] - places[members].mean(axis=0)
     order, away = [], np.full(members.size, np.inf)
     nearest = np.linalg.norm(here, axis=1).argmin()
-    for _ in members:
+    for _ in range(count):
         order.append(nearest)
         away = np.minimum(away, np.linalg.norm(here - here[nearest], axis=1))
         away[order] = -1.0
@@ -91,41 +105,62 @@ def _spread(places: np.ndarray, members: np.ndarray) -> np.ndarray:
     return members[order]
 
 
+class Known(NamedTuple):
+    """A solved problem.
+
+    Parameters
+    ----------
+    numbers : that tell it from others of its kind.
+    unknowns : its answer.
+    active : the bounds active there.
+    learned : what was learned of the optimum, if it was foretold.
+    """
+
+    numbers: np.ndarray
+    unknowns: np.ndarray
+    active: tuple[str, ...]
+    learned: Curvature | None
+
+
 class Answers:
-    """Answers of a group's problems, given by their numbers, and what the nearest of them foretell of the next."""
+    """Answers of problems of one kind, and what the nearest of them foretell of those to come.
 
-    def __init__(self, described: Sequence[np.ndarray]) -> None:
-        self._places = differences(described)
-        self._known: list[int] = []
-        self._unknowns: list[np.ndarray] = []
-        self._active: list[tuple[str, ...]] = []
-        self._polishes: list[Polish | None] = []
+    Parameters
+    ----------
+    known : solved before.
+    coming : the numbers of those to come, which are then known by their place among them.
+    """
 
-    def add(self, index: int, unknowns: np.ndarray, active: tuple[str, ...], polish: Polish | None) -> None:
-        """Remember the answer of a problem, the bounds active at it, and what corrected it if it was foretold."""
-        self._known.append(index)
-        self._unknowns.append(unknowns)
-        self._active.append(active)
-        self._polishes.append(polish)
+    def __init__(self, known: Sequence[Known], coming: Sequence[np.ndarray]) -> None:
+        self._before = len(known)
+        self._places = differences([*(one.numbers for one in known), *coming])
+        self._known = list(known)
+        self._at = list(range(len(known)))
 
-    def foretell(self, index: int) -> list[tuple[np.ndarray, Polish | None]]:
-        """Foretell unknowns, and lend the nearest polish, from the answers with the same bounds active.
+    def add(self, place: int, known: Known) -> None:
+        """Remember the answer of a problem that was to come."""
+        self._at.append(self._before + place)
+        self._known.append(known)
+
+    def foretell(self, place: int) -> list[tuple[np.ndarray, Curvature | None]]:
+        """Foretell unknowns, and lend what was learned nearest, from the answers with the same bounds active.
 
         Where families meet, the nearest answers differ in their active bounds, and each family foretells its own.
         The list is empty where too little is known of one of them.
         """
-        away = self._places[self._known] - self._places[index]
+        away = self._places[self._at] - self._places[self._before + place]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
         enough = away.shape[1] + 2
-        families = dict.fromkeys(self._active[i] for i in order[:enough])
-        members = [np.array([i for i in order if self._active[i] == family]) for family in families]
+        families = dict.fromkeys(self._known[i].active for i in order[:enough])
+        members = [np.array([i for i in order if self._known[i].active == family]) for family in families]
         if any(alike.size < enough for alike in members):
             return []
         return [self._foretold(alike, away[alike]) for alike in members]
 
-    def _foretold(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, Polish | None]:
-        unknowns = _regression(away, np.array(self._unknowns)[alike])
-        return unknowns, next((self._polishes[i] for i in alike if self._polishes[i] is not None), None)
+    def _foretold(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, Curvature | None]:
+        known = [self._known[i] for i in alike]
+        unknowns = _regression(away, np.array([one.unknowns for one in known]))
+        return unknowns, next((one.learned for one in known if one.learned is not None), None)
 
 
 def _regression(away: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -6,6 +6,8 @@ which the objective hardly changes. Here the curvature along the few free direct
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from wingbeat.orbits.transcription import AT_BOUND, Transcription
@@ -28,13 +30,30 @@ _HELD = 3e-8
 _FLAT = 3e-6
 
 
+class Curvature(NamedTuple):
+    """What Newton's method learned of one optimum, for optima near by where the same is active.
+
+    Parameters
+    ----------
+    free : which unknowns lean on no bound.
+    on_path : which margins are met.
+    along : directions of the free unknowns that keep what is active, in columns.
+    matrix : the Lagrangian's second derivative along them.
+    """
+
+    free: np.ndarray
+    on_path: np.ndarray
+    along: np.ndarray
+    matrix: np.ndarray
+
+
 class Polish:
     """Newton's method from an optimum to that of a slightly changed problem, with what is active at the first.
 
     The curvature is that of `like`, where that was found near by with the same active, or else it is measured.
     """
 
-    def __init__(self, problem: Transcription, scaled: np.ndarray, like: Polish | None = None) -> None:
+    def __init__(self, problem: Transcription, scaled: np.ndarray, like: Curvature | None = None) -> None:
         self.problem = problem
         reach = AT_BOUND * (problem.upper - problem.lower)
         self.free = (scaled - problem.lower > reach) & (problem.upper - scaled > reach)
@@ -44,15 +63,20 @@ class Polish:
         self.fits = jacobian.shape[0] <= jacobian.shape[1]
         if not self.fits:
             return
-        if like is not None and like.fits and self._has_the_active_of(like):
-            self.along, self.curvature = like.along, like.curvature
+        if like is not None and self._has_the_active_of(like):
+            self.along, self.curvature = like.along, like.matrix
         else:
             conditions = Conditions(jacobian)
             self.along = conditions.null
             self.curvature = self._curvature(scaled, jacobian, conditions)
             self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
 
-    def _has_the_active_of(self, other: Polish) -> bool:
+    @property
+    def learned(self) -> Curvature | None:
+        """What to lend to a problem near by, if Newton's method fits this one."""
+        return Curvature(self.free, self.on_path, self.along, self.curvature) if self.fits else None
+
+    def _has_the_active_of(self, other: Curvature) -> bool:
         return np.array_equal(self.free, other.free) and np.array_equal(self.on_path, other.on_path)
 
     def _rows(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -14,7 +14,7 @@ from wingbeat.errors import FaultList
 from wingbeat.orbits.advice import certified_changes, least_changes, nearest_beat, words_of
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.correction import SETTLED, Corrected, certified, correct, follow_to_certificate, size
-from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.search import (
     Candidate,
@@ -211,18 +211,20 @@ def _without_orbit(
     return certified(programme.anew(), nearest.scaled), outcome
 
 
-def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tuple[Solution, Polish] | None:
+def settle(
+    problem: OrbitProblem, guess: np.ndarray, like: Curvature | None
+) -> tuple[Solution, Curvature | None] | None:
     """Correct unknowns taken to be next to an orbit, without a search.
 
     Parameters
     ----------
     problem : the orbit problem.
     guess : unknowns.
-    like : what corrected a problem much the same.
+    like : what was learned of a problem much the same.
 
     Returns
     -------
-    The certified orbit and what corrected it, or None.
+    The certified orbit and what was learned of it, or None.
     """
     begun = time.perf_counter()
     transcription = Transcription(problem)
@@ -237,7 +239,7 @@ def settle(problem: OrbitProblem, guess: np.ndarray, like: Polish | None) -> tup
     if not corrected.is_orbit():
         return None
     seconds = time.perf_counter() - begun
-    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds), polish
+    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds), polish.learned
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import Candidate, as_candidate, refine
 from wingbeat.orbits.solution import Solution, Status
@@ -217,14 +217,14 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
     speed, last = optimum.problem.speed, problem.speed
     here, rate = optimum.place, np.zeros(optimum.place.size)
     step = math.copysign(min(_FIRST_STEP, abs(last - speed)), last - speed)
-    polish: Polish | None = None
+    learned: Curvature | None = None
     steps = 0
     while abs(step) >= _LEAST_STEP:
         # A rest too short to be a step of its own goes with this one.
         ends = abs(last - speed - step) < _LEAST_STEP
         step = last - speed if ends else step
         there = problem if ends else dataclasses.replace(problem, speed=speed + step)
-        candidate, polish = _next_to(Transcription(there), unknowns_at(here + rate * step, there), polish)
+        candidate, learned = _next_to(Transcription(there), unknowns_at(here + rate * step, there), learned)
         found = here if candidate is None else place_of(candidate)
         if candidate is None or np.abs(found - here).max() > LEAP:
             step, rate = 0.5 * step, 0.0 * rate
@@ -244,16 +244,16 @@ def _is_optimum(candidate: Candidate) -> bool:
 
 
 def _next_to(
-    programme: Transcription, guess: np.ndarray, like: Polish | None
-) -> tuple[Candidate | None, Polish | None]:
-    """Return the optimum next to a guess, by Newton's method or else a search, and what corrects the next one."""
+    programme: Transcription, guess: np.ndarray, like: Curvature | None
+) -> tuple[Candidate | None, Curvature | None]:
+    """Return the optimum next to a guess, by Newton's method or else a search, and what helps with the next one."""
     scaled = programme.scaled(guess)
     polish = Polish(programme, scaled, like)
     near = polish.follow(scaled)
     if near is not None:
         candidate = as_candidate(programme, near)
         if _is_optimum(candidate):
-            return candidate, polish
+            return candidate, polish.learned
     candidate = refine(programme, guess, _STEP_ITERATIONS)
     return (candidate, None) if _is_optimum(candidate) else (None, None)
 

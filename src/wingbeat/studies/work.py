@@ -11,11 +11,8 @@ import time
 from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from wingbeat.orbits.batch import find_helped, settle_foretold
-from wingbeat.orbits.neighbours import Answers, kind, numbers_of
-from wingbeat.orbits.polish import Polish
+from wingbeat.orbits.neighbours import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import follow
 from wingbeat.results.dataset import evaluate
@@ -33,16 +30,16 @@ _FORETELLING = 8
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:
     """Yield the outcome of each point, in order; whatever goes wrong with a point is an outcome, too."""
-    before: list[_Known] = []
+    before: list[_Before] = []
     for task in unit.tasks:
         if task.key in unit.skip:
             continue
         begun = time.perf_counter()
         try:
-            known = _search(unit.recipe, task.changes, before)
-            if known.solution.status is Status.CONVERGED:
+            found, known = _search(unit.recipe, task.changes, before)
+            if found.status is Status.CONVERGED:
                 before.append(known)
-            record = _record(known.solution)
+            record = _record(found)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
@@ -50,16 +47,14 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
         yield _outcome(task.key, record, time.perf_counter() - begun)
 
 
-class _Known(NamedTuple):
-    """A solved point: its kind, its numbers, its answer, and what corrected it if it was foretold."""
+class _Before(NamedTuple):
+    """A point of a chain that was solved before: its kind and its answer."""
 
     kind: Hashable
-    numbers: np.ndarray
-    solution: Solution
-    polish: Polish | None
+    known: Known
 
 
-def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> _Known:
+def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> tuple[Solution, _Before]:
     """Solve one point; of a chain, with the help of the answers before it."""
     made = _recipe(recipe)
     search = made.search
@@ -68,20 +63,12 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Known]) -> _K
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
     own, numbers = kind(problem), numbers_of(problem)
-    near, polish = settle_foretold(problem, _foretold(own, numbers, before))
+    like = [one.known for one in before[-_FORETELLING:] if one.kind == own]
+    near, learned = settle_foretold(problem, Answers(like, [numbers]).foretell(0))
     if before and near is None:
-        near = follow(problem, before[-1].solution.unknowns)
+        near = follow(problem, before[-1].known.unknowns)
     found = find_helped(problem, near, starts, seed, most, search["advise"])
-    return _Known(own, numbers, found, polish)
-
-
-def _foretold(own: Hashable, numbers: np.ndarray, before: list[_Known]) -> list[tuple[np.ndarray, Polish | None]]:
-    """Return what the answers before a point of a chain foretell of it; those after it have no say."""
-    like = [known for known in before[-_FORETELLING:] if known.kind == own]
-    answers = Answers([*(known.numbers for known in like), numbers])
-    for i, known in enumerate(like):
-        answers.add(i, known.solution.unknowns, known.solution.active_bounds, known.polish)
-    return answers.foretell(len(like))
+    return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, learned))
 
 
 @functools.lru_cache(_KEPT)

@@ -16,6 +16,7 @@ import sys
 import threading
 from typing import Any
 
+from wingbeat.garbage import collect_seldom
 from wingbeat.studies.units import Task, Unit
 
 __all__ = ["main"]
@@ -33,6 +34,7 @@ def _read(batches: queue.SimpleQueue[Any]) -> None:
 def main(work: str, timeout: float) -> None:
     """Work until stdin closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    collect_seldom()
     # Answers go out where stdout was; what the work prints goes to stderr.
     out = os.fdopen(os.dup(1), "w", encoding="utf-8", buffering=1)
     os.dup2(2, 1)

@@ -1,0 +1,14 @@
+"""How often Python looks for garbage in wingbeat's own processes."""
+
+from __future__ import annotations
+
+import gc
+
+# Containers made before a look; Python's own 700 come together some thousand times while a program is traced, and
+# each look goes through what JAX holds.
+_SELDOM = 50_000
+
+
+def collect_seldom() -> None:
+    """Have this process look for garbage seldom; what a solver leaves behind has few cycles."""
+    gc.set_threshold(_SELDOM)

@@ -107,13 +107,13 @@ def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search
 
 def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
     found = find_orbit(pigeons[0], 1, threads=1)
-    again, learned = settle(pigeons[0], found.unknowns, None)
+    again = settle(pigeons[0], found.unknowns)
     assert again.objective == pytest.approx(found.objective, rel=1e-8)
-    once_more, _ = settle(pigeons[0], found.unknowns, learned)
+    once_more = settle(pigeons[0], found.unknowns, again.learned)
     assert once_more.objective == pytest.approx(found.objective, rel=1e-8)
     away = found.unknowns.copy()
     away[1] += 6.0
-    assert settle(pigeons[0], away, None) is None
+    assert settle(pigeons[0], away) is None
 
 
 def test_of_two_answers_the_better_is_kept_with_the_counts_of_both(pigeons):

@@ -133,21 +133,21 @@ def _solve_part(
     answers = Answers(part.known, numbers)
     for i, problem in enumerate(part.problems):
         count = usual_starts(problem) if starts is None else starts
-        settled, learned = settle_foretold(problem, answers.foretell(i))
+        settled = settle_foretold(problem, answers.foretell(i))
         best = find_helped(problem, settled, count, seed, most_starts, advise)
         known = None
         if best.status is Status.CONVERGED:
-            known = Known(numbers[i], best.unknowns, best.active_bounds, learned)
+            known = Known(numbers[i], best.unknowns, best.active_bounds, best.learned)
             answers.add(i, known)
         yield best, known
 
 
 def settle_foretold(
     problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Curvature | None]]
-) -> tuple[Solution | None, Curvature | None]:
-    """Return the best certified orbit next to what answers foretell, and what was learned of it, or None each."""
+) -> Solution | None:
+    """Return the best certified orbit next to what answers foretell, or None."""
     settled = [found for guess in guesses if (found := settle(problem, *guess)) is not None]
-    return min(settled, key=lambda found: found[0].objective, default=(None, None))
+    return min(settled, key=lambda found: found.objective, default=None)
 
 
 def find_helped(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import time
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ import numpy as np
 
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate, certify
-from wingbeat.orbits.polish import STILL, Polish
+from wingbeat.orbits.polish import STILL, Curvature, Polish
 from wingbeat.orbits.search import OPTIMAL, optimality, optimise
 from wingbeat.orbits.transcription import Transcription
 
@@ -37,6 +38,7 @@ class Corrected:
     certificate: Certificate
     miss: np.ndarray
     programme: Transcription
+    learned: Curvature | None = None
 
     @functools.cached_property
     def optimality(self) -> float:
@@ -78,7 +80,7 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
     for _ in range(_CORRECTIONS):
         here = certified(problem, scaled)
         if here.is_orbit(_AIM):
-            return here
+            return dataclasses.replace(here, learned=polish.learned)
         if best is None or size(here.miss) < size(best.miss):
             best = here
         if not np.isfinite(here.miss).all():
@@ -94,7 +96,7 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
             turns += 1
         scaled = _settle(polish, scaled)
     assert best is not None
-    return best
+    return dataclasses.replace(best, learned=polish.learned)
 
 
 def _settle(polish: Polish, scaled: np.ndarray, still: float = STILL) -> np.ndarray:

@@ -113,7 +113,7 @@ class Known(NamedTuple):
     numbers : that tell it from others of its kind.
     unknowns : its answer.
     active : the bounds active there.
-    learned : what was learned of the optimum, if it was foretold.
+    learned : what was learned of the optimum.
     """
 
     numbers: np.ndarray

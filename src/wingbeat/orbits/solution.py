@@ -14,6 +14,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.changes import Relaxation
+from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.shortage import Shortage
@@ -44,7 +45,7 @@ class Solution:
 
     `optima` are those that the searches met. Where there is no orbit, wingbeat and start are of the beat that comes
     closest; `shortages` says which law of balance it breaks and by how much, the most first, and `relaxations`
-    which single changes fly, the smallest first.
+    which single changes fly, the smallest first. `learned` is what problems near by can make use of.
     """
 
     problem: OrbitProblem
@@ -63,6 +64,7 @@ class Solution:
     optima: tuple[Optimum, ...] = ()
     shortages: tuple[Shortage, ...] = ()
     relaxations: tuple[Relaxation, ...] = ()
+    learned: Curvature | None = None
 
     @property
     def unknowns(self) -> np.ndarray:

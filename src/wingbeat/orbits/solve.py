@@ -211,9 +211,7 @@ def _without_orbit(
     return certified(programme.anew(), nearest.scaled), outcome
 
 
-def settle(
-    problem: OrbitProblem, guess: np.ndarray, like: Curvature | None
-) -> tuple[Solution, Curvature | None] | None:
+def settle(problem: OrbitProblem, guess: np.ndarray, like: Curvature | None = None) -> Solution | None:
     """Correct unknowns taken to be next to an orbit, without a search.
 
     Parameters
@@ -224,7 +222,7 @@ def settle(
 
     Returns
     -------
-    The certified orbit and what was learned of it, or None.
+    The certified orbit, or None.
     """
     begun = time.perf_counter()
     transcription = Transcription(problem)
@@ -239,7 +237,7 @@ def settle(
     if not corrected.is_orbit():
         return None
     seconds = time.perf_counter() - begun
-    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds), polish.learned
+    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds)
 
 
 def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
@@ -314,6 +312,7 @@ def _solution(
         optima,
         told.shortages,
         told.relaxations,
+        best.learned,
     )
 
 

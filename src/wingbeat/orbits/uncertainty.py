@@ -147,8 +147,7 @@ def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: n
 def _read_off(drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int) -> list[float]:
     """Return quantities of the orbit of one draw, not-a-number where there is none."""
     problem, guess = drawn
-    settled = settle(problem, guess, None)
-    found = follow(problem, guess) if settled is None else settled[0]
+    found = settle(problem, guess) or follow(problem, guess)
     if found is None:
         found = find_orbit(problem, 1, seed, threads=1, most_starts=1)
     if found.status is not Status.CONVERGED:

@@ -64,11 +64,11 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
     seed = int(search["seed"])
     own, numbers = kind(problem), numbers_of(problem)
     like = [one.known for one in before[-_FORETELLING:] if one.kind == own]
-    near, learned = settle_foretold(problem, Answers(like, [numbers]).foretell(0))
+    near = settle_foretold(problem, Answers(like, [numbers]).foretell(0))
     if before and near is None:
         near = follow(problem, before[-1].known.unknowns)
     found = find_helped(problem, near, starts, seed, most, search["advise"])
-    return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, learned))
+    return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, found.learned))
 
 
 @functools.lru_cache(_KEPT)

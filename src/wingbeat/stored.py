@@ -15,7 +15,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.export
@@ -33,6 +33,14 @@ _TRACING = threading.Lock()
 _ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
 
 
+class _Ready(NamedTuple):
+    """A compiled function of arrays, and the structure and shapes of what its result holds."""
+
+    program: Callable[..., Any]
+    tree: Any
+    shapes: tuple[Any, ...]
+
+
 class StoredFunction:
     """A function of float64 arrays, in pytrees, traced at most once on this machine for given shapes.
 
@@ -48,7 +56,7 @@ class StoredFunction:
         self._static = static
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()
-        self._ready: dict[Any, tuple[Callable[..., Any], Any, tuple[Any, ...]]] = {}
+        self._ready: dict[Any, _Ready] = {}
 
     @property
     def loaded(self) -> bool:
@@ -60,7 +68,8 @@ class StoredFunction:
         if any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args)):
             return self._inlined(*args, **static)
         leaves, tree = jax.tree_util.tree_flatten(args)
-        return self._run(tree, (), (), [np.asarray(leaf, dtype=float) for leaf in leaves], static)
+        more = [np.asarray(leaf, dtype=float) for leaf in leaves]
+        return self._run(self._program(tree, (), more, static), (), more)
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function of the arguments that follow these, which are taken apart but once.
@@ -71,41 +80,41 @@ class StoredFunction:
         arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
         shapes = tuple(array.shape for array in arrays)
         held = _moved(arrays, shapes)
+        ready: _Ready | None = None
 
         def call(*rest: Any) -> Any:
-            return self._run(tree, shapes, held, [np.asarray(a, dtype=float) for a in rest], static)
+            nonlocal ready
+            more = [np.asarray(a, dtype=float) for a in rest]
+            if ready is None:
+                ready = self._program(tree, shapes, more, static)
+            return self._run(ready, held, more)
 
         return call
 
-    def _run(
-        self,
-        tree: Any,
-        shapes: tuple[Any, ...],
-        held: tuple[Any, ...],
-        more: list[np.ndarray],
-        static: dict[str, Any],
-    ) -> Any:
-        """Evaluate the program for these shapes, of arrays held and more, in that order."""
+    def _program(
+        self, tree: Any, shapes: tuple[Any, ...], more: list[np.ndarray], static: dict[str, Any]
+    ) -> _Ready:
+        """Return the program for arrays of these shapes and more, in that order."""
         key = (tree, shapes, tuple(a.shape for a in more), *sorted(static.items()))
         if key not in self._ready:
             with self._lock:  # one thread loads, the others wait for it
                 if key not in self._ready:
                     self._ready[key] = self._load(tree, shapes, key[2], static)
-        program, out_tree, out_shapes = self._ready[key]
+        return self._ready[key]
+
+    def _run(self, ready: _Ready, held: tuple[Any, ...], more: list[np.ndarray]) -> Any:
+        program, out_tree, out_shapes = ready
         with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
             found = np.asarray(program(*held, _packed(more)))
         return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
-    def _load(
-        self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]
-    ) -> tuple[Callable[..., Any], Any, tuple[Any, ...]]:
-        """Return the compiled function of arrays, and the structure and shapes of what its result holds."""
+    def _load(self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]) -> _Ready:
         all_shapes = (*shapes, (sum(math.prod(shape) for shape in rest),))
         arguments = [jax.ShapeDtypeStruct(shape, jnp.float64) for shape in all_shapes]
         path = self._path(tree, (shapes, rest), static)
         try:
             program, out_tree, out_shapes = pickle.loads(path.read_bytes())
-            return _compiled(jax.export.deserialize(bytearray(program)), arguments), out_tree, out_shapes
+            return _Ready(_compiled(jax.export.deserialize(bytearray(program)), arguments), out_tree, out_shapes)
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []
@@ -125,7 +134,7 @@ class StoredFunction:
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        return _compiled(exported, arguments), *outcome[0]
+        return _Ready(_compiled(exported, arguments), *outcome[0])
 
     def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""

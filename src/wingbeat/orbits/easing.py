@@ -100,7 +100,7 @@ class _EasedLimit(Eased):
 
     def margins_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return their derivative."""
-        jacobian = super().margins_jacobian(scaled)
+        jacobian = super().margins_jacobian(scaled).copy()
         jacobian[self._passed, -1] += self._unit
         return jacobian
 
@@ -129,7 +129,7 @@ class _EasedNumber(Eased):
         step = _STEP if share + _STEP <= self.upper[-1] else -_STEP
         here, beside = (self._with_number(s)._at(unknowns) for s in (share, share + step))
         point = with_column(here)
-        for name in ("closure", "pitch", "rows"):
+        for name in ("closure", "inside", "rows"):
             jacobian = getattr(point, f"{name}_jacobian")
             jacobian[:, -1] = (getattr(beside, name) - getattr(here, name)) / step
         return point

@@ -176,24 +176,14 @@ def optimality(problem: Transcription, scaled: np.ndarray) -> float:
 
     The multipliers are the best in least squares: free for the closure, of the right sign for active bounds.
     """
-    columns = [row for row in problem.closure_jacobian(scaled)]
-    signs = [(-np.inf, np.inf)] * len(columns)
-    reach = AT_BOUND * (problem.upper - problem.lower)
-    for i, x in enumerate(scaled):
-        unit = np.eye(scaled.size)[i]
-        for away, direction in ((x - problem.lower[i], unit), (problem.upper[i] - x, -unit)):
-            if away <= reach[i]:
-                columns.append(direction)
-                signs.append((0.0, np.inf))
-    rows = problem.margins_jacobian(scaled)
-    for margin, row in zip(problem.margins(scaled), rows, strict=True):
-        if margin <= AT_BOUND:
-            columns.append(row)
-            signs.append((0.0, np.inf))
-    lower, upper = np.array(signs).T
-    gradient, normals = problem.objective_gradient(scaled), np.array(columns).T
+    closure = problem.closure_jacobian(scaled)
+    unit, reach = np.eye(scaled.size), AT_BOUND * (problem.upper - problem.lower)
+    bounds = [unit[scaled - problem.lower <= reach], -unit[problem.upper - scaled <= reach]]
+    passed = problem.margins_jacobian(scaled)[problem.margins(scaled) <= AT_BOUND]
+    gradient, normals = problem.objective_gradient(scaled), np.concatenate([closure, *bounds, passed]).T
     multipliers = np.linalg.lstsq(normals, gradient)[0]
-    if (multipliers < lower).any():
+    if (multipliers[len(closure) :] < 0).any():
+        least = np.repeat([-np.inf, 0.0], [len(closure), multipliers.size - len(closure)])
         with np.errstate(invalid="ignore"):  # where it multiplies nothing with infinity
-            multipliers = lsq_linear(normals, gradient, bounds=(lower, upper)).x
+            multipliers = lsq_linear(normals, gradient, bounds=(least, np.inf)).x
     return float(np.abs(normals @ multipliers - gradient).max())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,12 +25,15 @@ _LEVELS = 1e6
 
 
 class Point(NamedTuple):
-    """Values and derivatives at one place of the search, in the optimiser's scale."""
+    """Values and derivatives at one place of the search, in the optimiser's scale.
+
+    ``inside`` is how far body pitch stays above its lower and below its upper bound [rad], as flown.
+    """
 
     closure: np.ndarray
     closure_jacobian: np.ndarray
-    pitch: np.ndarray
-    pitch_jacobian: np.ndarray
+    inside: np.ndarray
+    inside_jacobian: np.ndarray
     rows: np.ndarray
     rows_jacobian: np.ndarray
 
@@ -130,10 +133,15 @@ class Transcription:
             rows, rows_jacobian = self.asked.read(unknowns, flown) if tame else self.asked.lost
             tame = tame and abs(rows.sum()) + abs(rows_jacobian.sum()) < _WILD
             rows_jacobian = rows_jacobian * scale
-        point = Point(closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian)
         if not tame:
             # A flight that tumbles off to infinity must still be a number for the line search to back away from.
-            point = Point(*(np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in point))
+            flight = (closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian)
+            tamed = (np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in flight)
+            closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian = tamed
+        lowest, highest = self._peak(-pitch), self._peak(pitch)
+        inside_jacobian = np.stack([lowest @ pitch_jacobian, -highest @ pitch_jacobian])
+        inside = self._inside(lowest @ pitch, highest @ pitch)
+        point = Point(closure, jacobian, inside, inside_jacobian, rows, rows_jacobian)
         return point if not self.has_level else with_column(point)
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
@@ -153,7 +161,7 @@ class Transcription:
         First body pitch on the path above its lower and below its upper bound [rad], then the constraints' rows in
         their scale, then the level above each peak that is to be lowered.
         """
-        pitch = self.pitch_margins(self._at(scaled).pitch) - self._pitch_shift
+        pitch = self._at(scaled).inside - self._pitch_shift
         if self.asked is None:
             return pitch
         rows = self._rows(scaled)
@@ -164,22 +172,22 @@ class Transcription:
 
     def pitch_margins(self, pitch: np.ndarray) -> np.ndarray:
         """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
-        lowest, highest = self._peak(-pitch) @ pitch, self._peak(pitch) @ pitch
+        return self._inside(self._peak(-pitch) @ pitch, self._peak(pitch) @ pitch)
+
+    def _inside(self, lowest: Any, highest: Any) -> np.ndarray:
         return np.array([lowest - self.pitch_bounds[0], self.pitch_bounds[1] - highest])
 
     def margins_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return their derivative, shape (margins, n)."""
         point = self._at(scaled)
-        lowest, highest = self._peak(-point.pitch), self._peak(point.pitch)
-        pitch = np.stack([lowest @ point.pitch_jacobian, -highest @ point.pitch_jacobian])
         if self.asked is None:
-            return pitch
+            return point.inside_jacobian
         rows = point.rows_jacobian + self._rows_tilt
         level = np.zeros_like(rows[: self._lowered if self.has_level else 0])
         if self.has_level:
             level[:, -1] = 1.0
             level -= rows[: self._lowered]
-        return np.concatenate([pitch, -rows[self._lowered :], level])
+        return np.concatenate([point.inside_jacobian, -rows[self._lowered :], level])
 
     def conditions(self, scaled: np.ndarray, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return what must vanish, closure and those margins that are active, and the derivative."""
@@ -194,7 +202,7 @@ class Transcription:
         self._tilt = fine.closure_jacobian - here.closure_jacobian
         self._anchor = scaled.copy()
         self._shift = here.closure - fine.closure
-        self._pitch_shift = self.pitch_margins(here.pitch) - self.pitch_margins(fine.pitch)
+        self._pitch_shift = here.inside - fine.inside
         self._rows_tilt = fine.rows_jacobian - here.rows_jacobian
         self._rows_shift = here.rows - fine.rows
 
@@ -203,7 +211,7 @@ class Transcription:
         unknowns = self.physical(scaled)
         miss = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         self._shift = self._shift + self.closure(scaled) - miss
-        self._pitch_shift = self.pitch_margins(self._at(scaled).pitch) - self.pitch_margins(certificate.pitch)
+        self._pitch_shift = self._at(scaled).inside - self.pitch_margins(certificate.pitch)
         if self.asked is not None:
             self._rows_shift = (
                 self._rows_shift + self._rows(scaled) - self.asked.read_certified(unknowns, certificate)

@@ -29,8 +29,9 @@ from wingbeat.jax64 import cache_folder, jnp
 
 # Threads that trace at a time get in one another's way; in turn, XLA compiles the first while the next is traced.
 _TRACING = threading.Lock()
-# XLA's older way to make loops of fused operations compiles in half the time of the newer one; most run as fast.
-_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
+# XLA's older way to make loops of fused operations compiles in half the time of the newer one. What it makes runs
+# as fast, but for the flight of the search, which takes a tenth longer.
+_SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
 
 
 class _Ready(NamedTuple):
@@ -50,10 +51,11 @@ class StoredFunction:
     must be given by keyword and have a telling `repr`.
     """
 
-    def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = ()) -> None:
+    def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False) -> None:
         functools.update_wrapper(self, function)
         self._function = function
         self._static = static
+        self._hot = hot
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()
         self._ready: dict[Any, _Ready] = {}
@@ -114,7 +116,8 @@ class StoredFunction:
         path = self._path(tree, (shapes, rest), static)
         try:
             program, out_tree, out_shapes = pickle.loads(path.read_bytes())
-            return _Ready(_compiled(jax.export.deserialize(bytearray(program)), arguments), out_tree, out_shapes)
+            exported = jax.export.deserialize(bytearray(program))
+            return _Ready(_compiled(exported, arguments, self._hot), out_tree, out_shapes)
         except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
             pass
         outcome = []
@@ -134,7 +137,7 @@ class StoredFunction:
         with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        return _Ready(_compiled(exported, arguments), *outcome[0])
+        return _Ready(_compiled(exported, arguments, self._hot), *outcome[0])
 
     def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
         """Return where the traced program is kept: its name is a digest of all that could change it."""
@@ -149,12 +152,12 @@ class StoredFunction:
         return cache_folder() / "traced" / hashlib.sha256(repr(what).encode()).hexdigest()
 
 
-def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct]) -> Callable[..., Any]:
+def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
     """Compile a traced program, or read it from JAX's cache; ahead of a call, else JAX holds it in memory twice."""
     lowered = jax.jit(program.call).lower(*arguments)
-    if jax.default_backend() == "cpu":
+    if jax.default_backend() == "cpu" and not hot:
         with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice
-            return lowered.compile(_ON_CPU)
+            return lowered.compile(_SOON_ON_CPU)
     return lowered.compile()
 
 
@@ -190,8 +193,8 @@ def _source_digest() -> str:
     return digest.hexdigest()
 
 
-def stored(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = ()) -> Any:
-    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
+def stored(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
+    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a hot one may take longer to compile.
 
     >>> @stored
     ... def double(values):
@@ -200,5 +203,5 @@ def stored(function: Callable[..., Any] | None = None, *, static: tuple[str, ...
     3.0
     """
     if function is None:
-        return functools.partial(stored, static=static)
-    return StoredFunction(function, static)
+        return functools.partial(stored, static=static, hot=hot)
+    return StoredFunction(function, static, hot)

@@ -134,7 +134,7 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
     )
 
 
-@stored(static=("free",))
+@stored(static=("free",), hot=True)
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,

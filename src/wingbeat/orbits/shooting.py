@@ -163,7 +163,7 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     )
 
 
-@stored(static=("free", "components"))
+@stored(static=("free", "components"), hot=True)
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,

@@ -20,6 +20,8 @@ PROGRAM = (
     "import sys; from wingbeat.studies.engine import LocalProcesses; "
     "LocalProcesses.work = 'assumption_standin:solve'; from wingbeat.cli import main; sys.exit(main(sys.argv[1:]))"
 )
+# Seconds that a driver gets for what takes it some twenty on an idle machine: it starts a process for each study.
+PATIENCE = 300
 SAMPLE = ["paper", "assumptions", "--sets", "3", "--seed", "4", "--piece", "2", "--processes", "1"]
 
 
@@ -46,7 +48,7 @@ def start(folder, seconds):
 
 
 def wait_for(folder, pattern):
-    until = time.monotonic() + 60
+    until = time.monotonic() + PATIENCE
     while not list(folder.glob(pattern)):
         assert time.monotonic() < until
         time.sleep(0.02)
@@ -80,7 +82,7 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
     wait_for(tmp_path, "pieces/piece-0001-of-0002.csv")
     wait_for(tmp_path, "pieces/piece-0002-of-0002/*.sqlite")
     driver.send_signal(signal.SIGINT)
-    _, err = driver.communicate(timeout=60)
+    _, err = driver.communicate(timeout=PATIENCE)
     assert driver.returncode == 130
     assert "finishing what is in flight" in err
     assert not (tmp_path / "assumptions.csv").exists()

@@ -30,7 +30,7 @@ def undisturbed(cheap):
 
 def wait_for_points(study, count):
     """Wait until so many points are kept."""
-    until = time.monotonic() + 60
+    until = time.monotonic() + 300
     while len(study.points()) < count:
         assert time.monotonic() < until
         time.sleep(0.01)

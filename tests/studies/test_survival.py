@@ -201,6 +201,17 @@ def test_a_store_that_is_none_is_refused_and_left_as_it_is(cheap, how, words):
     assert study.store.read_bytes() == before
 
 
+def test_a_store_whose_maker_was_killed_before_its_tables_is_made_anew(cheap):
+    study = cheap(GRID[:3])
+    connection = sqlite3.connect(study.store)
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.close()
+    assert study.store.stat().st_size > 0
+    assert "waiting 3" in study.run("status", study.file)[1]
+    assert study.run()[0] == 0
+    assert len(study.points()) == 3
+
+
 def test_workers_that_cannot_start_are_told(cheap, monkeypatch):
     study = cheap(GRID[:3])
     monkeypatch.setattr(LocalProcesses, "work", "nowhere:solve")

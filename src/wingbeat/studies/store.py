@@ -81,7 +81,7 @@ class Store:
         FileError : it cannot be written, is damaged, is no store, or of another numerical version.
         """
         with _told(path), _closing(_connect(path, "mode=rwc")) as connection:
-            fresh = os.path.getsize(path) == 0
+            fresh = _is_empty(connection)
             if not fresh:
                 _check(connection, path)
             connection.execute("PRAGMA journal_mode = WAL")
@@ -95,6 +95,14 @@ class Store:
             with suppress(sqlite3.OperationalError):  # a reader is at work: what stands in the log is as safe
                 connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
+    @staticmethod
+    def is_begun(path: Path) -> bool:
+        """Say whether there is a store, or something else in its place; an empty database is as good as none."""
+        if not path.is_file():
+            return False
+        with _told(path), _closing(_connect_reader(path)) as connection:
+            return not _is_empty(connection)
+
     @classmethod
     @contextmanager
     def read(cls, path: Path) -> Iterator[Store]:
@@ -104,7 +112,7 @@ class Store:
         ------
         FileError : there is none, it cannot be read, is damaged, is no store, or of another numerical version.
         """
-        if not path.is_file():
+        if not cls.is_begun(path):
             raise FileError(f"there is no store {str(path)!r} yet; run the study first")
         with _told(path), _closing(_connect_reader(path)) as connection:
             _check(connection, path)
@@ -299,6 +307,12 @@ def _closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
         yield connection
     finally:
         connection.close()
+
+
+def _is_empty(connection: sqlite3.Connection) -> bool:
+    """Say whether nothing stands in a database, as where a driver was killed before it had made its tables."""
+    named = connection.execute("PRAGMA application_id").fetchone()[0]
+    return named == 0 and connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchone() is None
 
 
 def _check(connection: sqlite3.Connection, path: Path) -> None:

@@ -85,7 +85,7 @@ class Study:
     def estimate(self, processes: int = 1) -> float:
         """Return about how long the points without an answer will take [s], by those that have one, if any."""
         each, waiting = None, len(self)
-        if self.store.is_file():
+        if Store.is_begun(self.store):
             with Store.read(self.store) as store:
                 each = store.seconds()
                 if store.digest == self.plan.digest:
@@ -146,7 +146,7 @@ class Study:
         ------
         FileError : the store cannot be read.
         """
-        if not self.store.is_file():
+        if not Store.is_begun(self.store):
             return Summary(len(self), {"waiting": len(self)})
         with Store.read(self.store) as store:
             counts = store.counts()

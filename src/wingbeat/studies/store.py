@@ -311,8 +311,7 @@ def _closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
 
 def _is_empty(connection: sqlite3.Connection) -> bool:
     """Say whether nothing stands in a database, as where a driver was killed before it had made its tables."""
-    named = connection.execute("PRAGMA application_id").fetchone()[0]
-    return named == 0 and connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchone() is None
+    return connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchone() is None
 
 
 def _check(connection: sqlite3.Connection, path: Path) -> None:

@@ -47,9 +47,10 @@ def start(folder, seconds):
     return subprocess.Popen(words, stderr=subprocess.PIPE, text=True, env=environment)
 
 
-def wait_for(folder, pattern):
+def wait_for(driver, folder, pattern):
     until = time.monotonic() + PATIENCE
     while not list(folder.glob(pattern)):
+        assert driver.poll() is None, driver.communicate()[1]
         assert time.monotonic() < until
         time.sleep(0.02)
 
@@ -75,12 +76,12 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
 
 def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
     driver = start(tmp_path, 0.1)
-    wait_for(tmp_path, "pieces/piece-0001-of-0002/bat-*.sqlite")
+    wait_for(driver, tmp_path, "pieces/piece-0001-of-0002/bat-*.sqlite")
     driver.kill()
     driver.communicate()
     driver = start(tmp_path, 0.05)
-    wait_for(tmp_path, "pieces/piece-0001-of-0002.csv")
-    wait_for(tmp_path, "pieces/piece-0002-of-0002/*.sqlite")
+    wait_for(driver, tmp_path, "pieces/piece-0001-of-0002.csv")
+    wait_for(driver, tmp_path, "pieces/piece-0002-of-0002/*.sqlite")
     driver.send_signal(signal.SIGINT)
     _, err = driver.communicate(timeout=PATIENCE)
     assert driver.returncode == 130

@@ -65,9 +65,14 @@ def test_a_visit(visit, capsys, tmp_path):
     with xr.open_dataset(path, engine="h5netcdf") as dataset:
         assert dataset.attrs["species"] == "bat"
         assert f"{float(np.asarray(xr.DataArray(dataset['time'])[-1])) ** -1:.6g}" == f"{float(exact(page)):.6g}"
-    # and back again
+    # and back again, on a page that asks for something else
+    page = visit()
+    solved(page, "pigeon")
     page.locator("input[type=file]").set_input_files(path)
     page.wait_for_function("document.querySelector('.message').textContent.includes('As the file bat.nc says')")
+    fields = [page.get_by_label(label, exact=True).first for label in ("Animal", "Model", "Speed [m/s]")]
+    assert [field.input_value() for field in fields] == ["bat", "dickinson", "8"]
+    assert "aero=dickinson" in page.url
 
 
 def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
@@ -219,7 +224,11 @@ def test_every_control_can_be_reached_by_the_keyboard(visit):
 
 def test_a_link_that_cannot_be_says_so(visit):
     page = visit("species=dodo")
-    page.locator(".trouble", has_text="is not a known choice").wait_for()
+    solved(page, "pigeon")  # what it falls back to, and says so until something else is asked
+    trouble = page.locator(".trouble", has_text="is not a known choice")
+    trouble.wait_for()
+    enter(page, "Speed [m/s]", "11")
+    trouble.wait_for(state="hidden")
 
 
 @pytest.mark.parametrize("told", [True, False], ids=["its size told", "in pieces"])

@@ -52,9 +52,9 @@ class Page:
             refusals = [f"The link was not understood. {fault}" for fault in error.faults]
         self._session = Session(name, pool, scenario, self)
         self._build(scenario)
+        self._session.ask(whole=True)
         if refusals:
             self.show_trouble(*refusals)
-        self._session.ask(whole=True)
 
     def context(self) -> AbstractContextManager[Any]:
         """Return the context in which the page's elements may be changed."""
@@ -127,7 +127,8 @@ class Page:
     # What the session says ---------------------------------------------------------------------------------------
 
     def show_scenario(self, scenario: Scenario) -> None:
-        """Show what is asked, in the form and in the address."""
+        """Show what is asked, in the form and in the address; what went wrong before it has been read."""
+        self._close_trouble()
         self._controls.show(scenario)
         self._curve.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
@@ -142,7 +143,6 @@ class Page:
 
     def show_answer(self, answer: dict[str, Any]) -> None:
         """Show an answer."""
-        self._close_trouble()
         self._flying.show(answer.pop("scene"))
         self._headline.show(answer)
         self._answer.show(answer)

@@ -207,6 +207,8 @@ class Session:
         self.stop("From a file; nothing was solved.")
         if scenario is not None:
             self.scenario = scenario
+            self._tell_faults()
+            self._view.show_scenario(scenario)
         answer["scenario"] = to_plain(self.scenario) if scenario is not None else None
         self._show(answer)
 

@@ -6,6 +6,7 @@ which the objective hardly changes. Here the curvature along the few free direct
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -96,21 +97,39 @@ class Polish:
         curvature = np.reshape(change, (-1, self.free.sum())) @ self.along / _STEP
         return 0.5 * (curvature + curvature.T)
 
+    def approach(self, scaled: np.ndarray, near: float) -> np.ndarray | None:
+        """Return a point from which the next step is shorter than `near`, or None as `follow` does.
+
+        That step is not made: one from known answers to the optimum of a search's few steps would lead away.
+        """
+        return next((here for here, step in self._steps(scaled) if np.abs(step).max() <= near), None)
+
     def follow(self, scaled: np.ndarray, still: float = STILL) -> np.ndarray | None:
         """Return the optimum next to a point, or None where Newton's method leads to none within the bounds.
 
         It ends with a step shorter than `still`, or where nothing is left to be gained.
         """
+        for here, step in self._steps(scaled):
+            there = here + step
+            if np.abs(step).max() <= still and not self._is_outside(there):
+                # None where a bound on the path is broken that was not met before.
+                return there if self.problem.margins(there).min() >= -AT_BOUND else None
+        return None
+
+    def _steps(self, scaled: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield where Newton's method comes by and its next step, while it keeps to the bounds."""
         problem = self.problem
         before: tuple[np.ndarray, ...] | None = None
         for _ in range(_ITERATIONS if self.fits else 0):
             values, jacobian = self._rows(scaled)
             if not np.isfinite(values).all() or np.abs(values).max() > _LOST:
-                return None
+                return
             gradient = problem.objective_gradient(scaled)[self.free]
             conditions = Conditions(jacobian)
+            step = np.zeros(scaled.size)
             if np.abs(values).max() <= _HELD and np.abs(conditions.null.T @ gradient).max(initial=0.0) <= _FLAT:
-                return self._unless_broken(scaled)
+                yield scaled, step
+                return
             if before is not None:
                 along, sliding, gradient_before, jacobian_before = before
                 turned = (jacobian - jacobian_before).T @ conditions.multipliers(gradient)
@@ -119,20 +138,16 @@ class Polish:
             along = conditions.null @ left @ right
             closing = conditions.shortest(-values)
             sliding = -np.linalg.solve(self.curvature, along.T @ gradient)
-            step = closing + along @ sliding
+            step[self.free] = closing + along @ sliding
             slides = np.abs(closing).max() <= _ASIDE * np.abs(sliding).max(initial=0.0)
             before = (along, sliding, gradient, jacobian) if slides else None
-            scaled = scaled.copy()
-            scaled[self.free] += step
-            if (scaled < problem.lower).any() or (scaled > problem.upper).any():
-                return None
-            if np.abs(step).max() <= still:
-                return self._unless_broken(scaled)
-        return None
+            yield scaled, step
+            scaled = scaled + step
+            if self._is_outside(scaled):
+                return
 
-    def _unless_broken(self, scaled: np.ndarray) -> np.ndarray | None:
-        """Return the point, or None where a bound on the path is broken that was not met before."""
-        return scaled if self.problem.margins(scaled).min() >= -AT_BOUND else None
+    def _is_outside(self, scaled: np.ndarray) -> bool:
+        return bool((scaled < self.problem.lower).any() or (scaled > self.problem.upper).any())
 
     def _learn(self, sliding: np.ndarray, change: np.ndarray) -> None:
         """Take into the curvature how a step along the null space changed the Lagrangian's gradient (BFGS)."""

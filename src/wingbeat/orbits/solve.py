@@ -230,7 +230,7 @@ def settle(problem: OrbitProblem, guess: np.ndarray, like: Curvature | None = No
     if violation(transcription, scaled) > _NEXT_TO:
         return None
     polish = Polish(transcription, scaled, like)
-    nearer = polish.follow(scaled, still=SETTLED)
+    nearer = polish.approach(scaled, SETTLED)
     if nearer is None:
         return None
     corrected = follow_to_certificate(transcription, polish, nearer)

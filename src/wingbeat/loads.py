@@ -107,7 +107,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         strip_position=points.place.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
-        strip_reynolds=air.strips.speed * strips.chord / model.air.viscosity,
+        strip_reynolds=model.air.reynolds(air.strips.speed, strips.chord),
         alpha=air.strips.alpha,
         lift=air.strips.lift,
         drag=air.strips.drag,

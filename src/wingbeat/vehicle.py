@@ -147,3 +147,7 @@ class Air:
         faults.number("air.viscosity", self.viscosity, above=0, unit="m2/s")
         faults.number("air.gravity", self.gravity, at_least=0, unit="m/s2")
         faults.raise_if_any()
+
+    def reynolds(self, speed: Any, chord: Any) -> Any:
+        """Return the Reynolds number of a chord [m] at a speed [m/s]."""
+        return speed * chord / self.viscosity

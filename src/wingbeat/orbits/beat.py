@@ -16,15 +16,15 @@ from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.shooting import STEPS, Flown
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
-from wingbeat.wing_motion import WingMotion, stroke_attitude
+from wingbeat.wing_motion import WingMotion, strips_of, stroke_attitude
 
 
 class Beat(NamedTuple):
     """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), SI and radians.
 
-    Names and units are those of a dataset. ``alpha``, ``lift`` and ``drag`` are those of the strips of one wing,
-    shape (K, strips). Torques and powers are of both wings together. ``frequency`` [Hz], ``speed`` and ``climb``
-    [m/s] and ``weight`` [N] are numbers.
+    Names and units are those of a dataset. ``alpha``, ``strip_reynolds``, ``lift`` and ``drag`` are those of the
+    strips of one wing, shape (K, strips). Torques and powers are of both wings together. ``frequency`` [Hz],
+    ``speed`` and ``climb`` [m/s] and ``weight`` [N] are numbers.
     """
 
     phase: Any
@@ -48,6 +48,7 @@ class Beat(NamedTuple):
     inertial_power: Any
     body_power: Any
     alpha: Any
+    strip_reynolds: Any
     lift: Any
     drag: Any
     frequency: Any
@@ -109,6 +110,7 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
+    chord = strips_of(model.vehicle.wing, model.strips).chord
     return Beat(
         phase=tables.phase,
         time=tables.phase / tables.frequency,
@@ -125,6 +127,7 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
         wing_pitch_rate=tables.hinges.pitch_rate,
         **hinges._asdict(),
         alpha=strips.alpha.T,
+        strip_reynolds=model.air.reynolds(strips.speed.T, chord),
         lift=strips.lift.T,
         drag=strips.drag.T,
         frequency=tables.frequency,
@@ -196,12 +199,6 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 
 @stored
-def _flown(model: FlightModel, wingbeat: Wingbeat, path: Any, phase: Any, mean_velocity: Any) -> Beat:
-    return _series(model, _tabulate(model, wingbeat, phase), path, mean_velocity)
-
-
-def flown_beat(
-    model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, path: np.ndarray, mean_velocity: tuple[float, float]
-) -> Beat:
+def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Any, path: Any, mean_velocity: Any) -> Beat:
     """Return the beat of states that were flown, (body_pitch, u, w, pitch_rate) of shape (K, 4)."""
-    return _flown(model, wingbeat, path.T, phase, np.array(mean_velocity))
+    return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)

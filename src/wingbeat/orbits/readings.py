@@ -104,7 +104,7 @@ def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
 def _any_beat(strips: int) -> Beat:
     by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
     number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
-    shapes = {"alpha": by_strip, "lift": by_strip, "drag": by_strip}
+    shapes: dict[str, Any] = dict.fromkeys(("alpha", "strip_reynolds", "lift", "drag"), by_strip)
     shapes |= dict.fromkeys(("frequency", "speed", "climb", "weight"), number)
     return Beat(*(shapes.get(name, series) for name in Beat._fields))
 

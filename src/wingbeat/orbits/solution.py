@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.beat import flown_beat
+from wingbeat.orbits.beat import Beat, flown_beat
 from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.polish import Curvature
@@ -90,12 +90,16 @@ class Solution:
             return self.value_of(minimise)
         return minimise.value(self.problem.unknowns().names, self.unknowns)
 
-    def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified beat in its unit, of a series its largest value."""
+    @functools.cached_property
+    def beat(self) -> Beat:
+        """The certified beat as a time series."""
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
-        beat = flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
-        return float(np.max(quantity.of(beat)))
+        return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
+
+    def value_of(self, quantity: Quantity) -> float:
+        """Return a quantity of the certified beat in its unit, of a series its largest value."""
+        return float(np.max(quantity.of(self.beat)))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.loads import Loads, flight_loads
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import SAMPLES, Certificate, certify
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.continuation import find_series
@@ -44,22 +44,12 @@ class Summary(NamedTuple):
     relaxations: tuple[Relaxation, ...] = ()
 
 
-class _Flight:
-    """What was flown of a wingbeat, and what is made of it when asked for."""
-
-    def __init__(self, problem: OrbitProblem, wingbeat: Wingbeat, fly: Callable[[], Certificate]) -> None:
-        self._model, self._wingbeat, self._fly = problem.model, wingbeat, functools.cache(fly)
-
-    @functools.cached_property
-    def loads(self) -> Loads:
-        """The loads along the flight."""
-        flown = self._fly()
-        return evaluate(self._model, self._wingbeat, flown.phase, flown.states)
-
-    def dataset(self, record: dict[str, Any], inputs: dict[str, Any]) -> xr.Dataset:
-        """Return the flight's time series, with a record and its inputs as attributes."""
-        flown, attributes = self._fly(), orbit_attributes(record, inputs)
-        return flight_dataset(self._model, self._wingbeat, flown.phase, flown.states, self.loads, attributes)
+def _dataset(
+    problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate, record: dict[str, Any], inputs: dict[str, Any]
+) -> xr.Dataset:
+    """Return the time series of what was flown of a wingbeat, with record and inputs as attributes."""
+    flight = problem.model, wingbeat, flown.phase, flown.states
+    return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
 
 
 def _summary(record: dict[str, Any]) -> Summary:
@@ -97,15 +87,11 @@ class Orbit:
         starts, seed : what the search was asked for.
         """
         inputs = inputs_of(solution.problem, starts, seed)
-        flight = _Flight(solution.problem, solution.wingbeat, lambda: solution.certificate)
-
-        @functools.cache
-        def record() -> dict[str, Any]:
-            return orbit_record(solution, flight.loads)
-
+        record = functools.cache(lambda: orbit_record(solution))
         start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
-        return cls(summary, inputs, record, lambda: flight.dataset(record(), inputs))
+        flown = solution.problem, solution.wingbeat, solution.certificate
+        return cls(summary, inputs, record, lambda: _dataset(*flown, record(), inputs))
 
     @classmethod
     def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
@@ -118,9 +104,12 @@ class Orbit:
         starts, seed : what the search was asked for.
         """
         inputs, summary = inputs_of(problem, starts, seed), _summary(record)
-        pitch_state = np.array(summary.initial_state)[2:]
-        flight = _Flight(problem, summary.wingbeat, lambda: certify(problem.model, summary.wingbeat, pitch_state))
-        return cls(summary, inputs, lambda: record, lambda: flight.dataset(record, inputs))
+        wingbeat, pitch_state = summary.wingbeat, np.array(summary.initial_state)[2:]
+
+        def series() -> xr.Dataset:
+            return _dataset(problem, wingbeat, certify(problem.model, wingbeat, pitch_state), record, inputs)
+
+        return cls(summary, inputs, lambda: record, series)
 
     @functools.cached_property
     def _record(self) -> dict[str, Any]:
@@ -238,7 +227,7 @@ def solve_orbit(
     starts = usual_starts(problem) if starts is None else starts
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
-        if not flight_loads.loaded:  # read or compiled while the search goes on
+        if not flown_beat.loaded:  # read or compiled while the search goes on
             pool.submit(_load_record_programs, problem)
         solution = find_orbit(problem, starts, seed, progress)
     return Orbit.of(solution, starts, seed)
@@ -246,8 +235,9 @@ def solve_orbit(
 
 def _load_record_programs(problem: OrbitProblem) -> None:
     model, wingbeat = problem.model, problem.species.wingbeat
-    evaluate(model, wingbeat, np.zeros(1), np.zeros((1, 6)))
-    floquet_multipliers(model, wingbeat, np.zeros((SAMPLES + 1, 4)))
+    path = np.zeros((SAMPLES + 1, 4))
+    flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), path, (0.0, 0.0))
+    floquet_multipliers(model, wingbeat, path)
 
 
 def solve_orbits(

@@ -10,7 +10,6 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement
 from wingbeat.kinematics import Wingbeat
-from wingbeat.loads import Loads
 from wingbeat.model import State
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
@@ -42,12 +41,13 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
     }
 
 
-def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
+def orbit_record(solution: Solution) -> dict[str, Any]:
     """Return the record of an orbit.
 
     What has no value (a cost of transport in hover, anything of a flight that ran off) is None, never NaN.
     """
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
+    alpha = solution.beat.alpha
     record = {
         "status": solution.status.value,
         "message": solution.message,
@@ -69,14 +69,14 @@ def orbit_record(solution: Solution, found: Loads) -> dict[str, Any]:
         "optimality": solution.optimality,
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,
-        **power_summary(solution, found),
+        **power_summary(solution),
         **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
-        "alpha_quarter_span": alpha_range(found, 0.25),
-        "alpha_three_quarter_span": alpha_range(found, 0.75),
+        "alpha_quarter_span": alpha_range(alpha, 0.25),
+        "alpha_three_quarter_span": alpha_range(alpha, 0.75),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
-        "warnings": orbit_warnings(solution, found),
+        "warnings": orbit_warnings(solution),
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
@@ -95,9 +95,9 @@ POWERS = (
 )
 
 
-def power_summary(solution: Solution, found: Loads) -> dict[str, float | None]:
+def power_summary(solution: Solution) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
-    problem = solution.problem
+    problem, found = solution.problem, solution.beat
     positive = beat_mean(np.maximum(found.hinge_power, 0.0))
     weight = problem.vehicle.mass * problem.air.gravity
     return {
@@ -118,14 +118,14 @@ def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: floa
     return {
         "strouhal": 2.0 * frequency * wing.semi_span * math.sin(flap_amplitude) / speed,
         "reduced_frequency": math.pi * frequency * wing.mean_chord / speed,
-        "reynolds": speed * wing.mean_chord / problem.air.viscosity,
+        "reynolds": problem.air.reynolds(speed, wing.mean_chord),
     }
 
 
-def alpha_range(found: Loads, station: float) -> list[float]:
-    """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
-    alpha = at_station(found.alpha, station)
-    return [float(alpha.min()), float(alpha.max())]
+def alpha_range(alpha: np.ndarray, station: float) -> list[float]:
+    """Return least and largest of effective angles of attack [rad] at a span fraction, between strips linearly."""
+    here = at_station(alpha, station)
+    return [float(here.min()), float(here.max())]
 
 
 def at_station(values: np.ndarray, station: float) -> np.ndarray:

@@ -11,7 +11,6 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import follow
-from wingbeat.results.dataset import evaluate
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.record import POWERS, power_summary
 
@@ -72,7 +71,5 @@ def orbit_spread(
 
 
 def _row(solution: Solution) -> dict[str, float | None]:
-    certificate, problem = solution.certificate, solution.problem
-    found = evaluate(problem.model, solution.wingbeat, certificate.phase, certificate.states)
-    trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in problem.free}
-    return power_summary(solution, found) | trimmed
+    trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in solution.problem.free}
+    return power_summary(solution) | trimmed

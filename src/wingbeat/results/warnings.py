@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from wingbeat.kinematics import ANGLES
-from wingbeat.loads import Loads
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.vehicle import Air, Vehicle
@@ -23,13 +22,13 @@ _RIVAL = 0.01
 _ELSEWHERE = 0.05
 
 
-def orbit_warnings(solution: Solution, found: Loads) -> list[str]:
+def orbit_warnings(solution: Solution) -> list[str]:
     """Return everything a reader should know before trusting an orbit."""
     problem = solution.problem
     air = problem.air
     notes = list(problem.species.warnings)
     notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
-    notes += fitted_range(solution, found)
+    notes += fitted_range(solution)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
             notes.append(f"the optimum leans on the bound of {name}, which is a guess: see the species file")
@@ -91,16 +90,16 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
     ]
 
 
-def fitted_range(solution: Solution, found: Loads) -> list[str]:
+def fitted_range(solution: Solution) -> list[str]:
     """Warn of the share of beat and strips outside the coefficients' Reynolds and alpha range.
 
     Every phase and every strip counts alike; strips are of equal width.
     """
-    problem = solution.problem
+    problem, beat = solution.problem, solution.beat
     coefficients = problem.aero.coefficients
     notes = []
     if coefficients.reynolds_range is not None:
-        reynolds = found.strip_reynolds
+        reynolds = beat.strip_reynolds
         low, high = coefficients.reynolds_range
         share = _outside(reynolds, low, high)
         if share > _MENTION:
@@ -109,7 +108,7 @@ def fitted_range(solution: Solution, found: Loads) -> list[str]:
                 f"(it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
     low, high = np.radians(coefficients.alpha_range_deg)
-    share = _outside(found.alpha, low, high)
+    share = _outside(beat.alpha, low, high)
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "

@@ -15,7 +15,6 @@ from wingbeat.orbits.batch import find_helped, settle_foretold
 from wingbeat.orbits.neighbours import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import follow
-from wingbeat.results.dataset import evaluate
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
@@ -39,7 +38,7 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
             found, known = _search(unit.recipe, task.changes, before)
             if found.status is Status.CONVERGED:
                 before.append(known)
-            record = _record(found)
+            record = orbit_record(found)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
@@ -74,12 +73,6 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
 @functools.lru_cache(_KEPT)
 def _recipe(inputs: str) -> Recipe:
     return recipe_from(json.loads(inputs))
-
-
-def _record(solution: Solution) -> dict[str, Any]:
-    flown = solution.certificate
-    loads = evaluate(solution.problem.model, solution.wingbeat, flown.phase, flown.states)
-    return orbit_record(solution, loads)
 
 
 def _outcome(key: str, record: dict[str, Any], seconds: float) -> Outcome:

@@ -189,9 +189,7 @@ def test_floquet_multipliers_agree_with_flights_of_scipy(solved):
 def test_a_neighbour_of_an_orbit_has_other_multipliers(solved):
     """The comparisons of multipliers here see a change of a thousandth of a radian."""
     other = dataclasses.replace(solved.wingbeat, pitch_amplitude=solved.wingbeat.pitch_amplitude + 1e-3)
-    neighbour = floquet_multipliers(
-        solved.model, other, certify(solved.model, other, solved.start[2:]).states[:, 2:]
-    )
+    neighbour = floquet_multipliers(solved.model, other, certify(solved.model, other, solved.start[2:]).steps)
     assert np.abs(in_order(neighbour) - in_order(multipliers(solved))).max() > 1e-5
 
 
@@ -220,6 +218,6 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     found = correct(programme, scaled)
     assert np.abs(found.miss).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-7)
-    found_multipliers = floquet_multipliers(solved.model, found.wingbeat, found.certificate.states[:, 2:])
+    found_multipliers = floquet_multipliers(solved.model, found.wingbeat, found.certificate.steps)
     mine, theirs = in_order(found_multipliers), in_order(multipliers(solved))
     assert np.abs(mine - theirs).max() <= 3e-4 * max(1.0, np.abs(theirs).max())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -36,7 +36,9 @@ def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) 
 def integrate(
     rates: Callable[..., Any], start: Any, times: Any, args: Any, most_steps: int, rtol: Any = RTOL
 ) -> Any:
-    """Integrate with Dopri8 and return the states at `times`; not-a-number from where it gives up.
+    """Integrate with Dopri8; return the states at `times`, not-a-number from where it gives up, and its own steps.
+
+    The steps are times and states, as many as there may be, infinite after the last.
 
     It steps exactly onto every fourth of the times and takes those between from the integrator's own polynomials:
     stepping onto all would take half as long again, and longer steps fail at the kinks of the loads.
@@ -55,14 +57,21 @@ def integrate(
         None,
         start,
         args=args,
-        saveat=diffrax.SaveAt(dense=True),
+        saveat=diffrax.SaveAt(t0=True, steps=True, dense=True),
         stepsize_controller=controller,
         adjoint=diffrax.ForwardMode(),
         max_steps=most_steps + times.size // _BETWEEN,
         throw=False,
     )
     found = jax.vmap(solution.evaluate)(times)
-    return jnp.where(jnp.isfinite(found), found, jnp.nan)
+    return jnp.where(jnp.isfinite(found), found, jnp.nan), solution.ts, solution.ys
+
+
+class Steps(NamedTuple):
+    """Where an integrator stepped: phases (M,), and the states there (M, 6)."""
+
+    phase: np.ndarray
+    states: np.ndarray
 
 
 @stored
@@ -76,12 +85,15 @@ def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any, rtol: 
 
 def fly_through(
     model: FlightModel, wingbeat: Wingbeat, state: State, phases: np.ndarray, rtol: float = RTOL
-) -> np.ndarray:
+) -> tuple[np.ndarray, Steps]:
     """Fly an initial state with prescribed wings; return the states at phases from 0 on, which may repeat.
 
     States are (x, z, body_pitch, u, w, pitch_rate), shape (K, 6); not-a-number from where the integrator gave up.
+    The second is where it stepped.
     """
-    return np.asarray(_fly(model, wingbeat, np.array(state, dtype=float), phases, rtol))
+    states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)
+    count = int(np.isfinite(at).sum())
+    return states, Steps(at[:count].copy(), there[:count].copy())
 
 
 def fly_beats(
@@ -91,7 +103,7 @@ def fly_beats(
     one_beat = np.linspace(0.0, 1.0, samples + 1)
     current, pieces = state, [np.array([state], dtype=float)]
     for _ in range(beats):
-        flown = fly_through(model, wingbeat, current, one_beat)
+        flown, _ = fly_through(model, wingbeat, current, one_beat)
         current = State(*flown[-1])
         pieces.append(flown[1:])
     return np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
@@ -144,5 +156,5 @@ def simulate_torque_driven(
     if when.ndim != 1 or when.size < 2 or not np.isfinite(when).all() or not (np.diff(when) > 0).all():
         faults.add("times", when, "must be at least two increasing times", "in seconds")
     faults.raise_if_any()
-    states = np.asarray(_drive(model, wingbeat, np.concatenate([q, q_dot]), when, torques, args))
+    states = np.asarray(_drive(model, wingbeat, np.concatenate([q, q_dot]), when, torques, args)[0])
     return states[:, :5], states[:, 5:]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.flights import RTOL, fly_through
+from wingbeat.flights import RTOL, Steps, fly_through
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, State
 
@@ -22,10 +22,11 @@ _ROUGH = 2e-9
 
 @dataclass(frozen=True)
 class Certificate:
-    """One period flown by the certifier: phases (K,) and states (K, 6)."""
+    """One period flown by the certifier: phases (K,), states (K, 6), and where it stepped."""
 
     phase: np.ndarray
     states: np.ndarray
+    steps: Steps
 
     @property
     def end(self) -> np.ndarray:
@@ -43,4 +44,4 @@ def certify(model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, *, 
     # As many phases either way, the last ones all at the end, so that one compiled flight serves both.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
     start = State(0.0, 0.0, *pitch_state)
-    return Certificate(phase, fly_through(model, wingbeat, start, phase, _ROUGH if rough else RTOL))
+    return Certificate(phase, *fly_through(model, wingbeat, start, phase, _ROUGH if rough else RTOL))

@@ -14,18 +14,13 @@ import numpy as np
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
 
 # One compiled march has this many steps; finer flights chain several.
 STEPS = 32
-# The classical Runge-Kutta method of order 4 as a table, so that its stages are a loop, compiled once. A stage is
-# at the begin (0), the middle (1) or the end (2) of the step, and begins at the step's begin, plus `_ALONG` of the
-# step at the rate of the stage before; the step is the sum of the stages' rates by `_WEIGHTS`.
-_PLACES = np.array([0, 1, 1, 2])
-_ALONG = np.array([0.0, 0.5, 0.5, 1.0])
-_WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
 
 
 class Flown(NamedTuple):
@@ -67,7 +62,7 @@ def _from_rows(rows: Any, like: Any) -> WingMotion:
 
 
 # Where the four stages of all steps are along the last axis of a table of `_tabulate`.
-_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in _PLACES]
+_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in PLACES]
 
 
 class March(NamedTuple):
@@ -80,12 +75,12 @@ class March(NamedTuple):
 
 def _combine(stages: Any) -> Any:
     """Return the weighted mean of the four stages along the first axis."""
-    return sum(weight * stages[i] for i, weight in enumerate(_WEIGHTS.tolist()))
+    return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))
 
 
 def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
-    stages = jnp.asarray(_ALONG), jnp.asarray(_WEIGHTS)
+    stages = jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
 
     def advance(state: Any, rows: Any) -> tuple[Any, tuple[Any, Any]]:
         def stage(carry: tuple[Any, Any], given: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:

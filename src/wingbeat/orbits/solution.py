@@ -104,7 +104,7 @@ class Solution:
     @functools.cached_property
     def multipliers(self) -> np.ndarray:
         """Floquet multipliers, found when first asked for."""
-        return floquet_multipliers(self.problem.model, self.wingbeat, self.certificate.states[:, 2:])
+        return floquet_multipliers(self.problem.model, self.wingbeat, self.certificate.steps)
 
 
 def better_of(own: Solution, other: Solution) -> Solution:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wingbeat.flights import Steps
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import State
 from wingbeat.orbits.batch import find_orbits
@@ -237,7 +238,7 @@ def _load_record_programs(problem: OrbitProblem) -> None:
     model, wingbeat = problem.model, problem.species.wingbeat
     path = np.zeros((SAMPLES + 1, 4))
     flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), path, (0.0, 0.0))
-    floquet_multipliers(model, wingbeat, path)
+    floquet_multipliers(model, wingbeat, Steps(np.linspace(0.0, 1.0, 3), np.zeros((3, 6))))
 
 
 def solve_orbits(

@@ -93,7 +93,8 @@ def fly_through(
     """
     states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)
     count = int(np.isfinite(at).sum())
-    return states, Steps(at[:count].copy(), there[:count].copy())
+    # Copies, for all of the program's outcome lives as long as a view of any part.
+    return states.copy(), Steps(at[:count].copy(), there[:count].copy())
 
 
 def fly_beats(

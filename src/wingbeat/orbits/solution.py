@@ -90,16 +90,15 @@ class Solution:
             return self.value_of(minimise)
         return minimise.value(self.problem.unknowns().names, self.unknowns)
 
-    @functools.cached_property
     def beat(self) -> Beat:
-        """The certified beat as a time series."""
+        """Return the certified beat as a time series, made anew: batches have no room for many."""
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
         return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
 
     def value_of(self, quantity: Quantity) -> float:
         """Return a quantity of the certified beat in its unit, of a series its largest value."""
-        return float(np.max(quantity.of(self.beat)))
+        return float(np.max(quantity.of(self.beat())))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:

@@ -11,6 +11,7 @@ from wingbeat._version import __version__
 from wingbeat.aero import BladeElement
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import State
+from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.results.warnings import orbit_warnings
@@ -47,7 +48,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
     What has no value (a cost of transport in hover, anything of a flight that ran off) is None, never NaN.
     """
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
-    alpha = solution.beat.alpha
+    beat = solution.beat()
     record = {
         "status": solution.status.value,
         "message": solution.message,
@@ -69,14 +70,14 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "optimality": solution.optimality,
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,
-        **power_summary(solution),
+        **power_summary(solution, beat),
         **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
-        "alpha_quarter_span": alpha_range(alpha, 0.25),
-        "alpha_three_quarter_span": alpha_range(alpha, 0.75),
+        "alpha_quarter_span": alpha_range(beat, 0.25),
+        "alpha_three_quarter_span": alpha_range(beat, 0.75),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
-        "warnings": orbit_warnings(solution),
+        "warnings": orbit_warnings(solution, beat),
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
@@ -95,17 +96,17 @@ POWERS = (
 )
 
 
-def power_summary(solution: Solution) -> dict[str, float | None]:
+def power_summary(solution: Solution, beat: Beat) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
-    problem, found = solution.problem, solution.beat
-    positive = beat_mean(np.maximum(found.hinge_power, 0.0))
+    problem = solution.problem
+    positive = beat_mean(np.maximum(beat.hinge_power, 0.0))
     weight = problem.vehicle.mass * problem.air.gravity
     return {
-        "mean_power": beat_mean(found.hinge_power),
-        "peak_power": float(found.hinge_power.max()),
+        "mean_power": beat_mean(beat.hinge_power),
+        "peak_power": float(beat.hinge_power.max()),
         "mean_positive_power": positive,
-        "mean_actuator_power": beat_mean(found.actuator_power),
-        "peak_actuator_power": float(found.actuator_power.max()),
+        "mean_actuator_power": beat_mean(beat.actuator_power),
+        "peak_actuator_power": float(beat.actuator_power.max()),
         "cost_of_transport": positive / (weight * problem.speed) if weight * problem.speed else None,
     }
 
@@ -122,10 +123,10 @@ def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: floa
     }
 
 
-def alpha_range(alpha: np.ndarray, station: float) -> list[float]:
-    """Return least and largest of effective angles of attack [rad] at a span fraction, between strips linearly."""
-    here = at_station(alpha, station)
-    return [float(here.min()), float(here.max())]
+def alpha_range(beat: Beat, station: float) -> list[float]:
+    """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
+    alpha = at_station(beat.alpha, station)
+    return [float(alpha.min()), float(alpha.max())]
 
 
 def at_station(values: np.ndarray, station: float) -> np.ndarray:

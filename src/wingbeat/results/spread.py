@@ -72,4 +72,4 @@ def orbit_spread(
 
 def _row(solution: Solution) -> dict[str, float | None]:
     trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in solution.problem.free}
-    return power_summary(solution) | trimmed
+    return power_summary(solution, solution.beat()) | trimmed

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from wingbeat.kinematics import ANGLES
+from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.vehicle import Air, Vehicle
@@ -22,13 +23,13 @@ _RIVAL = 0.01
 _ELSEWHERE = 0.05
 
 
-def orbit_warnings(solution: Solution) -> list[str]:
+def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     """Return everything a reader should know before trusting an orbit."""
     problem = solution.problem
     air = problem.air
     notes = list(problem.species.warnings)
     notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
-    notes += fitted_range(solution)
+    notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
             notes.append(f"the optimum leans on the bound of {name}, which is a guess: see the species file")
@@ -90,12 +91,12 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
     ]
 
 
-def fitted_range(solution: Solution) -> list[str]:
+def fitted_range(solution: Solution, beat: Beat) -> list[str]:
     """Warn of the share of beat and strips outside the coefficients' Reynolds and alpha range.
 
     Every phase and every strip counts alike; strips are of equal width.
     """
-    problem, beat = solution.problem, solution.beat
+    problem = solution.problem
     coefficients = problem.aero.coefficients
     notes = []
     if coefficients.reynolds_range is not None:

@@ -73,11 +73,8 @@ def beside_the_solver(file: Path, pairs: int) -> int:
         seconds = time.perf_counter() - begun
         solving, recording = bare(study)
         taken.append((seconds, solving, solving + recording))
-        print(
-            f"{len(study)} points, {cores()} processes: study {seconds:.1f} s; solve_orbits {solving:.1f} s,",
-            end="",
-        )
-        print(f" with records {solving + recording:.1f} s; {study.status().counts}", flush=True)
+        told = f"study {seconds:.1f} s; solve_orbits {solving:.1f} s, with records {solving + recording:.1f} s"
+        print(f"{len(study)} points, {cores()} processes: {told}; {study.status().counts}", flush=True)
     whole, alone, recorded = np.median(taken, axis=0)
     print(f"medians: {100 * alone / whole:.0f} % of the solver's rate, {100 * recorded / whole:.0f} % with records")
     return len(study)

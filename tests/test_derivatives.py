@@ -193,6 +193,17 @@ def test_a_neighbour_of_an_orbit_has_other_multipliers(solved):
     assert np.abs(in_order(neighbour) - in_order(multipliers(solved))).max() > 1e-5
 
 
+def test_a_flight_that_tumbles_off_has_no_multipliers(solved):
+    steps = certify(solved.model, solved.wingbeat, solved.start[2:]).steps
+    assert steps.phase[-1] == 1.0
+    assert len(steps.phase) > 64  # more than one block of lanes
+    short = steps._replace(phase=steps.phase[:-1], states=steps.states[:-1])
+    states = steps.states.copy()
+    states[5] = np.inf
+    for broken in (short, steps._replace(states=states)):
+        assert np.isnan(floquet_multipliers(solved.model, solved.wingbeat, broken)).all()
+
+
 def test_multipliers_do_not_depend_on_the_steps_they_are_found_with(solved):
     """Fixed-step tangents of the same orbit come to the recorded multipliers as their steps get finer."""
     beat, free = solved.wingbeat, solved.problem.free

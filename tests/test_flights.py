@@ -80,6 +80,15 @@ def test_a_tumbling_flight_is_reported_not_raised(tmp_path):
     assert np.isfinite(series["hinge_power"].values[:flown]).all()
 
 
+def test_samples_between_the_steps_are_those_of_a_flight_that_steps_onto_them(solved):
+    """Every fourth sample is stepped onto: of 1 024 all those of 256, of 256 every fourth."""
+    start = wb.State(*solved.start)
+    few, many = (fly_beats(solved.model, solved.wingbeat, start, 1, count)[1] for count in (256, 1024))
+    apart = np.abs(few - many[::4]).max(axis=1)
+    assert apart.max() <= 1e-7
+    assert np.abs(many[2::4] - 0.5 * (few[1:] + few[:-1])).max() > 1e-5  # the comparison sees straight lines
+
+
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, "fast", None, True, 1j])
 @pytest.mark.parametrize("name", ["x", "z", "body_pitch", "u", "w", "pitch_rate"])
 def test_a_state_that_is_no_number_is_refused(name, wrong):

@@ -41,7 +41,7 @@ def integrate(
     The steps are times and states, as many as there may be, infinite after the last.
 
     It steps exactly onto every fourth of the times and takes those between from the integrator's own polynomials:
-    stepping onto all would take half as long again, and longer steps fail at the kinks of the loads.
+    stepping onto all takes a third longer, and longer steps fail at the kinks of the loads.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
@@ -68,7 +68,7 @@ def integrate(
 
 
 class Steps(NamedTuple):
-    """Where an integrator stepped: phases (M,), and the states there (M, 6)."""
+    """Where an integrator stepped: phases (M,), and the states there (M, 6), in the order and units of `State`."""
 
     phase: np.ndarray
     states: np.ndarray

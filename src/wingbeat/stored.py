@@ -32,8 +32,6 @@ _TRACING = threading.Lock()
 # XLA's older way to make loops of fused operations compiles in half the time of the newer one. What it makes runs
 # as fast, but for the flight of the search, which takes a tenth longer.
 _SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
-
-
 _NOTHING = np.zeros(0)
 
 

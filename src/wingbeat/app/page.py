@@ -53,7 +53,7 @@ class Page:
         self._session = Session(name, pool, scenario, self)
         self._build(scenario)
         self._session.ask(whole=True)
-        if refusals:
+        if refusals:  # told after it is asked, for asking takes away what was told before
             self.show_trouble(*refusals)
 
     def context(self) -> AbstractContextManager[Any]:
@@ -127,7 +127,7 @@ class Page:
     # What the session says ---------------------------------------------------------------------------------------
 
     def show_scenario(self, scenario: Scenario) -> None:
-        """Show what is asked, in the form and in the address; what went wrong before it has been read."""
+        """Show what is asked, in the form and in the address; trouble told of what was asked before goes."""
         self._close_trouble()
         self._controls.show(scenario)
         self._curve.show_sweep(scenario)

@@ -200,5 +200,13 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 @stored
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Any, path: Any, mean_velocity: Any) -> Beat:
-    """Return the beat of states that were flown, (body_pitch, u, w, pitch_rate) of shape (K, 4)."""
+    """Return the beat of states that were flown.
+
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    phase, path : equal phases from 0 to 1, shape (K,), and (body_pitch, u, w, pitch_rate) there, shape (K, 4)
+        [rad, m/s, m/s, rad/s].
+    mean_velocity : forward and up [m/s].
+    """
     return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)

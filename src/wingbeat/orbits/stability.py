@@ -72,15 +72,15 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
         return np.full(4, np.nan + 0j)
-    maps_along = _state_maps.bind(model, wingbeat)
-    every, maps = np.arange(len(phase) - 1), []
-    for here in np.array_split(every, range(_LANES, len(every), _LANES)):
-        lanes = np.pad(here, (0, _LANES - len(here)), "edge")
-        maps.append(maps_along(phase[lanes], phase[lanes + 1], path[lanes])[: len(here)])
-    monodromy = _chained(np.concatenate(maps))
-    if not np.isfinite(monodromy).all():
+    maps_of, count, blocks = _state_maps.bind(model, wingbeat), len(phase) - 1, []
+    for first in range(0, count, _LANES):
+        # Lanes to spare fly the last stretch again.
+        lanes = np.minimum(np.arange(first, first + _LANES), count - 1)
+        blocks.append(maps_of(phase[lanes], phase[lanes + 1], path[lanes]))
+    maps = np.concatenate(blocks)[:count]
+    if not np.isfinite(maps).all():
         return np.full(4, np.nan + 0j)
-    found = np.linalg.eigvals(monodromy)
+    found = np.linalg.eigvals(_chained(maps))
     return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
 
 

@@ -9,6 +9,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits import solve as solving
+from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.correction import correct
 from wingbeat.orbits.search import optimise
 from wingbeat.orbits.starts import start_point
@@ -208,3 +209,25 @@ def test_an_orbit_that_cannot_be_is_infeasible_and_says_what_fails(monkeypatch):
     assert orbit.relaxations[0].text in orbit.message
     assert max(abs(miss) for miss in record["closure"].values()) > 1e-3
     assert json.loads(json.dumps(record, allow_nan=False)) == record
+
+
+def test_a_beat_is_what_the_data_set_says_and_the_record_is_read_off_it(solved):
+    """Beat and data set are made of different sums: tables by phase here, the points of the wing there."""
+    states, phase = solved.certificate.states, solved.certificate.phase
+    beat = flown_beat(solved.model, solved.wingbeat, phase, states[:, 2:], (solved.problem.speed, 0.0))
+    series, record = solved.orbit.dataset, solved.orbit.record()
+    names = [name for name in beat._fields if name in series]
+    assert set(beat._fields) - set(names) == {"frequency", "speed", "climb", "weight"}
+    for name in names:
+        wanted = series[name].values
+        assert np.abs(getattr(beat, name) - wanted).max() <= 1e-9 * np.abs(wanted).max(), name
+    for middle, name in (("", "hinge_power"), ("actuator_", "actuator_power")):
+        power = series[name].values
+        assert record[f"mean_{middle}power"] == pytest.approx(np.trapezoid(power, phase), rel=1e-9)
+        assert record[f"peak_{middle}power"] == pytest.approx(power.max(), rel=1e-9)
+    for name, strip in (("alpha_quarter_span", 2), ("alpha_three_quarter_span", 7)):
+        alpha = series["alpha"].values[:, strip]
+        assert record[name] == pytest.approx([alpha.min(), alpha.max()], rel=1e-9)
+    reynolds = series["strip_reynolds"].values
+    told = f"it runs from {reynolds.min():.0f} to {reynolds.max():.0f}"
+    assert any(told in note for note in record["warnings"])

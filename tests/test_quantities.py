@@ -13,7 +13,6 @@ from wingbeat.orbits.search import search
 from wingbeat.orbits.solve import certified_optimum, find_orbit
 from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
-from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import problem_from
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
@@ -42,29 +41,6 @@ def test_every_quantity_is_what_the_record_says():
     assert solution.value_of(QUANTITIES["roughness"]) == pytest.approx(
         np.sqrt(accelerations.values[1:].mean()), rel=1e-4
     )
-
-
-def test_a_beat_is_what_the_data_set_says_and_the_record_is_read_off_it():
-    """Beat and data set are made of different sums: tables by phase here, the points of the wing there."""
-    solution = find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
-    orbit, beat = Orbit.of(solution, 1), solution.beat()
-    series, record = orbit.dataset, orbit.record()
-    names = [name for name in beat._fields if name in series]
-    assert set(beat._fields) - set(names) == {"frequency", "speed", "climb", "weight"}
-    for name in names:
-        wanted = series[name].values
-        np.testing.assert_allclose(
-            getattr(beat, name), wanted, rtol=0, atol=1e-9 * np.abs(wanted).max(), err_msg=name
-        )
-    for name in ("hinge", "actuator"):
-        power, middle = series[f"{name}_power"].values, "" if name == "hinge" else "actuator_"
-        assert record[f"mean_{middle}power"] == pytest.approx(np.trapezoid(power, series["phase"]), rel=1e-9)
-        assert record[f"peak_{middle}power"] == pytest.approx(power.max(), rel=1e-9)
-    for name, strips in (("alpha_quarter_span", slice(2, 3)), ("alpha_three_quarter_span", slice(7, 8))):
-        alpha = series["alpha"].values[:, strips]
-        assert record[name] == pytest.approx([alpha.min(), alpha.max()], rel=1e-9)
-    reynolds = series["strip_reynolds"].values
-    assert any(f"it runs from {reynolds.min():.0f} to {reynolds.max():.0f}" in note for note in record["warnings"])
 
 
 def test_negative_work_is_free_returned_or_costly():

@@ -11,6 +11,7 @@ from wingbeat.bench import mixed_problems
 from wingbeat.orbits import batch
 from wingbeat.orbits import solve as solving
 from wingbeat.orbits.batch import find_orbits, in_processes
+from wingbeat.orbits.correction import correct
 from wingbeat.orbits.polish import Conditions, Polish
 from wingbeat.orbits.search import optimise, search
 from wingbeat.orbits.solve import find_orbit
@@ -144,7 +145,7 @@ def test_polish_has_nothing_to_do_with_too_few_unknowns():
 
 def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
     programme, scaled = optimum(0)
-    found = solving.correct(programme, scaled)
+    found = correct(programme, scaled)
     assert found.is_orbit()
     found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
     assert not found.is_orbit()

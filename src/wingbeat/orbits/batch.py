@@ -7,10 +7,12 @@ import multiprocessing
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from multiprocessing.queues import SimpleQueue
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from wingbeat.cores import cores_of, keep_to
 from wingbeat.errors import FaultList
 from wingbeat.garbage import collect_seldom
 from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
@@ -204,8 +206,18 @@ def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], It
         return
     # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(processes, max(most, 1)), context, collect_seldom) as pool:
+    count = min(processes, max(most, 1))
+    cores: SimpleQueue[int | None] = context.SimpleQueue()
+    for core in cores_of(count):
+        cores.put(core)
+    with ProcessPoolExecutor(count, context, _begin_work, (cores,)) as pool:
         try:
             yield pool.map
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _begin_work(cores: SimpleQueue[int | None]) -> None:
+    """Set up a process of a pool."""
+    keep_to(cores.get())
+    collect_seldom()

@@ -12,7 +12,7 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.certify import Certificate, certify
 from wingbeat.orbits.polish import STILL, Curvature, Polish
-from wingbeat.orbits.search import OPTIMAL, optimality, optimise
+from wingbeat.orbits.search import OPTIMAL, Candidate, optimality, optimise
 from wingbeat.orbits.transcription import Transcription
 
 CERTIFIED = 1e-6
@@ -97,6 +97,16 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
         scaled = _settle(polish, scaled)
     assert best is not None
     return dataclasses.replace(best, learned=polish.learned)
+
+
+def first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
+    """Return the best candidate that the certifier closes, if any."""
+    for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
+        corrected = correct(candidate.programme, candidate.scaled)
+        problem.certify_seconds += corrected.programme.certify_seconds
+        if corrected.is_orbit():
+            return corrected
+    return None
 
 
 def _settle(polish: Polish, scaled: np.ndarray, still: float = STILL) -> np.ndarray:

@@ -24,8 +24,9 @@ LAWS = (THRUST, LIFT, MOMENT)
 _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 # A miss that no law excuses, of 1 in the optimiser's scale, weighs as much as so many weights that are short.
 _WEIGHT = 100.0
-# Flights of an elastic solve at most, and the share by which its last step lessens the squares.
-_EVALUATIONS = 150
+# Flights of an elastic solve at most, and those after which the best of several goes on alone; the share by which
+# its last step lessens the squares.
+_EVALUATIONS, _TRIAL = 150, 40
 _SETTLED = 1e-5
 # A miss that is none, in the optimiser's scale, and a share that is none.
 _KEPT = 1e-3
@@ -99,7 +100,7 @@ class Balance:
         # Times the frequency, the share that a miss of 1 in the optimiser's scale stands for.
         self._per_hertz = {law: inertias[law] * CLOSURE_SCALE[self._rows[law]] / self.units[law] for law in LAWS}
 
-    def closest(self, scaled: np.ndarray, broken: Iterable[str] = LAWS) -> Closest:
+    def closest(self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int = _EVALUATIONS) -> Closest:
         """Return the beat near a place of the search that comes closest to an orbit, only these laws broken."""
         programme, broken = self._programme, tuple(broken)
         rows = [self._rows[law] for law in broken]
@@ -123,7 +124,7 @@ class Balance:
             passed = programme.margins(x)[:, None] < 0
             return np.concatenate([by_closure, _WEIGHT * passed * programme.margins_jacobian(x)])
 
-        found = least_misses(misses, jacobian, scaled, programme.lower, programme.upper, _EVALUATIONS, _SETTLED)
+        found = least_misses(misses, jacobian, scaled, programme.lower, programme.upper, evaluations, _SETTLED)
         short = -(weights(found) * programme.closure(found))[rows]
         rest = np.abs(np.delete(programme.closure(found), rows)).max()
         keeps = max(rest, -programme.margins(found).min()) <= _KEPT
@@ -135,12 +136,17 @@ class Balance:
         Of several laws that each will do, that which is broken least; but a force too large only where no shortage
         will do, for what is too much can mostly be spilled, and is then the price of another law.
         """
-        together = [self.closest(start) for start in starts]
-        best = min(together, key=lambda c: (not c.keeps_the_rest, c.size))
+        together: list[Closest] = []
+        for start in starts:
+            together.append(self.closest(start, evaluations=_TRIAL))
+            if together[-1].closes:
+                return together[-1]
+        best = self.closest(min(together, key=lambda c: (not c.keeps_the_rest, c.size)).scaled)
         if best.closes:
             return best
-        alone = [self.closest(best.scaled, [law]) for law in LAWS]
-        return min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=best)
+        alone = [self.closest(best.scaled, [law], _TRIAL) for law in LAWS]
+        least = min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=None)
+        return best if least is None else self.closest(least.scaled, least.shares)
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
         """Return what is short at a beat, the most first."""

@@ -6,14 +6,11 @@ import dataclasses
 import os
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.advice import certified_changes, least_changes, nearest_beat, words_of
-from wingbeat.orbits.changes import Relaxation
-from wingbeat.orbits.correction import SETTLED, Corrected, certified, correct, follow_to_certificate, size
+from wingbeat.orbits.correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.search import (
@@ -24,27 +21,20 @@ from wingbeat.orbits.search import (
     violation,
 )
 from wingbeat.orbits.searches import beside_best, load_programs, search_from_starts
-from wingbeat.orbits.shortage import NOTHING, Shortage
 from wingbeat.orbits.solution import SAME, Optimum, Solution, Status, better_of
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.without_orbit import Failure, without_orbit
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0
 MOST_STARTS = 50
+# An uncorrected optimum so near to a certified one, in the optimiser's scale, is the same: corrected, nearly all of
+# 200 moved by less than .05. One whose objective is more than this share above is no better: they changed by .0025.
+_AS_KNOWN, _UNSURE = 0.1, 0.01
 
 
 Progress = Callable[[int, int], None]
-
-
-@dataclass(frozen=True)
-class _Outcome:
-    """How a search ended, and without an orbit what is short at the closest beat and which changes fly."""
-
-    status: Status
-    message: str
-    shortages: tuple[Shortage, ...] = ()
-    relaxations: tuple[Relaxation, ...] = ()
 
 
 def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
@@ -97,18 +87,34 @@ def find_orbit(
     best, found = _searched(transcription, starts, most, seed, threads, progress)
     failure = None
     if best is None:
-        best, failure = _without_orbit(transcription, found, threads, advise, progress)
+        best, failure = without_orbit(transcription, found, threads, advise, progress)
     return _found(transcription, best, found, seed, begun, failure)
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and what so many searches of its problem, one by one, come to."""
+    """Return the better of a certified orbit and what so many searches of its problem, one by one, come to.
+
+    Only what may be better, as far as the search's few steps tell, is certified.
+    """
     begun = time.perf_counter()
     transcription = Transcription(known.problem)
-    best, found = _searched(transcription, starts, starts, seed, 1)
-    if best is None:
-        return dataclasses.replace(known, starts=known.starts + len(found), seed=seed)
-    return better_of(_found(transcription, best, found, seed, begun), known)
+    here = transcription.scaled(known.unknowns)
+    level = transcription.objective(here) * known.problem.minimise.scale
+    found = _first_searches(transcription, starts, seed, 1)
+    others = [c for c in _distinct(found) if np.abs(c.scaled - here).max() > _AS_KNOWN]
+    level += _UNSURE * abs(level)
+    best = first_certified(transcription, [c for c in others if c.objective <= level])
+    if best is not None:
+        return better_of(_found(transcription, best, found, seed, begun), known)
+    return dataclasses.replace(
+        known,
+        starts=known.starts + len(found),
+        seed=seed,
+        distinct_optima=known.distinct_optima + len(others),
+        optima=(*known.optima, *_optima(others)),
+        seconds=known.seconds + time.perf_counter() - begun,
+        certify_seconds=known.certify_seconds + transcription.certify_seconds,
+    )
 
 
 def _searched(
@@ -121,29 +127,36 @@ def _searched(
 ) -> tuple[Corrected | None, list[Candidate]]:
     """Return the best certified orbit that searches lead to, if any, and where they all ended."""
     problem = transcription.problem
-    found: list[Candidate] = []
-    total = starts
-    best: Corrected | None = None
     load_programs(transcription, start_point(problem, 0, seed))
-    for stage in (range(starts), range(starts, max(starts, most))):
-        total = max(total, stage.stop)
-        for candidate in search_from_starts(transcription, stage, seed, stage.start > 0, threads):
-            found.append(candidate)
-            if progress is not None:
-                progress(len(found), total)
-            if stage.start and (best := _first_certified(transcription, [candidate])) is not None:
-                break
-        if transcription.has_level and not stage.start:
-            found += beside_best(transcription, found, starts // 2, seed)
-        best = best or _first_certified(transcription, found)
-        if best is None and not stage.start:
-            for leads in _leads(problem, starts, seed, threads):
-                found += [search(transcription.anew(), lead) for lead in leads]
-                if (best := _first_certified(transcription, found)) is not None:
-                    break
-        if best is not None:
+    found = _first_searches(transcription, starts, seed, threads, progress)
+    best = first_certified(transcription, found)
+    for leads in _leads(problem, starts, seed, threads) if best is None else ():
+        led = [search(transcription.anew(), lead) for lead in leads]
+        found += led
+        if (best := first_certified(transcription, led)) is not None:
+            break
+    more = range(starts, most if best is None else starts)
+    for candidate in search_from_starts(transcription, more, seed, True, threads):
+        found.append(candidate)
+        if progress is not None:
+            progress(len(found), max(starts, most))
+        if (best := first_certified(transcription, [candidate])) is not None:
             break
     return best, found
+
+
+def _first_searches(
+    transcription: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+) -> list[Candidate]:
+    """Return where so many searches end, and those beside the best of them where peaks are made least."""
+    found: list[Candidate] = []
+    for candidate in search_from_starts(transcription, range(starts), seed, False, threads):
+        found.append(candidate)
+        if progress is not None:
+            progress(len(found), starts)
+    if transcription.has_level:
+        found += beside_best(transcription, found, starts // 2, seed)
+    return found
 
 
 def _found(
@@ -152,9 +165,9 @@ def _found(
     found: list[Candidate],
     seed: int,
     begun: float,
-    failure: _Outcome | None = None,
+    failure: Failure | None = None,
 ) -> Solution:
-    optima = tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _distinct(found))
+    optima = _optima(_distinct(found))
     seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
     return _solution(best, len(found), optima, seed, seconds, certifying, failure)
 
@@ -173,42 +186,6 @@ def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Itera
         if found.status is not Status.CONVERGED:
             return
         yield [found.unknowns, *(optimum.unknowns for optimum in found.optima)]
-
-
-def _without_orbit(
-    programme: Transcription, found: list[Candidate], threads: int, advise: bool, progress: Progress | None
-) -> tuple[Corrected, _Outcome | None]:
-    """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to."""
-    problem = programme.problem
-    nearest = nearest_beat(programme, found)
-    near = programme.physical(nearest.scaled)
-
-    def told(done: int, total: int) -> None:
-        if progress is not None:
-            progress(len(found) + done, len(found) + total)
-
-    met = least_changes(problem, near, nearest, threads, told) if advise and not nearest.closes else []
-    # A change of next to nothing is none: the searches missed what was there.
-    leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
-    led = [search(programme.anew(), lead) for lead in leads]
-    orbit = _first_certified(programme, led)
-    if orbit is not None:
-        return orbit, None
-    if any(c.closed for c in (*found, *led)):
-        closest = min((*found, *led), key=lambda c: c.violation)
-        message = (
-            f"beats that close were met in {len(found)} searches, but none could be certified as an optimum; "
-            "try more starts, another seed, or a start nearer the answer"
-        )
-        return certified(closest.programme, closest.scaled), _Outcome(Status.NOT_CONVERGED, message)
-    changes = certified_changes(problem, met)
-    message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
-    if changes:
-        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
-    elif advise:
-        message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
-    outcome = _Outcome(Status.INFEASIBLE, message, nearest.shortages, changes)
-    return certified(programme.anew(), nearest.scaled), outcome
 
 
 def settle(problem: OrbitProblem, guess: np.ndarray, like: Curvature | None = None) -> Solution | None:
@@ -278,7 +255,7 @@ def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
     """Return what a search ended in as the certifier closes it, or None; `seconds` is what the search took."""
     begun = time.perf_counter()
     transcription = candidate.programme.anew()
-    best = _first_certified(transcription, [candidate])
+    best = first_certified(transcription, [candidate])
     if best is None:
         return None
     seconds += time.perf_counter() - begun
@@ -292,9 +269,9 @@ def _solution(
     seed: int,
     seconds: float,
     certify_seconds: float,
-    failure: _Outcome | None = None,
+    failure: Failure | None = None,
 ) -> Solution:
-    told = failure or _Outcome(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
+    told = failure or Failure(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
     return Solution(
         best.programme.problem,
         told.status,
@@ -316,14 +293,8 @@ def _solution(
     )
 
 
-def _first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
-    """Return the best candidate that the certifier closes, if any."""
-    for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
-        corrected = correct(candidate.programme, candidate.scaled)
-        problem.certify_seconds += corrected.programme.certify_seconds
-        if corrected.is_orbit():
-            return corrected
-    return None
+def _optima(candidates: list[Candidate]) -> tuple[Optimum, ...]:
+    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in candidates)
 
 
 def _distinct(found: list[Candidate]) -> list[Candidate]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from wingbeat.cores import cores_of
 from wingbeat.errors import FileError
 from wingbeat.studies.units import Outcome, Unit
 
@@ -86,6 +87,7 @@ class _Worker:
     process: subprocess.Popen[bytes]
     name: str
     listener: threading.Thread
+    core: int | None
     batch: int | None = None
     outcomes: list[Outcome] = field(default_factory=list)
     heard: float = 0.0
@@ -112,6 +114,7 @@ class LocalProcesses:
 
     def __init__(self, processes: int, timeout: float = 600.0) -> None:
         self.workers = processes
+        self._cores = cores_of(processes)
         self._timeout = timeout
         self._crew: list[_Worker] = []
         self._heard: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
@@ -161,15 +164,18 @@ class LocalProcesses:
         # The package that drives is the one that works, wherever it was imported from.
         home = str(Path(__file__).resolve().parents[2])
         environment["PYTHONPATH"] = os.pathsep.join([home, *filter(None, [environment.get("PYTHONPATH")])])
+        taken = [worker.core for worker in self._crew]
+        core = next(core for core in self._cores if core is None or core not in taken)
+        words = [self.work, str(self._timeout), *([] if core is None else [str(core)])]
         process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "wingbeat.studies.worker", self.work, str(self._timeout)],
+            [sys.executable, "-P", "-m", "wingbeat.studies.worker", *words],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=environment,
             start_new_session=True,  # Ctrl-C is for the driver, which then says what becomes of its workers
         )
         listener = threading.Thread(target=self._listen, args=(process,), daemon=True)
-        worker = _Worker(process, f"process {process.pid}", listener)
+        worker = _Worker(process, f"process {process.pid}", listener, core)
         self._crew.append(worker)
         listener.start()
         return worker

@@ -1,4 +1,4 @@
-"""A worker process: ``python -m wingbeat.studies.worker MODULE:FUNCTION TIMEOUT``, batches in, outcomes out.
+"""A worker process: ``python -m wingbeat.studies.worker MODULE:FUNCTION TIMEOUT [CORE]``, batches in, outcomes out.
 
 It reads a line of JSON a batch from stdin and writes a line an outcome to stdout. When stdin closes it ends at
 once, whatever it is doing: whoever would hear its answer is gone.
@@ -16,6 +16,7 @@ import sys
 import threading
 from typing import Any
 
+from wingbeat.cores import keep_to
 from wingbeat.garbage import collect_seldom
 from wingbeat.studies.units import Task, Unit
 
@@ -31,8 +32,9 @@ def _read(batches: queue.SimpleQueue[Any]) -> None:
     os._exit(0)
 
 
-def main(work: str, timeout: float) -> None:
-    """Work until stdin closes."""
+def main(work: str, timeout: float, core: int | None = None) -> None:
+    """Work until stdin closes, on one core if it is given."""
+    keep_to(core)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     collect_seldom()
     # Answers go out where stdout was; what the work prints goes to stderr.
@@ -64,4 +66,4 @@ def main(work: str, timeout: float) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], float(sys.argv[2]))
+    main(sys.argv[1], float(sys.argv[2]), *map(int, sys.argv[3:]))

@@ -1,0 +1,74 @@
+"""What is said where searches led to no orbit: the beat that comes closest, what it lacks, what would fly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from wingbeat.orbits.advice import certified_changes, least_changes, nearest_beat, words_of
+from wingbeat.orbits.changes import Relaxation
+from wingbeat.orbits.correction import Corrected, certified, first_certified
+from wingbeat.orbits.search import Candidate, search
+from wingbeat.orbits.shortage import NOTHING, Shortage
+from wingbeat.orbits.solution import Status
+from wingbeat.orbits.transcription import Transcription
+
+
+@dataclass(frozen=True)
+class Failure:
+    """How a search ended without an orbit, what is short at the closest beat, and which changes fly."""
+
+    status: Status
+    message: str
+    shortages: tuple[Shortage, ...] = ()
+    relaxations: tuple[Relaxation, ...] = ()
+
+
+def without_orbit(
+    programme: Transcription,
+    found: list[Candidate],
+    threads: int,
+    advise: bool,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[Corrected, Failure | None]:
+    """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to.
+
+    Parameters
+    ----------
+    programme : the programme that was searched.
+    found : where the searches ended, none of them an orbit.
+    threads : changes that are looked at at a time.
+    advise : whether to look for changes that fly.
+    progress : called with (searches done, searches in all), each change one more.
+    """
+    problem = programme.problem
+    nearest = nearest_beat(programme, found)
+    near = programme.physical(nearest.scaled)
+
+    def told(done: int, total: int) -> None:
+        if progress is not None:
+            progress(len(found) + done, len(found) + total)
+
+    met = least_changes(problem, near, nearest, threads, told) if advise and not nearest.closes else []
+    # A change of next to nothing is none: the searches missed what was there.
+    leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
+    led = [search(programme.anew(), lead) for lead in leads]
+    orbit = first_certified(programme, led)
+    if orbit is not None:
+        return orbit, None
+    closing = [c for c in (*found, *led) if c.closed]
+    if closing or nearest.closes:
+        message = (
+            f"beats that close were met in {len(found)} searches, but none could be certified as an optimum; "
+            "try more starts, another seed, or a start nearer the answer"
+        )
+        beat = min(closing, key=lambda c: c.violation).scaled if closing else nearest.scaled
+        return certified(programme.anew(), beat), Failure(Status.NOT_CONVERGED, message)
+    changes = certified_changes(problem, met)
+    message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
+    if changes:
+        message += f"; the nearest changes that fly, each by itself: {', '.join(r.text for r in changes)}"
+    elif advise:
+        message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
+    failure = Failure(Status.INFEASIBLE, message, nearest.shortages, changes)
+    return certified(programme.anew(), nearest.scaled), failure

@@ -8,13 +8,13 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
-from wingbeat.orbits import batch
+from wingbeat.orbits import batch, correction
 from wingbeat.orbits import solve as solving
 from wingbeat.orbits.batch import find_orbits, in_processes
 from wingbeat.orbits.correction import correct
 from wingbeat.orbits.polish import Conditions, Polish
 from wingbeat.orbits.search import optimise, search
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.solve import find_beside, find_optima, find_orbit
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 
@@ -149,6 +149,25 @@ def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
     assert found.is_orbit()
     found.programme.pitch_bounds = np.array([found.certificate.pitch.max() + 0.1, 2.0])
     assert not found.is_orbit()
+
+
+def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
+    problem = wb.OrbitProblem(wb.load_species("bat"), 10.0)
+    best = find_orbit(problem, 6, threads=1)
+    (worse,) = [o for o in find_optima(problem, 1) if o.objective > best.objective + 0.1]
+    tried = []
+    monkeypatch.setattr(correction, "correct", lambda p, scaled: tried.append(scaled) or correct(p, scaled))
+    better = find_beside(worse, 6)
+    assert better.objective == best.objective
+    assert better.starts == worse.starts + 6
+    assert len(tried) >= 1
+    tried.clear()
+    same = find_beside(best, 6)
+    assert not tried
+    assert same.wingbeat == best.wingbeat
+    assert same.starts == best.starts + 6
+    assert same.distinct_optima == best.distinct_optima + best.distinct_optima - 1
+    assert same.seconds > best.seconds
 
 
 def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):

@@ -9,12 +9,15 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.loads import flight_loads
-from wingbeat.orbits.advice import nearest_beat
+from wingbeat.orbits.advice import Nearest, nearest_beat
 from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
-from wingbeat.orbits.search import Candidate
-from wingbeat.orbits.shortage import Balance, Closest, Shortage
+from wingbeat.orbits.search import Candidate, search
+from wingbeat.orbits.shortage import LAWS, Balance, Closest, Shortage
+from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.without_orbit import without_orbit
 from wingbeat.results.warnings import rivals
 
 CASES = list(cases())
@@ -131,6 +134,41 @@ def test_the_closest_beat_is_sought_from_ends_that_differ(monkeypatch):
     monkeypatch.setattr(Balance, "failing", failing)
     nearest_beat(programme, ends)
     np.testing.assert_allclose([(a - middle) / range_ for a in asked], [[s] * middle.size for s in (0.0, 0.4)])
+
+
+def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatch):
+    balance = Balance(Transcription(wb.OrbitProblem(PIGEON, speed=10.0)))
+    flown = []
+
+    def closest(self, scaled, broken=LAWS, evaluations=150):
+        share = float(scaled[0]) * (0.9 if evaluations > 40 else 1.0)
+        flown.append((round(share, 3), tuple(broken), evaluations))
+        return Closest(scaled, dict.fromkeys(broken, share), True)
+
+    monkeypatch.setattr(Balance, "closest", closest)
+    ends = [np.array([share]) for share in (0.3, 0.1, 0.2)]
+    assert balance.failing(ends).shares == pytest.approx({THRUST: 0.09})
+    together = [(share, LAWS, evaluations) for share, evaluations in ((0.3, 40), (0.1, 40), (0.2, 40), (0.09, 150))]
+    assert flown == [*together, *((0.1, (law,), 40) for law in LAWS), (0.09, (THRUST,), 150)]
+    flown.clear()
+    assert balance.failing([np.array([0.3]), np.array([0.0]), np.array([0.2])]).closes
+    assert [share for share, *_ in flown] == [0.3, 0.0]
+
+
+def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypatch):
+    problem = wb.OrbitProblem(PIGEON, speed=10.0)
+    programme = Transcription(problem)
+    closed = search(programme.anew(), start_point(problem, 0, 0))
+    astray = Candidate(programme, 0.5 * (programme.lower + programme.upper), 1.0, False, False, 9.0)
+    monkeypatch.setattr("wingbeat.orbits.without_orbit.nearest_beat", lambda *_: Nearest(closed.scaled, (), True))
+    # Searches that go on from it stray; one that finds an orbit is taken.
+    assert without_orbit(programme, [astray], 1, advise=False)[1] is None
+    monkeypatch.setattr("wingbeat.orbits.without_orbit.search", lambda *_: astray)
+    beat, failure = without_orbit(programme, [astray], 1, advise=False)
+    assert failure.status is Status.NOT_CONVERGED
+    assert "beats that close were met in 1 searches, but none could be certified" in failure.message
+    assert (failure.shortages, failure.relaxations) == ((), ())
+    np.testing.assert_array_equal(beat.scaled, closed.scaled)
 
 
 @pytest.mark.parametrize(

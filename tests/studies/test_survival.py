@@ -7,6 +7,7 @@ import resource
 import signal
 import sqlite3
 import time
+from contextlib import suppress
 
 import pytest
 
@@ -16,6 +17,7 @@ from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
+CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 GRID = [1 + 0.25 * i for i in range(120)]
 
 
@@ -65,6 +67,41 @@ def test_killed_workers_lose_nothing(cheap, undisturbed):
     driver.communicate()
     assert study.points() == undisturbed
     study.wait_gone()
+
+
+def cores_of_workers(study, driver):
+    found = {}
+    for process in study.processes():
+        with suppress(OSError):  # it has just gone
+            found[process] = sorted(os.sched_getaffinity(process))
+    return {process: cores for process, cores in found.items() if process != driver.pid}
+
+
+@pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
+def test_workers_that_take_all_cores_have_one_each_and_leave_it_to_their_successors(cheap):
+    study = cheap(GRID)
+    driver = study.start("run", study.file, "-j", len(CORES), seconds=0.03)
+    wait_for_points(study, 10)
+    before = cores_of_workers(study, driver)
+    assert sorted(before.values()) == [[core] for core in CORES]
+    first = next(iter(before))
+    os.kill(first, signal.SIGKILL)
+    wait_for_points(study, len(study.points()) + 20)
+    after = cores_of_workers(study, driver)
+    assert first not in after
+    assert sorted(after.values()) == sorted(before.values())
+    assert driver.wait(60) == 0
+    driver.communicate()
+
+
+@pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
+def test_workers_that_leave_cores_to_others_keep_to_none(cheap):
+    study = cheap(GRID[:30])
+    driver = study.start("run", study.file, "-j", 1, seconds=0.03)
+    wait_for_points(study, 5)
+    assert list(cores_of_workers(study, driver).values()) == [CORES]
+    assert driver.wait(60) == 0
+    driver.communicate()
 
 
 def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again(cheap, monkeypatch):

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from wingbeat.cores import cores_of, keep_to
+from wingbeat.cores import cores_of, pin_to
 from wingbeat.orbits.batch import in_processes
 
 CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
@@ -28,12 +28,12 @@ def test_processes_have_a_core_each_where_they_take_all(monkeypatch):
 
 @several
 def test_nobody_is_kept_to_no_core():
-    keep_to(None)
+    pin_to(None)
     assert own_cores(None) == CORES
 
 
 @several
-def test_processes_of_a_batch_keep_to_one_core_and_this_one_to_none():
+def test_processes_of_a_batch_pin_to_one_core_and_this_one_to_none():
     found = list(in_processes(own_cores, range(8), len(CORES)))
     assert {len(cores) for cores in found} == {1}
     assert {core for (core,) in found} <= set(CORES)

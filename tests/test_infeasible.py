@@ -141,15 +141,15 @@ def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatc
     flown = []
 
     def closest(self, scaled, broken=LAWS, evaluations=150):
-        share = float(scaled[0]) * (0.9 if evaluations > 40 else 1.0)
+        share = float(scaled[0]) * (0.9 if evaluations > 25 else 1.0)
         flown.append((round(share, 3), tuple(broken), evaluations))
         return Closest(scaled, dict.fromkeys(broken, share), True)
 
     monkeypatch.setattr(Balance, "closest", closest)
     ends = [np.array([share]) for share in (0.3, 0.1, 0.2)]
     assert balance.failing(ends).shares == pytest.approx({THRUST: 0.09})
-    together = [(share, LAWS, evaluations) for share, evaluations in ((0.3, 40), (0.1, 40), (0.2, 40), (0.09, 150))]
-    assert flown == [*together, *((0.1, (law,), 40) for law in LAWS), (0.09, (THRUST,), 150)]
+    together = [(share, LAWS, evaluations) for share, evaluations in ((0.3, 25), (0.1, 25), (0.2, 25), (0.09, 150))]
+    assert flown == [*together, *((0.1, (law,), 25) for law in LAWS), (0.09, (THRUST,), 150)]
     flown.clear()
     assert balance.failing([np.array([0.3]), np.array([0.0]), np.array([0.2])]).closes
     assert [share for share, *_ in flown] == [0.3, 0.0]
@@ -166,9 +166,16 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     monkeypatch.setattr("wingbeat.orbits.without_orbit.search", lambda *_: astray)
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
-    assert "beats that close were met in 1 searches, but none could be certified" in failure.message
+    assert "beats that almost close were met in 1 searches, but none could be certified" in failure.message
     assert (failure.shortages, failure.relaxations) == ((), ())
     np.testing.assert_array_equal(beat.scaled, closed.scaled)
+    # Of those that close the one that closes best is told.
+    rough, best = (
+        dataclasses.replace(closed, optimal=False, violation=v, scaled=closed.scaled + v) for v in (0.2, 0.1)
+    )
+    beat, failure = without_orbit(programme, [astray, rough, best], 1, advise=False)
+    assert "beats that close were met in 3 searches, but none could be certified" in failure.message
+    np.testing.assert_array_equal(beat.scaled, best.scaled)
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,9 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     assert joined[:3] == rows
     assert len(joined) == 4
     page = " ".join((whole / "assumptions.md").read_text().split())
-    assert "`wingbeat paper assumptions --sets 3 --seed 4`" in page
+    assert (
+        f"`wingbeat paper assumptions --sets 3 --seed 4 --piece 2` (numerical version {NUMERICAL_VERSION})" in page
+    )
     assert "The orbits took 0.0 core-hours, 3.50 s a set." in page
     certified = sum(int(row.split(",")[13]) for row in joined[1:])
     assert f"{100 * certified / 42:.0f} % of them were found and certified" in page
@@ -96,8 +98,13 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
 
 def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert main([*SAMPLE, "--only", "2", "-o", str(tmp_path)]) == 0
-    assert "1 of 2 pieces are done" in capsys.readouterr().err
-    assert not (tmp_path / "assumptions.md").exists()
+    assert "1 of 2 pieces are done; the page is of these" in " ".join(capsys.readouterr().err.split())
+    page = (tmp_path / "assumptions.md").read_text()
+    assert "--piece 2`, of which 1 of 2 pieces are done (numerical" in page
+    assert "Here 1 sets of assumptions" in page
+    assert "s a set." in page
+    last = (whole / "assumptions.csv").read_text().splitlines()
+    assert (tmp_path / "assumptions.csv").read_text().splitlines() == [last[0], last[-1]]
     shutil.copy(whole / "pieces" / "piece-0001-of-0002.csv", tmp_path / "pieces")
     assert main([*SAMPLE, "-o", str(tmp_path)]) == 0
     assert (tmp_path / "assumptions.csv").read_text() == (whole / "assumptions.csv").read_text()

@@ -1,28 +1,34 @@
-"""Worker processes that keep to a core each, where they take all cores there are.
+"""Worker processes pinned to a core each (CPU affinity), where they take all cores there are.
 
 XLA hands a program from the thread that asks to another, and back. Left alone, the system puts these on different
-cores, each turn finds cold caches, and two processes on two cores take 1.4 to 1.9 times as long.
+cores, and each turn finds cold caches: see docs/performance.md.
 """
 
 from __future__ import annotations
 
 import os
+from contextlib import suppress
+
+
+def usable_cores() -> list[int]:
+    """Return the cores that this process may use; none where the system does not say (outside of Linux)."""
+    return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 
 
 def cores_of(processes: int) -> list[int | None]:
-    """Return the core that each of so many processes keeps to: None where some cores would be left to others.
+    """Return the core to pin each of so many processes to: None where some cores would be left to others.
 
     Two programs at once that take a few cores each must not end up on the same few.
 
     >>> cores_of(1_000_000)[0] is None
     True
     """
-    # Neither Windows nor macOS lets a process keep to a core.
-    usable = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
+    usable = usable_cores()
     return list(usable) if len(usable) == processes else [None] * processes
 
 
-def keep_to(core: int | None) -> None:
-    """Keep this process, and the threads that it will start, to a core; None leaves it as it is."""
+def pin_to(core: int | None) -> None:
+    """Pin this thread, and those that it will start, to a core; None or a core no longer there changes nothing."""
     if core is not None:
-        os.sched_setaffinity(0, {core})
+        with suppress(OSError):
+            os.sched_setaffinity(0, {core})

@@ -45,7 +45,7 @@ def paper(
 
     `wingbeat paper assumptions` samples what the paper leaves open and counts under which sets each claim holds.
     It goes on from where it was stopped. Finished pieces lie in the folder's `pieces`, to which those that another
-    machine ran with --only can be copied; page, table and figure are written when all are there.
+    machine ran with --only can be copied; page, table and figure are of those that are there.
 
     Examples: wingbeat paper --quick -o paper; wingbeat paper assumptions --sets 2000 --only 1 -o assumptions
     """
@@ -115,6 +115,7 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> No
 
 
 def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
+    from wingbeat._version import NUMERICAL_VERSION
     from wingbeat.paper.assumption_page import write_study
     from wingbeat.paper.assumption_study import STARTS
     from wingbeat.paper.pieces import Pieces
@@ -127,16 +128,18 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
             say(f"piece {number} of {len(pieces)} is done: {pieces.path(number)}")
     if stop.level:
         return exit_of(stop)
-    if len(pieces.finished()) < len(pieces):
-        say(f"{len(pieces.finished())} of {len(pieces)} pieces are done; the page is written when all are")
-        return EXIT_GOOD
+    done = len(pieces.finished())
+    so_far = "" if done == len(pieces) else f", of which {done} of {len(pieces)} pieces are done"
     judged, seconds = pieces.joined()
     heading = (
-        f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed}`: each animal and coefficient "
-        f"model under each choice of trims is a [study](studies.md) with {STARTS} searches an orbit, one of them "
-        f"from the orbit at the speed before where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
-        f"{seconds / sample.sets:.2f} s a set."
+        f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}`{so_far} "
+        f"(numerical version {NUMERICAL_VERSION}): each animal and coefficient model under each choice of trims is "
+        f"a [study](studies.md) with {STARTS} searches an orbit, one of them from the orbit at the speed before "
+        f"where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
+        f"{seconds / len(judged.sets):.2f} s a set."
     )
+    if so_far:
+        say(f"{done} of {len(pieces)} pieces are done; the page is of these")
     for path in write_study(judged, folder, heading):
         say(f"wrote {path}")
     return EXIT_GOOD

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat.cores import cores_of, keep_to
+from wingbeat.cores import cores_of, pin_to
 from wingbeat.errors import FaultList
 from wingbeat.garbage import collect_seldom
 from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
@@ -219,5 +219,5 @@ def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], It
 
 def _begin_work(cores: SimpleQueue[int | None]) -> None:
     """Set up a process of a pool."""
-    keep_to(cores.get())
+    pin_to(cores.get())
     collect_seldom()

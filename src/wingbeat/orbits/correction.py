@@ -25,6 +25,8 @@ SETTLED = 2e-2
 _SETTLING = 4
 _NEARLY = 1e-3
 _CORRECTIONS = 12
+# After so many corrections the miss must have shrunk to this share, or it will not shrink to nothing.
+_TRIED, _SHRUNK = 4, 0.1
 # How often what binds is asked anew where a beat closes but is no optimum.
 _TURNS = 2
 
@@ -76,14 +78,15 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
         problem.shift_at(scaled, rough)
         scaled = _settle(polish, scaled)
     best: Corrected | None = None
-    turns = 0
-    for _ in range(_CORRECTIONS):
+    turns, first = 0, np.inf
+    for tried in range(_CORRECTIONS):
         here = certified(problem, scaled)
         if here.is_orbit(_AIM):
             return dataclasses.replace(here, learned=polish.learned)
         if best is None or size(here.miss) < size(best.miss):
             best = here
-        if not np.isfinite(here.miss).all():
+        first = size(here.miss) if tried == 0 else first
+        if not np.isfinite(here.miss).all() or (tried == _TRIED and size(best.miss) > _SHRUNK * first):
             break
         closes = size(here.miss) <= _AIM
         if closes and turns == _TURNS:

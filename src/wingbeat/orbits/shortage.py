@@ -26,7 +26,7 @@ _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 _WEIGHT = 100.0
 # Flights of an elastic solve at most, and those after which the best of several goes on alone; the share by which
 # its last step lessens the squares.
-_EVALUATIONS, _TRIAL = 150, 40
+_EVALUATIONS, _TRIAL = 150, 25
 _SETTLED = 1e-5
 # A miss that is none, in the optimiser's scale, and a share that is none.
 _KEPT = 1e-3
@@ -144,9 +144,12 @@ class Balance:
         best = self.closest(min(together, key=lambda c: (not c.keeps_the_rest, c.size)).scaled)
         if best.closes:
             return best
-        alone = [self.closest(best.scaled, [law], _TRIAL) for law in LAWS]
-        least = min((c for c in alone if c.keeps_the_rest), key=lambda c: (c.is_excess, c.size), default=None)
-        return best if least is None else self.closest(least.scaled, least.shares)
+        for evaluations in (_TRIAL, _EVALUATIONS):
+            alone = [self.closest(best.scaled, [law], evaluations) for law in LAWS]
+            if keeping := [c for c in alone if c.keeps_the_rest]:
+                least = min(keeping, key=lambda c: (c.is_excess, c.size))
+                return self.closest(least.scaled, least.shares)
+        return best
 
     def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
         """Return what is short at a beat, the most first."""

@@ -20,8 +20,9 @@ from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.stability import floquet_multipliers
 
-# Optima nearer to one another than this, in the optimiser's scale, are one.
-SAME = 1e-3
+# Optima nearer to one another than this, in the optimiser's scale, are one; the other is the distance from which on
+# two are two where one of them is not corrected.
+SAME, ELSEWHERE = 1e-3, 0.05
 
 
 class Status(enum.Enum):

@@ -21,7 +21,7 @@ from wingbeat.orbits.search import (
     violation,
 )
 from wingbeat.orbits.searches import beside_best, load_programs, search_from_starts
-from wingbeat.orbits.solution import SAME, Optimum, Solution, Status, better_of
+from wingbeat.orbits.solution import ELSEWHERE, SAME, Optimum, Solution, Status, better_of
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.orbits.without_orbit import Failure, without_orbit
@@ -29,9 +29,9 @@ from wingbeat.orbits.without_orbit import Failure, without_orbit
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0
 MOST_STARTS = 50
-# An uncorrected optimum so near to a certified one, in the optimiser's scale, is the same: corrected, nearly all of
-# 200 moved by less than .05. One whose objective is more than this share above is no better: they changed by .0025.
-_AS_KNOWN, _UNSURE = 0.1, 0.01
+# An uncorrected optimum whose objective is more than this share above a certified one's is no better: of 200
+# frequencies nearly all changed by less than .0025 when they were corrected.
+_UNSURE = 0.01
 
 
 Progress = Callable[[int, int], None]
@@ -88,7 +88,7 @@ def find_orbit(
     failure = None
     if best is None:
         best, failure = without_orbit(transcription, found, threads, advise, progress)
-    return _found(transcription, best, found, seed, begun, failure)
+    return _found(transcription, best, _distinct(found), len(found), seed, begun, failure)
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
@@ -97,15 +97,17 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     Only what may be better, as far as the search's few steps tell, is certified.
     """
     begun = time.perf_counter()
-    transcription = Transcription(known.problem)
+    transcription, problem = Transcription(known.problem), known.problem
     here = transcription.scaled(known.unknowns)
-    level = transcription.objective(here) * known.problem.minimise.scale
+    level = transcription.objective(here) * problem.minimise.scale
+    unsure = _UNSURE * max(abs(level), problem.minimise.scale)
     found = _first_searches(transcription, starts, seed, 1)
-    others = [c for c in _distinct(found) if np.abs(c.scaled - here).max() > _AS_KNOWN]
-    level += _UNSURE * abs(level)
-    best = first_certified(transcription, [c for c in others if c.objective <= level])
+    others = [
+        c for c in _distinct(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > ELSEWHERE
+    ]
+    best = first_certified(transcription, [c for c in others if c.objective <= level + unsure])
     if best is not None:
-        return better_of(_found(transcription, best, found, seed, begun), known)
+        return better_of(_found(transcription, best, others, len(found), seed, begun), known)
     return dataclasses.replace(
         known,
         starts=known.starts + len(found),
@@ -162,14 +164,14 @@ def _first_searches(
 def _found(
     transcription: Transcription,
     best: Corrected,
-    found: list[Candidate],
+    optima: list[Candidate],
+    searches: int,
     seed: int,
     begun: float,
     failure: Failure | None = None,
 ) -> Solution:
-    optima = _optima(_distinct(found))
     seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
-    return _solution(best, len(found), optima, seed, seconds, certifying, failure)
+    return _solution(best, searches, _optima(optima), seed, seconds, certifying, failure)
 
 
 def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[np.ndarray]]:

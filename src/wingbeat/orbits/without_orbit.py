@@ -58,16 +58,17 @@ def without_orbit(
         return orbit, None
     closing = [c for c in (*found, *led) if c.closed]
     if closing or nearest.closes:
-        message = (
-            f"beats that close were met in {len(found)} searches, but none could be certified as an optimum; "
-            "try more starts, another seed, or a start nearer the answer"
-        )
         beat = min(closing, key=lambda c: c.violation).scaled if closing else nearest.scaled
+        almost = "" if closing else "almost "
+        message = (
+            f"beats that {almost}close were met in {len(found)} searches, but none could be certified as an "
+            "optimum; try more starts, another seed, or a start nearer the answer"
+        )
         return certified(programme.anew(), beat), Failure(Status.NOT_CONVERGED, message)
     changes = certified_changes(problem, met)
     message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
     if changes:
-        message += f"; the nearest changes that fly, each by itself: {', '.join(r.text for r in changes)}"
+        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
     failure = Failure(Status.INFEASIBLE, message, nearest.shortages, changes)

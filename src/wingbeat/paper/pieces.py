@@ -177,8 +177,8 @@ class Pieces:
         return judged, seconds
 
     def joined(self) -> tuple[Judged, float]:
-        """Return all sets and what they say, once all pieces are finished, and what the orbits took [core-s]."""
-        read = [self._read(number) for number in range(1, len(self) + 1)]
+        """Return the sets of the finished pieces and what they say, and what the orbits took [core-s]."""
+        read = [self._read(number) for number in self.finished()]
         parts = [judged for judged, _ in read]
         judged = Judged(
             tuple(values for part in parts for values in part.sets),

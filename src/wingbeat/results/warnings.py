@@ -9,7 +9,7 @@ import numpy as np
 from wingbeat.kinematics import ANGLES
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import ELSEWHERE, Solution, Status
 from wingbeat.vehicle import Air, Vehicle
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.
@@ -19,8 +19,6 @@ _MENTION = 0.01
 _SWING = math.radians(20.0)
 # Optima whose objectives differ by less than this share are worth the same to most.
 _RIVAL = 0.01
-# Distance in the optimiser's scale from which on two optima, of which one is not corrected, are two.
-_ELSEWHERE = 0.05
 
 
 def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
@@ -63,7 +61,7 @@ def rivals(solution: Solution) -> list[str]:
     best, unknowns = solution.objective, solution.problem.unknowns()
     near = [o for o in solution.optima if o.objective - best <= _RIVAL * abs(best)]
     away = [np.abs(o.unknowns - solution.unknowns) / unknowns.scale for o in near]
-    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > _ELSEWHERE]
+    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > ELSEWHERE]
     if not others:
         return []
     other, apart = max(others, key=lambda pair: pair[1].max())

@@ -165,7 +165,7 @@ class LocalProcesses:
         home = str(Path(__file__).resolve().parents[2])
         environment["PYTHONPATH"] = os.pathsep.join([home, *filter(None, [environment.get("PYTHONPATH")])])
         taken = [worker.core for worker in self._crew]
-        core = next(core for core in self._cores if core is None or core not in taken)
+        core = next((core for core in self._cores if core not in taken), None)
         words = [self.work, str(self._timeout), *([] if core is None else [str(core)])]
         process = subprocess.Popen(
             [sys.executable, "-P", "-m", "wingbeat.studies.worker", *words],

@@ -16,7 +16,7 @@ import sys
 import threading
 from typing import Any
 
-from wingbeat.cores import keep_to
+from wingbeat.cores import pin_to
 from wingbeat.garbage import collect_seldom
 from wingbeat.studies.units import Task, Unit
 
@@ -34,7 +34,7 @@ def _read(batches: queue.SimpleQueue[Any]) -> None:
 
 def main(work: str, timeout: float, core: int | None = None) -> None:
     """Work until stdin closes, on one core if it is given."""
-    keep_to(core)
+    pin_to(core)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     collect_seldom()
     # Answers go out where stdout was; what the work prints goes to stderr.

@@ -1,20 +1,24 @@
-"""Worker processes that keep to a core each."""
+"""Worker processes pinned to a core each."""
 
 import os
+import time
 
 import pytest
 
-from wingbeat.cores import cores_of, pin_to
-from wingbeat.orbits.batch import in_processes
+from wingbeat.cores import core_count, cores_of, pin_to, usable_cores
+from wingbeat.orbits.batch import in_processes, spread
 
-CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
-several = pytest.mark.skipif(
-    len(CORES) < 2, reason="there is one core only, or the system lets no process keep to one"
-)
+CORES = usable_cores()
+several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")
 
 
 def own_cores(_):
     return sorted(os.sched_getaffinity(0))
+
+
+def slowly_told(_):
+    time.sleep(0.5)
+    return os.getpid(), own_cores(None)
 
 
 def test_processes_have_a_core_each_where_they_take_all(monkeypatch):
@@ -24,22 +28,25 @@ def test_processes_have_a_core_each_where_they_take_all(monkeypatch):
     assert cores_of(3) == [None] * 3
     monkeypatch.delattr(os, "sched_getaffinity")
     assert cores_of(2) == [None, None]
+    assert core_count() == (os.cpu_count() or 1)
 
 
 @several
-def test_nobody_is_kept_to_no_core():
-    pin_to(None)
-    assert own_cores(None) == CORES
+def test_no_core_and_one_that_is_not_there_change_nothing():
+    for core in (None, 100_000):
+        pin_to(core)
+        assert own_cores(None) == CORES
 
 
 @several
-def test_processes_of_a_batch_pin_to_one_core_and_this_one_to_none():
-    found = list(in_processes(own_cores, range(8), len(CORES)))
-    assert {len(cores) for cores in found} == {1}
-    assert {core for (core,) in found} <= set(CORES)
+def test_processes_of_a_batch_are_pinned_to_a_core_each_and_this_one_to_none():
+    with spread(len(CORES), len(CORES)) as over:
+        found = {process: cores for process, cores in over(slowly_told, range(4 * len(CORES)))}
+    assert sorted(found.values()) == [[core] for core in CORES[: len(found)]]
+    assert len(found) > 1
     assert own_cores(None) == CORES
 
 
 @several
 def test_fewer_processes_than_cores_go_where_there_is_room():
-    assert list(in_processes(own_cores, [0], len(CORES) + 1)) == [CORES]
+    assert list(in_processes(own_cores, range(3), len(CORES) + 1)) == [CORES] * 3

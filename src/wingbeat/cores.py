@@ -15,6 +15,11 @@ def usable_cores() -> list[int]:
     return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 
 
+def core_count() -> int:
+    """Return how many cores this process may use."""
+    return len(usable_cores()) or os.cpu_count() or 1
+
+
 def cores_of(processes: int) -> list[int | None]:
     """Return the core to pin each of so many processes to: None where some cores would be left to others.
 

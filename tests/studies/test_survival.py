@@ -13,11 +13,12 @@ import pytest
 
 from studies.standin import CRASHES, HANGS, INFEASIBLE, RAISES
 from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.cores import usable_cores
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
-CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
+CORES = usable_cores()
 GRID = [1 + 0.25 * i for i in range(120)]
 
 
@@ -69,39 +70,42 @@ def test_killed_workers_lose_nothing(cheap, undisturbed):
     study.wait_gone()
 
 
-def cores_of_workers(study, driver):
-    found = {}
-    for process in study.processes():
-        with suppress(OSError):  # it has just gone
-            found[process] = sorted(os.sched_getaffinity(process))
-    return {process: cores for process, cores in found.items() if process != driver.pid}
+def wait_for_workers_on(study, driver, expected, without=None):
+    """Wait until the workers are on these cores; return their ids."""
+    until, found = time.monotonic() + 60, {}
+    while sorted(found.values()) != expected or without in found:
+        assert time.monotonic() < until, f"workers are on {found}"
+        assert driver.poll() is None, "the study ended first"
+        time.sleep(0.01)
+        found = {}
+        for process in study.processes():
+            with suppress(OSError):  # it has just gone
+                found[process] = sorted(os.sched_getaffinity(process))
+        found.pop(driver.pid, None)
+    return list(found)
 
 
 @pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
 def test_workers_that_take_all_cores_have_one_each_and_leave_it_to_their_successors(cheap):
-    study = cheap(GRID)
-    driver = study.start("run", study.file, "-j", len(CORES), seconds=0.03)
-    wait_for_points(study, 10)
-    before = cores_of_workers(study, driver)
-    assert sorted(before.values()) == [[core] for core in CORES]
-    first = next(iter(before))
+    study, each = cheap(GRID), [[core] for core in CORES]
+    driver = study.start("run", study.file, "-j", len(CORES), seconds=0.3)
+    first, *_ = wait_for_workers_on(study, driver, each)
     os.kill(first, signal.SIGKILL)
-    wait_for_points(study, len(study.points()) + 20)
-    after = cores_of_workers(study, driver)
-    assert first not in after
-    assert sorted(after.values()) == sorted(before.values())
-    assert driver.wait(60) == 0
+    wait_for_workers_on(study, driver, each, without=first)
+    driver.kill()
     driver.communicate()
+    study.wait_gone()
 
 
 @pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
-def test_workers_that_leave_cores_to_others_keep_to_none(cheap):
-    study = cheap(GRID[:30])
-    driver = study.start("run", study.file, "-j", 1, seconds=0.03)
-    wait_for_points(study, 5)
-    assert list(cores_of_workers(study, driver).values()) == [CORES]
-    assert driver.wait(60) == 0
+def test_workers_that_leave_cores_to_others_are_pinned_to_none(cheap):
+    study = cheap(GRID)
+    driver = study.start("run", study.file, "-j", 1, seconds=0.3)
+    wait_for_points(study, 1)  # past its start
+    wait_for_workers_on(study, driver, [CORES])
+    driver.kill()
     driver.communicate()
+    study.wait_gone()
 
 
 def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again(cheap, monkeypatch):

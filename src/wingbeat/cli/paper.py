@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from pathlib import Path
@@ -12,6 +11,7 @@ from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
+from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def paper(
     faults = FaultList()
     numbers = _numbers(faults, "--figures", figures or "2-8", set(FIGURES), "figures")
     sample = Sample(_SETS if sets is None else sets, seed or 0, _PIECE if piece is None else piece)
-    share = processes if processes is not None else os.cpu_count() or 1
+    share = processes if processes is not None else core_count()
     for name, count in (("--sets", sample.sets), ("--piece", sample.piece)):
         if not 1 <= count <= 1_000_000:
             faults.add(name, count, "must be a whole number from 1 to 1000000")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
@@ -12,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
@@ -229,11 +229,6 @@ def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:
     return Orbit.of_record(json.loads(record), problem, starts_of(recipe, problem), int(recipe.search["seed"]))
 
 
-def cores() -> int:
-    """Return how many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:
     """Return processes of this machine or workers of a Dask cluster; `told` hears what is odd about those.
 
@@ -244,7 +239,7 @@ def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], No
     """
     check_run(processes, timeout, dask)
     if dask is None:
-        return LocalProcesses(processes or cores(), timeout)
+        return LocalProcesses(processes or core_count(), timeout)
     from wingbeat.studies.dask_engine import DaskEngine
 
     return DaskEngine(dask, timeout, told)

@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.studies.study import cores
+from wingbeat.cores import core_count
 
 STUDY = """species = ["pigeon", "bat"]
 aero = ["su-fan", "dickinson"]
@@ -54,12 +54,12 @@ def bare(study: wb.Study) -> tuple[float, float]:
     plan = study.plan
     problems = [plan.bases[point.base].recipe.problem(point.changes) for point in plan.points()]
     begun = time.perf_counter()
-    orbits = wb.solve_orbits(problems, starts=1, seed=3, processes=cores())
+    orbits = wb.solve_orbits(problems, starts=1, seed=3, processes=core_count())
     solved = time.perf_counter()
     for orbit in orbits:
         json.dumps(orbit.record())
     # One process makes the records here; a study's processes share them.
-    return solved - begun, (time.perf_counter() - solved) / cores()
+    return solved - begun, (time.perf_counter() - solved) / core_count()
 
 
 def beside_the_solver(file: Path, pairs: int) -> int:
@@ -74,7 +74,7 @@ def beside_the_solver(file: Path, pairs: int) -> int:
         solving, recording = bare(study)
         taken.append((seconds, solving, solving + recording))
         told = f"study {seconds:.1f} s; solve_orbits {solving:.1f} s, with records {solving + recording:.1f} s"
-        print(f"{len(study)} points, {cores()} processes: {told}; {study.status().counts}", flush=True)
+        print(f"{len(study)} points, {core_count()} processes: {told}; {study.status().counts}", flush=True)
     whole, alone, recorded = np.median(taken, axis=0)
     print(f"medians: {100 * alone / whole:.0f} % of the solver's rate, {100 * recorded / whole:.0f} % with records")
     return len(study)

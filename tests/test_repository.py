@@ -1,5 +1,7 @@
 """The repository itself: what its files may not name, how long they are, what is pinned and documented."""
 
+import ast
+import importlib.util
 import re
 import shutil
 import subprocess
@@ -86,6 +88,24 @@ def test_no_python_file_is_too_long(tracked: list[Path]) -> None:
     files = [file for file in tracked if file.suffix == ".py" and (ROOT / file).is_file()]
     lengths = {str(file): len((ROOT / file).read_text(encoding="utf-8").splitlines()) for file in files}
     assert {file: length for file, length in lengths.items() if length > MAX_LINES} == {}
+
+
+def test_benchmarks_and_studies_import_what_there_is(tracked: list[Path]) -> None:
+    """Nobody runs them in CI, and the type checker sees the package only."""
+    asked = [
+        (str(file), node.module, alias.name)
+        for file in tracked
+        if file.suffix == ".py" and file.parts[0] in ("benchmarks", "studies") and (ROOT / file).is_file()
+        for node in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("wingbeat")
+        for alias in node.names
+    ]
+    assert len(asked) > 50
+    missing = []
+    for file, module, name in asked:
+        if not hasattr(importlib.import_module(module), name) and not importlib.util.find_spec(f"{module}.{name}"):
+            missing.append(f"{file}: {module}.{name}")
+    assert missing == []
 
 
 def test_uv_lock_is_not_tracked(tracked: list[Path]) -> None:

@@ -7,7 +7,6 @@ import multiprocessing
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing.queues import SimpleQueue
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -207,17 +206,15 @@ def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], It
     # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
     context = multiprocessing.get_context("spawn")
     count = min(processes, max(most, 1))
-    cores: SimpleQueue[int | None] = context.SimpleQueue()
-    for core in cores_of(count):
-        cores.put(core)
-    with ProcessPoolExecutor(count, context, _begin_work, (cores,)) as pool:
+    with ProcessPoolExecutor(count, context, _begin_work, (cores_of(count),)) as pool:
         try:
             yield pool.map
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _begin_work(cores: SimpleQueue[int | None]) -> None:
-    """Set up a process of a pool."""
-    pin_to(cores.get())
+def _begin_work(cores: Sequence[int | None]) -> None:
+    """Set up a process of a pool: those of one pool are numbered one after the other, so that each has its core."""
+    number = multiprocessing.current_process().name.split("-")[-1].split(":")[-1]
+    pin_to(cores[int(number) % len(cores)])
     collect_seldom()

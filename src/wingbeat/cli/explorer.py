@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import importlib.util
-import os
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole
+from wingbeat.cores import core_count
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 _MOST_PROCESSES = 64
@@ -40,5 +40,5 @@ def app(
         raise InvalidInputError([Fault("wingbeat app", "extra app", rule, fix)])
     from wingbeat.app.server import serve
 
-    serve(host, port, processes or min(os.cpu_count() or 1, 4), open_)
+    serve(host, port, processes or min(core_count(), 4), open_)
     return EXIT_GOOD

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
+from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
 from wingbeat.cores import core_count
@@ -115,7 +116,6 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> No
 
 
 def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
-    from wingbeat._version import NUMERICAL_VERSION
     from wingbeat.paper.assumption_page import write_study
     from wingbeat.paper.assumption_study import STARTS
     from wingbeat.paper.pieces import Pieces

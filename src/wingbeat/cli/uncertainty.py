@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json as json_format
-import os
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -13,6 +12,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.influence import in_words
 from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whole, aero_with, fit_of, species_with
 from wingbeat.cli.progress import progress_bar
+from wingbeat.cores import core_count
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Status
 from wingbeat.results.orbit import solve_orbit
@@ -75,7 +75,7 @@ def uncertainty(
 
 def _processes(samples: int) -> int:
     """Return how many processes are worth their start, each of which takes as long as some hundred draws."""
-    return max(1, min(os.cpu_count() or 1, samples // 200))
+    return max(1, min(core_count(), samples // 200))
 
 
 def _plain(one: Comparison) -> dict[str, Any]:

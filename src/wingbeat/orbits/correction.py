@@ -85,8 +85,10 @@ def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.nda
             return dataclasses.replace(here, learned=polish.learned)
         if best is None or size(here.miss) < size(best.miss):
             best = here
-        first = size(here.miss) if tried == 0 else first
-        if not np.isfinite(here.miss).all() or (tried == _TRIED and size(best.miss) > _SHRUNK * first):
+        if tried == 0:
+            first = size(here.miss)
+        hopeless = tried == _TRIED and size(best.miss) > _SHRUNK * first
+        if hopeless or not np.isfinite(here.miss).all():
             break
         closes = size(here.miss) <= _AIM
         if closes and turns == _TURNS:

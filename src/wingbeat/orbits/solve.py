@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-import os
 import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 from wingbeat.orbits.correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
 from wingbeat.orbits.polish import Curvature, Polish
@@ -24,7 +24,7 @@ from wingbeat.orbits.searches import beside_best, load_programs, search_from_sta
 from wingbeat.orbits.solution import ELSEWHERE, SAME, Optimum, Solution, Status, better_of
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
-from wingbeat.orbits.without_orbit import Failure, without_orbit
+from wingbeat.orbits.without_orbit import Ending, without_orbit
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0
@@ -82,13 +82,13 @@ def find_orbit(
     most = MOST_STARTS if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()
-    threads = threads or os.cpu_count() or 1
+    threads = threads or core_count()
     transcription = Transcription(problem)
     best, found = _searched(transcription, starts, most, seed, threads, progress)
-    failure = None
+    ending = None
     if best is None:
-        best, failure = without_orbit(transcription, found, threads, advise, progress)
-    return _found(transcription, best, _distinct(found), len(found), seed, begun, failure)
+        best, ending = without_orbit(transcription, found, threads, advise, progress)
+    return _found(transcription, best, _distinct(found), len(found), seed, begun, ending)
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
@@ -168,10 +168,10 @@ def _found(
     searches: int,
     seed: int,
     begun: float,
-    failure: Failure | None = None,
+    ending: Ending | None = None,
 ) -> Solution:
     seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
-    return _solution(best, searches, _optima(optima), seed, seconds, certifying, failure)
+    return _solution(best, searches, _optima(optima), seed, seconds, certifying, ending)
 
 
 def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[np.ndarray]]:
@@ -271,9 +271,9 @@ def _solution(
     seed: int,
     seconds: float,
     certify_seconds: float,
-    failure: Failure | None = None,
+    ending: Ending | None = None,
 ) -> Solution:
-    told = failure or Failure(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
+    told = ending or Ending(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
     return Solution(
         best.programme.problem,
         told.status,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from wingbeat.cores import core_count
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import Candidate, as_candidate, refine
@@ -80,7 +80,7 @@ def trace(
     threads : tasks at a time, as many as there are cores if not given; the answer does not hang on it.
     """
     problems = [dataclasses.replace(problem, speed=float(speed)) for speed in speeds]
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
             return _Tracing(problems, pool, progress).branches(starts, seed)
         finally:

@@ -15,8 +15,8 @@ from wingbeat.orbits.transcription import Transcription
 
 
 @dataclass(frozen=True)
-class Failure:
-    """How a search ended without an orbit, what is short at the closest beat, and which changes fly."""
+class Ending:
+    """How a search ended, and without an orbit what is short at the closest beat and which changes fly."""
 
     status: Status
     message: str
@@ -30,7 +30,7 @@ def without_orbit(
     threads: int,
     advise: bool,
     progress: Callable[[int, int], None] | None = None,
-) -> tuple[Corrected, Failure | None]:
+) -> tuple[Corrected, Ending | None]:
     """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to.
 
     Parameters
@@ -64,12 +64,12 @@ def without_orbit(
             f"beats that {almost}close were met in {len(found)} searches, but none could be certified as an "
             "optimum; try more starts, another seed, or a start nearer the answer"
         )
-        return certified(programme.anew(), beat), Failure(Status.NOT_CONVERGED, message)
+        return certified(programme.anew(), beat), Ending(Status.NOT_CONVERGED, message)
     changes = certified_changes(problem, met)
     message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
     if changes:
         message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
-    failure = Failure(Status.INFEASIBLE, message, nearest.shortages, changes)
-    return certified(programme.anew(), nearest.scaled), failure
+    ending = Ending(Status.INFEASIBLE, message, nearest.shortages, changes)
+    return certified(programme.anew(), nearest.scaled), ending

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.cores import core_count
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.marks import marks_of
 from wingbeat.orbits.problem import OrbitProblem
@@ -166,7 +167,7 @@ def solve_curve(
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
     branches = trace(problem, speeds, starts, seed, progress)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor(core_count()) as pool:
         tasks = [[pool.submit(Orbit.of(o, starts, seed).record) for o in optima] for optima in branches.optima]
         records = [[task.result() for task in row] for row in tasks]
     inputs = inputs_of(problem, starts, seed) | {"speed": speeds, "power_limit": power_limit}

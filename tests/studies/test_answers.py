@@ -1,5 +1,6 @@
 """What a study keeps is what single orbits say, whoever solves it, in whatever pieces, from its inputs alone."""
 
+import dataclasses
 import json
 import sqlite3
 
@@ -11,6 +12,8 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
+from wingbeat.orbits.solution import Status
+from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.studies import work
 from wingbeat.studies.store import Store
@@ -185,6 +188,17 @@ def test_the_numerical_version_is_raised_with_the_numbers(done):
     assert NUMERICAL_VERSION == 6
     found = done.to_dataframe()[["wingbeat.frequency", "mean_power", "cost_of_transport"]].to_numpy()
     np.testing.assert_allclose(found, DIGITS, rtol=1e-6)
+
+
+def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(done, monkeypatch):
+    point = next(done.plan.points())
+    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
+    lost = {"status": Status.INFEASIBLE, "closure": dict.fromkeys(found.closure, np.nan)}
+    monkeypatch.setattr(work, "find_helped", lambda *given: dataclasses.replace(found, **lost))
+    recipe = json.dumps(done.plan.bases[0].recipe.inputs())
+    (outcome,) = work.solve_unit(Unit(recipe, (Task(point.key, point.changes),)))
+    assert (outcome.status, outcome.certificate) == ("infeasible", None)
+    assert set(json.loads(outcome.record)["closure"].values()) == {None}
 
 
 @pytest.mark.parametrize("least", ["frequency", "mean_power", "peak_power"])

@@ -24,6 +24,8 @@ __all__ = ["Ended", "Engine", "LocalProcesses", "pack"]
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 # A worker that dies so soon after its start, before it said anything, is no fault of a point.
 _STARTS = 3
+# Seconds that a process whose pipe has closed gets to end by itself, so that its exit code is its own.
+_LEAVING = 2.0
 
 
 class Ended(NamedTuple):
@@ -216,6 +218,9 @@ class LocalProcesses:
     def _bury(self, worker: _Worker, how: str) -> None:
         """Take leave of a worker, and say what became of its batch."""
         self._crew.remove(worker)
+        if how == "crashed":
+            with suppress(subprocess.TimeoutExpired):
+                worker.process.wait(_LEAVING)
         worker.process.kill()
         code = _leave(worker)
         if not worker.ready and how == "crashed":

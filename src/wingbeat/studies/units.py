@@ -44,7 +44,8 @@ class Outcome(NamedTuple):
     key : of the point.
     status : one of `STATUSES`.
     record : the orbit record as JSON without its times, None where there is none.
-    certificate : largest miss of the certifier's own flight (m, rad, m/s, rad/s), None where nothing was flown.
+    certificate : largest miss of the certifier's own flight (m, rad, m/s, rad/s), None where nothing was flown
+        or the flight ran off.
     text : what the search says of itself where nothing is certified, or the error.
     seconds : that the point took.
     """

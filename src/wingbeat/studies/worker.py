@@ -27,8 +27,10 @@ _BACKSTOP = 2.0
 
 
 def _read(batches: queue.SimpleQueue[Any]) -> None:
-    for line in sys.stdin.buffer:
-        batches.put(json.loads(line))
+    # Not through sys.stdin: a process that ends while a thread reads from that aborts.
+    with open(os.dup(0), "rb") as lines:
+        for line in lines:
+            batches.put(json.loads(line))
     os._exit(0)
 
 

@@ -77,8 +77,8 @@ def _recipe(inputs: str) -> Recipe:
 
 def _outcome(key: str, record: dict[str, Any], seconds: float) -> Outcome:
     record.pop("solve_seconds")  # of the run, not of the point
-    misses = [abs(miss) for miss in record["closure"].values() if miss is not None]
-    certificate = max(misses, default=None)  # of a flight that ran off there is none
+    misses = record["closure"].values()
+    certificate = None if None in misses else max(map(abs, misses))
     text = "" if record["status"] == Status.CONVERGED.value else record["message"]
     told = json.dumps(record, separators=(",", ":"), allow_nan=False)
     return Outcome(key, record["status"], told, certificate, text, seconds)

@@ -66,7 +66,8 @@ def test_the_file_is_plain_netcdf(saved):
     with h5netcdf.File(path, "r") as file:
         assert {*file.variables} == {*NOMENCLATURE}
         assert file.variables["hinge_power"].attrs["units"] == "W"
-        assert float(np.max(file.variables["hinge_power"][:])) == record["peak_power"]
+        # Series and record come of two compiled programs: one equation, but on some processors another last bit.
+        assert float(np.max(file.variables["hinge_power"][:])) == pytest.approx(record["peak_power"], rel=1e-12)
         assert file.attrs["Conventions"] == "CF-1.11"
         assert file.attrs["status"] == "converged"
         assert json.loads(file.attrs["wingbeat"]) == record["wingbeat"]

@@ -1,8 +1,8 @@
 """The orbit command: record, table, files, figures, options, and a search that finds nothing."""
 
+import functools
 import json
 import math
-import os
 import re
 import shlex
 import subprocess
@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import pytest
 import xarray as xr
+from terminals import needs_terminal, on_terminal
 
 import wingbeat as wb
 from wingbeat.cli import main
@@ -148,25 +149,13 @@ def test_show_gives_the_same_record(solved: Solved, capsys: Any) -> None:
     assert capsys.readouterr().out == solved.ended.out
 
 
-@pytest.mark.skipif(not hasattr(os, "openpty"), reason="no terminals to be had on this system")
+@needs_terminal
 def test_from_a_file_the_record_comes_again_bit_for_bit(solved: Solved) -> None:
     """Also: on a terminal, stderr shows how far the search is, and stdout still holds the record alone."""
-    mine, terminal = os.openpty()
     words = program("orbit", "--from", str(solved.folder / "orbit.nc"), "--json")
-    environment = os.environ | {"TERM": "xterm", "COLUMNS": "80", "NO_COLOR": ""}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=terminal, text=True, env=environment) as process:
-        os.close(terminal)
-        shown = b""
-        try:
-            while part := os.read(mine, 4096):
-                shown += part
-        except OSError:
-            pass  # so Linux tells that the other end is closed
-        os.close(mine)
-        assert process.stdout is not None
-        again = json.loads(process.stdout.read())
-    assert process.returncode == 0
-    bar = shown.decode()
+    code, out, bar = on_terminal(functools.partial(subprocess.Popen, words))
+    assert code == 0
+    again = json.loads(out)
     assert "pigeon at 12 m/s" in bar
     assert re.search(r"\d/[1?]", bar)
     assert "error" not in bar

@@ -90,6 +90,12 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
     assert "finishing what is in flight" in err
     assert not (tmp_path / "assumptions.csv").exists()
     written = (tmp_path / "pieces" / "piece-0001-of-0002.csv").stat().st_mtime_ns
+    assert not list(tmp_path.glob("pieces/*/*.sqlite-wal"))
+    driver = start(tmp_path, 0.5)
+    wait_for(driver, tmp_path, "pieces/*/*.sqlite-wal")  # it is at work again
+    driver.send_signal(signal.SIGTERM)
+    driver.communicate(timeout=PATIENCE)
+    assert driver.returncode == 143
     assert main([*SAMPLE, "-o", str(tmp_path)]) == 0
     assert (tmp_path / "pieces" / "piece-0001-of-0002.csv").stat().st_mtime_ns == written
     for name in ("assumptions.csv", "assumptions.md"):

@@ -37,7 +37,7 @@ class Cheap:
 
     def start(self, *words, seconds=0.0, log=None, **popen):
         """Start the program; its processes and their workers carry this study's mark in their environment."""
-        environment = os.environ | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
+        environment = os.environ | popen.pop("env", {}) | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
         environment["PYTHONPATH"] = os.pathsep.join([str(HERE), *sys.path])
         if log is not None:
             environment["STANDIN_LOG"] = str(log)

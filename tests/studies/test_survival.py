@@ -1,15 +1,19 @@
 """A study under hostile conditions, through the real program: nothing is lost, nothing is spoilt, all is told."""
 
 import errno
+import functools
 import os
 import random
+import re
 import resource
 import signal
 import sqlite3
 import time
 from contextlib import suppress
 
+import numpy as np
 import pytest
+from terminals import needs_terminal, on_terminal
 
 from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from wingbeat._version import NUMERICAL_VERSION
@@ -131,6 +135,24 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     assert len((study.folder / "log").read_text().split()) == 1
     assert "3 answers of points that the study no longer asks for are kept" in study.run("status", study.file)[1]
     study.wait_gone()
+
+
+@needs_terminal
+def test_on_a_terminal_it_shows_how_far_it_is(cheap):
+    study = cheap([RAISES, INFEASIBLE, *GRID[:20]])
+    start = functools.partial(study.start, "run", study.file, "-j", 1, seconds=0.05)
+    code, out, shown = on_terminal(start, columns=160)
+    assert code == 3
+    plain = re.sub(r"\x1b\[\d*m", "", shown)
+    says = r"(\d+)/22 (\d+) converged, (\d+) infeasible, 0 not converged, (\d+) failed, [\d.]+/s, [\d.]+ \w+ left"
+    frames = re.findall(says, plain)
+    assert len(frames) > 3
+    for done, *parts in np.array(frames, int):
+        assert done == sum(parts)
+    assert frames[-1] == ("22", "20", "1", "1")
+    assert "\x1b[2K" in plain.rpartition("22/22")[2]  # it goes when all is done
+    assert "/22" not in out
+    assert "/22" not in study.run("run", study.file, "--allow-failures")[2]  # no terminal, no bar
 
 
 @pytest.mark.parametrize(("signals", "code"), [((2,), 130), ((2, 2), 130), ((15,), 143)])

@@ -42,15 +42,18 @@ def study_bar() -> Iterator[Callable[[Tally], None] | None]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
+    from wingbeat.studies.units import CERTIFIED, UNCERTIFIED
+
     columns = (BarColumn(), MofNCompleteColumn(), TextColumn("{task.description}"))
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=None)
 
         def update(tally: Tally) -> None:
             left = tally.seconds_left
-            parts = [f"{tally.certified} converged", f"{tally.uncertified} infeasible", f"{tally.failed} failed"]
-            parts += [f"{tally.rate:.1f}/s", "" if left is None else f"{duration(left)} left"]
-            bar.update(task, completed=tally.done, total=tally.total, description=", ".join(filter(None, parts)))
+            parts = [f"{tally.count(status)} {status.replace('-', ' ')}" for status in (CERTIFIED, *UNCERTIFIED)]
+            parts += [f"{tally.failed} failed", f"{tally.rate:.1f}/s"]
+            parts += [] if left is None else [f"{duration(left)} left"]
+            bar.update(task, completed=tally.done, total=tally.total, description=", ".join(parts))
 
         yield update
 

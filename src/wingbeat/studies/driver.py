@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from wingbeat.studies.engine import Ended, Engine
 from wingbeat.studies.store import Store, Waiting
-from wingbeat.studies.units import CERTIFIED, FAILED, UNCERTIFIED, Outcome, Unit, failed
+from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
 
 __all__ = ["Progress", "Stop", "Tally", "drive", "listening"]
 
@@ -81,20 +81,19 @@ class Tally:
         """Points with an answer."""
         return sum(count for status, count in self.counts.items() if status != "waiting")
 
+    def count(self, *statuses: str) -> int:
+        """Points that have one of these statuses."""
+        return sum(self.counts.get(status, 0) for status in statuses)
+
     @property
     def certified(self) -> int:
         """Points with a certified orbit."""
-        return self.counts.get(CERTIFIED, 0)
+        return self.count(CERTIFIED)
 
     @property
     def failed(self) -> int:
         """Points without an answer of the search: errors, crashes, time-outs."""
-        return sum(self.counts.get(status, 0) for status in FAILED)
-
-    @property
-    def uncertified(self) -> int:
-        """Points that were searched in vain."""
-        return sum(self.counts.get(status, 0) for status in UNCERTIFIED)
+        return self.count(*FAILED)
 
     @property
     def rate(self) -> float:

@@ -5,6 +5,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.plots import study_page
+from wingbeat.studies.table import varied_numbers
 
 
 def table(speeds, masses, models=("su-fan", "dickinson"), failing=()):
@@ -48,6 +49,21 @@ def test_more_parameters_are_parallel_coordinates():
     labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
     assert labels == ["speed\n[m/s]", "wing.mass\n[kg]", "wing.semi_span\n[m]", "least frequency\n[Hz]"]
     assert len(figure.axes[0].collections[0].get_segments()) == 6
+
+
+def test_points_that_wait_are_counted_and_are_no_failures():
+    frame = table([4.0, 6.0, 8.0], [0.01], failing=[8.0])
+    frame.loc[frame["speed"] == 6.0, "status"] = "waiting"
+    figure = page(frame, "speed")
+    assert figure.get_suptitle() == "2 of 6 points certified, 2 not solved yet"
+    assert [list(line.get_xdata()) for line in figure.axes[0].get_lines()] == [[4.0, 8.0], [8.0]] * 2
+
+
+def test_of_a_list_of_numbers_those_that_differ_are_drawn():
+    frame = table([4.0, 6.0], [0.01])
+    frame["wing.chord.0"], frame["wing.chord.1"] = frame["speed"] / 50, 0.1
+    frame["wing.chord.taper"] = "text"
+    assert varied_numbers(frame, ["speed", "wing.chord", "aero.coefficients"]) == ["speed", "wing.chord.0"]
 
 
 def test_what_cannot_be_drawn_is_told():

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 
 import pytest
 from bad_input.conftest import GOOD, SPECIES
@@ -197,18 +198,69 @@ def test_all_faults_come_at_once(tmp_path, capsys):
     assert not list(tmp_path.glob("*.sqlite*"))
 
 
+@pytest.mark.parametrize(
+    ("form", "words"),
+    [
+        ({"vary": {"wingbeat.flap_amplitude": {"grid": [0.3, 0.6]}}}, "is free: the search would overwrite it"),
+        ({"vary": {"wingbeat.frequency": {"grid": [7, 8]}}}, "vary bounds.frequency.lower or .upper"),
+        ({"vary": {"wingbeat.pitch_mean_deg": {"grid": [3, 6]}}, "free": ["pitch_mean", "frequency"]}, "is free"),
+        ({"bounds": {"frequency_deg": [60, 500]}}, "is not the name of an angle; give bounds.frequency"),
+        (
+            {"bounds": {"flap_amplitude_deg": [5, 40], "flap_amplitude": [0.1, 1.2]}},
+            "is given as flap_amplitude too",
+        ),
+        ({"vary": {"body.drag_area": {"relative": [1, 2]}}}, "has nothing to be relative to"),
+        ({"vary": {"climb": {"grid": [0.0, -0.0]}}}, "names a value twice"),
+        (
+            {"vary": {n: {"grid": [0.02, 0.021]} for n in ("wing.mass", "vehicle.wing.mass")}},
+            "is varied as wing.mass too",
+        ),
+        (
+            {"vary": {f"wing.stroke_plane_angle{d}": {"grid": [0.1, 0.2]} for d in ("", "_deg")}},
+            "is varied as wing.stroke_plane_angle too",
+        ),
+        ({"strips": [5, 8], "vary": {"aero.strips": {"grid": [5, 8]}}}, "is varied, too"),
+    ],
+)
+def test_what_could_be_misread_is_refused(form, words):
+    with pytest.raises(wb.InvalidInputError, match=re.escape(words)):
+        plan(**{"speed": 9.0} | form)
+
+
+def test_what_is_not_free_may_be_varied():
+    made = plan(speed=9.0, free=["frequency", "flap_amplitude"], vary={"wingbeat.pitch_mean": {"grid": [0.1, 0.2]}})
+    assert [point.changes["wingbeat.pitch_mean"] for point in made.points()] == [0.1, 0.2]
+
+
+def test_a_range_of_a_list_is_sampled_item_by_item():
+    vary, chords = {"wing.chord": {"relative_range": [0.9, 1.1]}}, [0.12, 0.10]
+    made = plan(speed=9.0, vary=vary, set={"wing.chord": chords}, sample={"n": 4})
+    shares = [[new / old for new, old in zip(point.values[0], chords, strict=True)] for point in made.points()]
+    assert len({round(share, 9) for share, _ in shares}) == 4
+    for inner, outer in shares:
+        assert inner == pytest.approx(outer)
+        assert 0.9 <= inner <= 1.1
+
+
+def test_a_users_file_that_leaves_is_refused(tmp_path):
+    (tmp_path / "mine.py").write_text("import sys\nsys.exit(0)\n")
+    (tmp_path / "study.toml").write_text('species = "pigeon"\nspeed = 9.0\nminimise = "mine.py:f"\n')
+    with pytest.raises(wb.InvalidInputError, match="cannot be run: SystemExit"):
+        wb.study(tmp_path / "study.toml")
+
+
 def test_too_many_points_are_refused():
     with pytest.raises(wb.InvalidInputError, match="points are more than 10000000"):
         plan(
             vary={
                 f"wingbeat.{name}": {"grid": [i / 1e4 for i in range(400)]}
-                for name in ("flap_mean", "pitch_mean", "pitch_phase")
+                for name in ("span_retraction", "twist_ratio", "pitch_phase")
             },
             speed=9.0,
         )
 
 
-@pytest.mark.parametrize("words", [["-j", "0"], ["-j", "1.5"], ["--timeout", "0"], ["--timeout", "nan"]])
+@pytest.mark.parametrize("words", [["-j", "0"], ["-j", "1.5"], *(["--timeout", t] for t in ("0", "nan", "1e12"))])
 def test_options_out_of_range_are_refused(words, tmp_path, capsys):
     file = tmp_path / "good.toml"
     file.write_text('species = "pigeon"\nspeed = 9.0\n')

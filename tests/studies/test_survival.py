@@ -15,9 +15,11 @@ import numpy as np
 import pytest
 from terminals import needs_terminal, on_terminal
 
+import wingbeat as wb
 from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cores import usable_cores
+from wingbeat.species import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
 
@@ -171,6 +173,68 @@ def test_signals_stop_it_with_all_in_order(cheap, signals, code):
     study.wait_gone()
     assert sorted(path.name for path in study.folder.iterdir()) == ["cheap.study.sqlite", "cheap.toml"]
     assert 3 <= len(study.points()) < len(GRID)
+
+
+def test_what_is_left_is_told_after_every_change(cheap):
+    study = cheap([6, 7, RAISES])
+    assert study.run("run", study.file, "-j", 1)[2].startswith("3 points, 3 to solve")
+    for speeds, told in (([6, 8, RAISES], "3 points, 1 to solve"), ([6], "1 points, 0 to solve")):
+        study.write(speeds)
+        assert study.run("run", study.file, "-j", 1)[2].startswith(told)
+    study.write([6, RAISES])
+    assert study.run("run", study.file, "-j", 1, "--retry-failed")[2].startswith("2 points, 1 to solve")
+
+
+def test_a_table_of_another_study_is_refused(cheap):
+    study = cheap([6, 7])
+    assert study.run()[0] == 0
+    study.write([6])
+    for words in (
+        ("export", study.file, "-o", study.folder / "a.csv"),
+        ("plot", study.file, "-o", study.folder / "a.png"),
+    ):
+        code, _, err = study.run(*words)
+        assert code == 2
+        assert "holds the points of another study, or of this one before it was changed; run the study first" in err
+    assert "the study has changed since it was run" in study.run("status", study.file)[1]
+    assert study.run()[0] == 0
+    assert study.run("export", study.file, "-o", study.folder / "a.csv")[0] == 0
+
+
+def test_columns_keep_their_order_whatever_the_first_point_says(cheap):
+    study = cheap([6, RAISES])
+    table = study.folder / "table.csv"
+    headers = []
+    for speeds in ([6, RAISES], [RAISES, 6]):
+        study.write(speeds)
+        study.run("run", study.file, "-j", 1, "--allow-failures")
+        assert study.run("export", study.file, "-o", table)[0] == 0
+        headers.append(table.read_text().splitlines()[0])
+    assert headers[0] == headers[1]
+    assert headers[0].startswith(
+        "key,status,species,aero.coefficients,speed,mean_power,warnings,certificate,error,run_"
+    )
+
+
+def test_files_of_one_name_are_told_apart(cheap):
+    study = cheap([6, 7])
+    for name, mass in (("slim", 0.02), ("stout", 0.03)):
+        text = species_text(wb.load_species("pigeon").with_values({"wing.mass": mass}))
+        (study.folder / f"{name}.toml").write_text(text)
+    form = study.file.read_text()
+    study.file.write_text(form.replace('"pigeon"', '["slim.toml", "stout.toml"]'))
+    assert study.run()[0] == 0
+    frame = wb.study(study.file).to_dataframe()
+    assert list(frame["species"]) == ["pigeon"] * 4
+    assert list(frame["species_given"]) == ["slim.toml"] * 2 + ["stout.toml"] * 2
+
+
+def test_speeds_at_the_top_are_drawn_over(cheap):
+    study = cheap([6, 7])
+    study.file.write_text('species = "pigeon"\nspeed = [6.0, 7.0]\nstarts = 1\n')
+    assert study.run()[0] == 0
+    frame, varied, *_, units = wb.study(study.file).drawing()
+    assert (varied, units, list(frame["speed"])) == (["speed"], ["m/s"], [6.0, 7.0])
 
 
 def test_a_second_driver_is_refused(cheap):

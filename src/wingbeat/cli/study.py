@@ -61,12 +61,15 @@ def run(
     """
     from wingbeat.studies.driver import listening
     from wingbeat.studies.study import check_run, engine_for
+    from wingbeat.studies.units import FAILED
 
     check_run(processes, timeout, dask)
     asked = _read(file)
+    summary = asked.prepare()
+    left = summary.count("waiting", *(FAILED if retry_failed else ()))
     engine = engine_for(processes, timeout, dask, say)
     with listening(say_stopping) as stop:
-        say(_announcement(asked, engine.workers))
+        say(_announcement(asked, summary.total, left, engine.workers))
         with study_bar() as progress:
             tally = asked.run_on(engine, stop, retry_failed, progress)
         say(_told(tally))
@@ -131,13 +134,11 @@ def _read(file: Path) -> Study:
     return plan(file)
 
 
-def _announcement(asked: Study, processes: int) -> str:
-    """Return how many points there are, and about how long they will take."""
-    total, summary = len(asked), asked.status()
-    waiting = summary.waiting if summary.total == total else total
-    seconds = asked.estimate(processes)
+def _announcement(asked: Study, total: int, left: int, processes: int) -> str:
+    """Return how many points there are, how many of them will be solved, and about how long that will take."""
+    seconds = asked.estimate(processes, left)
     many = "processes" if processes > 1 else "process"
-    return f"{total} points, {waiting} without an answer: about {duration(seconds)} with {processes} {many}"
+    return f"{total} points, {left} to solve: about {duration(seconds)} with {processes} {many}"
 
 
 def _told(tally: Tally) -> str:
@@ -150,13 +151,13 @@ def _print_summary(asked: Study, summary: Summary) -> None:
 
     print(f"{summary.total} points in {asked.store}")
     for name in (*STATUSES, "waiting"):
-        if count := summary.counts.get(name, 0):
+        if count := summary.count(name):
             print(f"  {name:<14}{count:>9}")
     if summary.kept:
         print(f"  {summary.kept} answers of points that the study no longer asks for are kept")
     if summary.changed:
         print("  the study has changed since it was run: these are the points as they were")
-    troubled = sum(summary.counts.get(name, 0) for name in STATUSES[1:])
+    troubled = summary.count(*STATUSES[1:])
     for row in asked.uncertified(_LISTED) if troubled else []:
         where = ", ".join(
             f"{name} = {value:.5g}" if isinstance(value, float) else f"{name} = {value}"

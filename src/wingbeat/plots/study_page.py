@@ -25,6 +25,8 @@ _MAP, _FAILED = "cividis", "#C00000"
 _DASHES = ("-", "--", ":", "-.")
 # Panels of maps and of parallel coordinates, and lines in one of these, that can still be read.
 _MOST, _STRANDS = (12, 4), 2000
+# Columns whose values say by themselves what they are.
+_NAMES = ("species", "aero.coefficients", "species_given", "aero_given")
 # How far a column may stray from its mean, of its size, and be one number that was rounded.
 _SAME = 1e-9
 
@@ -34,6 +36,7 @@ def study_page(
 ) -> Figure:
     """Draw a quantity of a study's certified orbits over what was varied.
 
+    Points without an answer are left out, and counted in the title.
     One varied parameter: a line for each combination of the top level, failures as red crosses at the foot. Two: a
     map for each, in squares where they are a grid and in dots where not. More: parallel coordinates for each, a
     strand a point.
@@ -60,6 +63,8 @@ def study_page(
         if name not in frame or frame[name].dtype.kind not in "fiu":
             faults.add("quantity" if name == quantity else "varied", name, "is no column of numbers in the table")
     faults.raise_if_any()
+    asked, waiting = len(frame), frame["status"].to_numpy() == "waiting"
+    frame = frame.loc[~waiting]
     good = int(np.count_nonzero(frame["status"].to_numpy() == "converged"))
     if not good:
         faults.add("status", "none converged", "leaves nothing to draw", "see `wingbeat study status`")
@@ -75,7 +80,8 @@ def study_page(
         else:
             _draw_panels(figure, shown, [*varied, quantity], axes_labels, label)
         left = f"; {len(groups) - len(shown)} more panels are left out" if len(groups) > len(shown) else ""
-        figure.suptitle(f"{good} of {len(frame)} points certified{left}", fontsize=8, x=0.01, ha="left")
+        later = f", {asked - len(frame)} not solved yet" if len(frame) < asked else ""
+        figure.suptitle(f"{good} of {asked} points certified{later}{left}", fontsize=8, x=0.01, ha="left")
     return figure
 
 
@@ -92,8 +98,7 @@ def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.Da
     for values, part in frame.groupby(others, sort=False, dropna=False):
         key: Any = values
         words = [
-            str(value) if name in ("species", "aero.coefficients") else f"{name} {value}"
-            for name, value in zip(others, key, strict=True)
+            str(value) if name in _NAMES else f"{name} {value}" for name, value in zip(others, key, strict=True)
         ]
         found.append((", ".join(words), part))
     return found

@@ -227,7 +227,8 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
 def number(value: Any) -> Any:
     """Return a number as a float, so that 1 and 1.0 are one; anything else, and what no float holds, as it is."""
     with suppress(OverflowError):
-        return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+        # Adding 0 takes the sign off a zero.
+        return float(value) + 0.0 if isinstance(value, int | float) and not isinstance(value, bool) else value
     return value
 
 
@@ -242,8 +243,8 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
         listed = isinstance(values, list) and name != "free"
         if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
-    for name in ("speed", "climb", "payload"):
-        if name in form.vary and name in form.model_fields_set:
+    for name in ("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point"):
+        if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is varied, too", "keep one of the two")
     if form.speed is None and "speed" not in form.vary:
         faults.add(

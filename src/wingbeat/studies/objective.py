@@ -54,7 +54,7 @@ def _run(name: str, file: str, code: str) -> Quantity:
     where = f"minimise {file}:{name}"
     try:
         exec(compile(code, file, "exec"), space)
-    except Exception as error:  # whatever a user's file raises
+    except (Exception, SystemExit) as error:  # whatever a user's file raises
         reason = f"{type(error).__name__}: {error}".split("\n")[0]
         faults.add(where, file, f"cannot be run: {reason}", "mend the file; it may import wingbeat and jax")
         faults.raise_if_any()

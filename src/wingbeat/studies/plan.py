@@ -17,6 +17,7 @@ import numpy as np
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
+from wingbeat.orbits.parameters import unit_of
 from wingbeat.species import load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown
@@ -67,9 +68,7 @@ def _floats(value: Any) -> Any:
         return {key: _floats(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_floats(item) for item in value]
-    value = number(value)
-    # Adding 0 takes the sign off a zero.
-    return value + 0.0 if isinstance(value, float) else value
+    return number(value)
 
 
 @dataclass(frozen=True)
@@ -136,7 +135,7 @@ class Plan:
             grids = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["grid"]]
             ends = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["range"]]
             for sample in samples:
-                drawn = [low + (high - low) * float(u) for (low, high), u in zip(ends, sample, strict=True)]
+                drawn = [_between(low, high, float(u)) for (low, high), u in zip(ends, sample, strict=True)]
                 before: list[Any] = []
                 for row, grid in itertools.product(rows, itertools.product(*grids)):
                     found = [*drawn, *row, *grid]
@@ -160,6 +159,13 @@ def _point(
 
 def _values_of(form: StudyForm, path: str | None) -> list[Any]:
     return form.vary[path or ""].values
+
+
+def _between(low: Any, high: Any, share: float) -> Any:
+    """Return what lies a share of the way between two numbers, or lists of numbers."""
+    if isinstance(low, list):
+        return [_between(*ends, share) for ends in zip(low, high, strict=True)]
+    return low + (high - low) * share
 
 
 def _scaled(form: StudyForm, path: str, stock: Any, values: list[Any]) -> list[Any]:
@@ -274,21 +280,37 @@ def _species(form: StudyForm, name: str) -> Any:
 
 def _bounds(form: StudyForm) -> dict[str, tuple[float, float]]:
     """Return bounds in radians; a name in _deg holds degrees."""
-    found = {}
+    found, faults = {}, FaultList()
     for name, (low, high) in form.bounds.items():
-        degrees = name.endswith("_deg")
-        ends = (math.radians(low), math.radians(high)) if degrees else (low, high)
-        found[name.removesuffix("_deg")] = ends
+        own = name.removesuffix("_deg")
+        degrees = name != own
+        if degrees and unit_of(own) != "rad":
+            faults.add(
+                f"bounds.{name}", [low, high], "is not the name of an angle", f"give bounds.{own} in its unit"
+            )
+        elif degrees and own in form.bounds:
+            faults.add(f"bounds.{name}", [low, high], f"is given as {own} too", "keep one of the two")
+        found[own] = (math.radians(low), math.radians(high)) if degrees else (low, high)
+    faults.raise_if_any()
     return found
 
 
 def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
     """Note each value that cannot stand where it is put, by itself."""
+    names: dict[str, str] = {}
     for path, vary in form.vary.items():
         given = vary.how
         where = f"{dotted(('vary', path))}.{given}"
+        if (other := names.setdefault(recipe.name_of(path), path)) != path:
+            faults.add(dotted(("vary", path)), given, f"is varied as {other} too", "keep one of the two")
+            continue
+        free = recipe.name_of(path).removeprefix("wingbeat.")
+        if path.startswith("wingbeat.") and free in recipe.example.free:
+            fix = f"vary bounds.{free}.lower or .upper, or name in `free` what else is free"
+            faults.add(dotted(("vary", path)), given, "is free: the search would overwrite it", fix)
+            continue
         stock = recipe.value(path)
-        if given.startswith("relative") and (stock is None or isinstance(stock, str)):
+        if given.startswith("relative") and (isinstance(stock, str) or stock is None or not np.any(stock)):
             known = path in MOTION or settable(path, None, FaultList()) is not None or stock is not None
             if known:
                 faults.add(

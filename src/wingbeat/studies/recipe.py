@@ -102,6 +102,11 @@ class Recipe:
         """The problem at some speed, unchanged."""
         return self.problem(_AT_REST)
 
+    def name_of(self, path: str) -> str:
+        """Return the one name of what a path names, which may say ``vehicle.`` or not, and an angle in degrees."""
+        key = _key(path)
+        return path.removeprefix("vehicle.") if key is None else key.path
+
     def value(self, path: str) -> Any:
         """Return what stands at a path before anything is varied, None where nothing does."""
         if (key := _key(path)) is not None:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.cores import core_count
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
@@ -22,9 +22,9 @@ from wingbeat.studies.form import check_form, read_form
 from wingbeat.studies.lock import only_one
 from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
-from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
+from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
 from wingbeat.studies.store import Store
-from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of
+from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of, varied_numbers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 __all__ = ["Study", "Summary", "study"]
 
 _SUFFIX = ".study.sqlite"
+# Seconds that a point may be given, ten days and more: operating systems refuse to wait for years.
+_LONGEST = 1e6
 # Seconds of a point, before this machine has solved any: of a search, and of the record beside it. Those in which a
 # process starts and loads its programs come on top.
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
@@ -58,15 +60,19 @@ class Summary:
     changed: bool = False
     seconds: float = 0.0
 
+    def count(self, *statuses: str) -> int:
+        """Points that have one of these statuses."""
+        return sum(self.counts.get(status, 0) for status in statuses)
+
     @property
     def waiting(self) -> int:
         """Points without an answer."""
-        return self.counts.get("waiting", 0)
+        return self.count("waiting")
 
     @property
     def all_certified(self) -> bool:
         """Whether every point has a certified orbit."""
-        return self.counts.get("converged", 0) == self.total
+        return self.count("converged") == self.total
 
 
 class Study:
@@ -82,14 +88,21 @@ class Study:
     def __len__(self) -> int:
         return len(self.plan)
 
-    def estimate(self, processes: int = 1) -> float:
-        """Return about how long the points without an answer will take [s], by those that have one, if any."""
-        each, waiting = None, len(self)
+    def estimate(self, processes: int = 1, waiting: int | None = None) -> float:
+        """Return about how long points will take [s], by those of the store that have an answer, if any.
+
+        Parameters
+        ----------
+        processes : worker processes.
+        waiting : how many points; if not given those without an answer, all of a study not run since it changed.
+        """
+        each = None
         if Store.is_begun(self.store):
             with Store.read(self.store) as store:
                 each = store.seconds()
-                if store.digest == self.plan.digest:
+                if waiting is None and store.digest == self.plan.digest:
                     waiting = store.counts().get("waiting", 0)
+        waiting = len(self) if waiting is None else waiting
         form = self.plan.form
         starts = form.starts or [usual_starts(base.recipe.example) for base in self.plan.bases]
         each = each or _SEARCH * sum(starts) / len(starts) + _RECORD
@@ -131,6 +144,17 @@ class Study:
             raise KeyboardInterrupt
         return self.status()
 
+    def prepare(self) -> Summary:
+        """Hold the study's points in its store, so that it knows which of them have an answer.
+
+        Raises
+        ------
+        FileError : the store cannot be written, is damaged, in use, or of another numerical version.
+        """
+        with only_one(self.store), Store.open(self.store) as store:
+            store.set_plan(self.plan)
+        return self.status()
+
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
@@ -169,9 +193,9 @@ class Study:
 
         Raises
         ------
-        FileError : there is no store, or it cannot be read.
+        FileError : there is no store, it cannot be read, or holds the points of another study.
         """
-        with Store.read(self.store) as store:
+        with self._answers() as store:
             return frame_of(store)
 
     def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
@@ -181,13 +205,24 @@ class Study:
 
         Raises
         ------
-        FileError : there is no store, or it cannot be read.
+        FileError : there is no store, it cannot be read, or holds the points of another study.
         """
-        with Store.read(self.store) as store:
+        with self._answers() as store:
             bases = [(told, recipe_from(inputs)) for told, inputs in store.bases()]
             for row in store.rows():
                 told, recipe = bases[row.base]
                 yield {**told, **row.told}, None if row.record is None else _orbit(recipe, row.changes, row.record)
+
+    @contextmanager
+    def _answers(self) -> Iterator[Store]:
+        """Open the store for reading, if what it holds are the points of this study."""
+        with Store.read(self.store) as store:
+            if store.digest != self.plan.digest:
+                raise FileError(
+                    f"the store {str(self.store)!r} holds the points of another study, or of this one before it "
+                    "was changed; run the study first, what was solved before and still applies is kept"
+                )
+            yield store
 
     def to_dataset(self) -> xr.Dataset:
         """Return the table as a dataset along ``point``."""
@@ -209,8 +244,10 @@ class Study:
         ----------
         quantity : a column of numbers; what was made least if not given.
         """
-        frame, least = self.to_dataframe(), self.plan.form.minimise
-        varied = [path for path in self.plan.paths if path in frame and frame[path].dtype.kind in "fiu"]
+        frame, form = self.to_dataframe(), self.plan.form
+        least, varied = form.minimise, varied_numbers(frame, self.plan.paths)
+        if not varied:
+            varied = [name for name in MOTION if len(getattr(form, name) or ()) > 1]
         if quantity is not None:
             label = f"{quantity} [{unit_of(quantity)}]"
         elif len(least) == 1:
@@ -252,7 +289,7 @@ def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
         faults.add("processes", processes, "is given beside a Dask cluster", "leave one of them out")
     if processes is not None:
         check_processes(faults, processes)
-    faults.number("timeout", timeout, above=0, unit="s")
+    faults.number("timeout", timeout, above=0, at_most=_LONGEST, unit="s")
     faults.raise_if_any()
 
 

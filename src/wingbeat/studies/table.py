@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -21,12 +21,21 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-__all__ = ["SUFFIXES", "check_table_name", "flat", "frame_of", "save_table", "to_dataset", "unit_of"]
+__all__ = [
+    "SUFFIXES",
+    "check_table_name",
+    "flat",
+    "frame_of",
+    "save_table",
+    "to_dataset",
+    "unit_of",
+    "varied_numbers",
+]
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
 # Units of a record's numbers that nobody chooses, by the last part of their names.
-_UNITS = {"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s"}
+_UNITS = {"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s", "run_seconds": "s"}
 
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -59,11 +68,17 @@ def frame_of(store: Store) -> pd.DataFrame:
     """
     import pandas as pd
 
-    bases = store.bases()
-    rows = [_row(row, *bases[row.base]) for row in store.rows()]
-    order = dict.fromkeys(name for row in rows for name in row)
-    late = [name for name in order if name.startswith("run_")]
-    frame = pd.DataFrame.from_records(rows, columns=[name for name in order if name not in late] + late)
+    asked = _asked(store.bases())
+    rows, columns = [], ({}, {}, {})
+    for row in store.rows():
+        status = {"key": row.key, "status": row.status or "waiting"}
+        parts = status | asked[row.base] | dict(flat(row.told)), _found(row), _kept(row)
+        for names, part in zip(columns, parts, strict=True):
+            names.update(dict.fromkeys(part))
+        # The record's own names win: they say what was solved, in SI units.
+        rows.append(parts[0] | parts[1] | parts[2])
+    order = dict.fromkeys(name for names in columns for name in names)
+    frame = pd.DataFrame.from_records(rows, columns=list(order))
     for name in frame.columns:
         # Nulls of a record are nothing known: not-a-number beside numbers.
         if frame[name].dtype == object and all(v is None or _is_number(v) for v in frame[name]):
@@ -71,27 +86,44 @@ def frame_of(store: Store) -> pd.DataFrame:
     return frame
 
 
+def varied_numbers(frame: pd.DataFrame, paths: Iterable[str]) -> list[str]:
+    """Return the columns of varied parameters that hold numbers; of a list of numbers, of items that differ."""
+    names, found = [str(name) for name in frame.columns], []
+    for path in paths:
+        items = [name for name in names if name.startswith(f"{path}.") and name.rpartition(".")[2].isdigit()]
+        found += [path] if path in names else [name for name in items if len(set(frame[name])) > 1]
+    return [name for name in found if frame[name].dtype.kind in "fiu"]
+
+
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _row(row: Row, told: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
-    # The record's own names win: they say what was solved, in SI units.
-    names = {"species": inputs["species"]["name"], "aero.coefficients": inputs["aero"]["coefficients"]}
-    multiplied = {
-        name: json.dumps(value) if isinstance(value, list) else value
-        for name, value in told.items()
-        if name not in ("species", "aero")
-    }
+def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:
+    """Return of each base what tells it apart, by the columns that say so."""
+    own = [
+        {"species": inputs["species"]["name"], "aero.coefficients": inputs["aero"]["coefficients"]}
+        for _, inputs in bases
+    ]
+    asked = []
+    for (told, _), names in zip(bases, own, strict=True):
+        multiplied = {name: json.dumps(v) if isinstance(v, list) else v for name, v in told.items()}
+        for given, name in (("species", "species"), ("aero", "aero.coefficients")):
+            said = multiplied.pop(given, None)
+            # Several files may hold animals, or models, of one name.
+            if said is not None and len({one[name] for one in own}) < len({base[0][given] for base in bases}):
+                names |= {f"{given}_given": said}
+        asked.append(names | multiplied)
+    return asked
+
+
+def _found(row: Row) -> dict[str, Any]:
     record = {} if row.record is None else dict(flat(json.loads(row.record)))
-    varied = dict(flat(row.told))
+    return {name: value for name, value in record.items() if name != "status"}
+
+
+def _kept(row: Row) -> dict[str, Any]:
     return {
-        "key": row.key,
-        "status": row.status or "waiting",
-        **names,
-        **multiplied,
-        **varied,
-        **{name: value for name, value in record.items() if name != "status"},
         "certificate": row.certificate,
         "error": row.error or "",
         "run_seconds": row.seconds,

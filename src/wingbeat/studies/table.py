@@ -101,20 +101,20 @@ def _is_number(value: Any) -> bool:
 
 def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:
     """Return of each base what tells it apart, by the columns that say so."""
-    own = [
-        {"species": inputs["species"]["name"], "aero.coefficients": inputs["aero"]["coefficients"]}
-        for _, inputs in bases
+    names = {"species": lambda of: of["species"]["name"], "aero": lambda of: of["aero"]["coefficients"]}
+    columns = {"species": "species", "aero": "aero.coefficients"}
+    # Several files may hold animals, or models, of one name: then what was given tells them apart.
+    alike = [
+        name
+        for name, called in names.items()
+        if len({called(inputs) for _, inputs in bases}) < len({told.get(name) for told, _ in bases})
     ]
-    asked = []
-    for (told, _), names in zip(bases, own, strict=True):
-        multiplied = {name: json.dumps(v) if isinstance(v, list) else v for name, v in told.items()}
-        for given, name in (("species", "species"), ("aero", "aero.coefficients")):
-            said = multiplied.pop(given, None)
-            # Several files may hold animals, or models, of one name.
-            if said is not None and len({one[name] for one in own}) < len({base[0][given] for base in bases}):
-                names |= {f"{given}_given": said}
-        asked.append(names | multiplied)
-    return asked
+    return [
+        {columns[name]: called(inputs) for name, called in names.items()}
+        | {f"{name}_given": told[name] for name in alike}
+        | {name: json.dumps(v) if isinstance(v, list) else v for name, v in told.items() if name not in names}
+        for told, inputs in bases
+    ]
 
 
 def _found(row: Row) -> dict[str, Any]:

@@ -301,13 +301,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
     for path, vary in form.vary.items():
         given = vary.how
         where = f"{dotted(('vary', path))}.{given}"
-        if (other := names.setdefault(recipe.name_of(path), path)) != path:
-            faults.add(dotted(("vary", path)), given, f"is varied as {other} too", "keep one of the two")
-            continue
-        free = recipe.name_of(path).removeprefix("wingbeat.")
-        if path.startswith("wingbeat.") and free in recipe.example.free:
-            fix = f"vary bounds.{free}.lower or .upper, or name in `free` what else is free"
-            faults.add(dotted(("vary", path)), given, "is free: the search would overwrite it", fix)
+        if not _may_vary(path, given, recipe, names, faults):
             continue
         stock = recipe.value(path)
         if given.startswith("relative") and (isinstance(stock, str) or stock is None or not np.any(stock)):
@@ -334,6 +328,20 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
             faults.faults += named
             if len(faults.faults) >= _ENOUGH or (named and named[0].where == dotted(("vary", path))):
                 return
+
+
+def _may_vary(path: str, given: str, recipe: Recipe, names: dict[str, str], faults: FaultList) -> bool:
+    """Return whether a path may be varied beside those whose `names` were met before, or note why not."""
+    where, name = dotted(("vary", path)), recipe.name_of(path)
+    if (other := names.setdefault(name, path)) != path:
+        faults.add(where, given, f"is varied as {other} too", "keep one of the two")
+        return False
+    free = name.removeprefix("wingbeat.")
+    if name.startswith("wingbeat.") and free in recipe.example.free:
+        fix = f"vary bounds.{free}.lower or .upper, or name in `free` what else is free"
+        faults.add(where, given, "is free: the search would overwrite it", fix)
+        return False
+    return True
 
 
 def _text(value: Any) -> Any:

@@ -15,7 +15,7 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat.orbits.search import Candidate, search
-from wingbeat.orbits.solution import SAME, Solution
+from wingbeat.orbits.solution import FAMILY, Solution
 from wingbeat.orbits.solve import certified_optimum, follow
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
@@ -39,7 +39,7 @@ def by_restarts(best: Solution, restarts: int, seed: int) -> dict:
     near = best.objective + ROUGHLY * abs(best.objective)
     rivals: list[Candidate] = []
     for candidate in optima:
-        known = any(np.abs(candidate.scaled - other.scaled).max() <= SAME for other in rivals)
+        known = any(np.abs(candidate.scaled - other.scaled).max() <= FAMILY for other in rivals)
         if candidate.objective <= near and not known:
             rivals.append(candidate)
     certified = [found for candidate in rivals[:MOST] if (found := certified_optimum(candidate, 0.0))]

@@ -215,7 +215,7 @@ def test_a_change_is_rounded_outward_and_applied(name, sign, old, reach, value, 
         assert applied.vehicle.mass == pytest.approx(new)
         assert applied.vehicle.wing == problem.vehicle.wing
     elif name == "shoulder":
-        assert applied.vehicle.wing.shoulder == (new, 0.0, 0.0)
+        assert applied.vehicle.wing.shoulder == (new, *problem.vehicle.wing.shoulder[1:])
     elif name == "speed":
         assert applied.speed == new
     elif name in problem.bounds:

@@ -118,7 +118,8 @@ def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
 
 def test_of_two_answers_the_better_is_kept_with_the_counts_of_both(pigeons):
     found = find_orbit(pigeons[0], 1, threads=1)
-    worse = dataclasses.replace(found, wingbeat=dataclasses.replace(found.wingbeat, frequency=30.0), starts=4)
+    other = dataclasses.replace(found.wingbeat, frequency=30.0)
+    worse = dataclasses.replace(found, wingbeat=other, starts=4, optima=())
     lost = dataclasses.replace(found, status=Status.NOT_CONVERGED)
     kept = better_of(worse, found)
     assert kept.wingbeat == found.wingbeat

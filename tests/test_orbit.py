@@ -12,7 +12,7 @@ from wingbeat.orbits import solve as solving
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.correction import correct
 from wingbeat.orbits.search import optimise
-from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.starts import start_point, structured_starts
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.results.record import beat_mean, finite_or_none
 
@@ -21,6 +21,7 @@ RECORD = {
     *("status", "message", "species", "vehicle", "aero", "air", "speed", "climb", "objective", "wingbeat"),
     *("objective_value", "constraints"),
     *("initial_state", "active_bounds", "closure", "optimality", "starts", "distinct_optima", "mean_power"),
+    "starts_at_best",
     *("failed_balance", "relaxations"),
     *("peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power", "cost_of_transport"),
     *("body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "alpha_quarter_span"),
@@ -109,13 +110,14 @@ def test_the_record_says_how_the_orbit_was_certified(solved):
     assert max(abs(miss) for miss in r["closure"].values()) <= 1e-6
     assert 0 <= r["optimality"] <= 1e-5
     assert 1 <= r["distinct_optima"] <= r["starts"] == 2
+    assert 1 <= r["starts_at_best"] <= r["starts"] + 1 - r["distinct_optima"]
     assert np.shape(r["floquet_multipliers"]) == (4, 2)
     modulus = np.hypot(*np.transpose(r["floquet_multipliers"]))
     assert r["stable"] is bool(modulus.max() < 1)
     assert (np.diff(modulus) <= 1e-8).all()  # largest first
     # Every bound is kept, and those that are met are named.
     for name, (low, high) in solved.problem.bounds.items():
-        if name != "body_pitch":
+        if name in solved.problem.free:
             value = r["wingbeat"][name]
             assert low <= value <= high
             assert (name in r["active_bounds"]) is (min(value - low, high - value) <= 1e-6 * (high - low))
@@ -146,10 +148,13 @@ def test_finite_or_none_and_mean():
 
 def test_the_same_seed_starts_at_the_same_points_and_another_does_not():
     problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
-    stock, first, again, other = (start_point(problem, i, s) for i, s in ((0, 0), (1, 0), (1, 0), (1, 1)))
+    given = structured_starts(problem)
+    random = len(given)
+    first, again, other = (start_point(problem, random, seed) for seed in (0, 0, 1))
     np.testing.assert_array_equal(first, again)
     assert not np.isclose(first, other).any()
-    np.testing.assert_array_equal(stock, start_point(problem, 0, 1))
+    for index, start in enumerate(given):
+        np.testing.assert_array_equal(start, start_point(problem, index, 1))
     unknowns = problem.unknowns()
     for index in range(50):
         point = start_point(problem, index, 3)

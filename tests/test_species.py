@@ -62,7 +62,10 @@ def test_what_the_paper_gives_is_given(
     assert animal.wingbeat.fold_amplitude == math.radians(fold_deg)
     assert (animal.wingbeat.twist_ratio, animal.wingbeat.wrist) == (twist, wrist)
     assert animal.vehicle.wing.stroke_plane_angle == math.pi / 2
-    assert animal.vehicle.wing.shoulder == (0.0, 0.0, 0.0)
+    # Level with the centre of mass; beside the plane of symmetry by half the width of the body.
+    ahead, beside, above = animal.vehicle.wing.shoulder
+    assert (ahead, above) == (0.0, 0.0)
+    assert beside == pytest.approx(math.sqrt(0.00813 * animal.vehicle.mass**0.666 / math.pi), rel=0.02)
 
 
 def test_our_own_defaults_are_those_of_the_literature_notes() -> None:
@@ -83,8 +86,9 @@ def test_free_parameters_and_bounds(name: str) -> None:
     assert degrees["flap_mean"] == (-30, 30)
     assert degrees["pitch_amplitude"] == (0, 60)
     assert degrees["pitch_mean"] == (-30, 40)
-    assert np.degrees(animal.body_pitch_bounds) == pytest.approx([-60, 60])
-    assert animal.guessed_bounds <= {*animal.free, "body_pitch"}
+    assert np.degrees(animal.path_bounds["body_pitch"]) == pytest.approx([-60, 60])
+    assert np.degrees(animal.path_bounds["flap"]) == pytest.approx([-90, 90])
+    assert animal.guessed_bounds <= {*animal.free, *animal.path_bounds}
     assert all(animal.reasons[key] for key in (*animal.free, "body_pitch"))
 
 
@@ -136,7 +140,7 @@ def test_a_minimal_file(load: Any) -> None:
     assert own.air.density == 1.225
     assert own.vehicle.wing.stroke_plane_angle == math.pi / 2
     assert own.numbers["air.density"].source == "not given: the default"
-    assert own.body_pitch_bounds == (-math.pi / 2, math.pi / 2)
+    assert own.path_bounds == dict.fromkeys(("body_pitch", "flap"), (-math.pi / 2, math.pi / 2))
     assert [line for line in own.warnings if "no orbit can be sought" in line] == list(own.warnings)
 
 

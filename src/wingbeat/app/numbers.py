@@ -34,7 +34,7 @@ class Numbers:
         self._bounds: dict[tuple[str, int], Field] = {}
         self._resets: list[Any] = []
         with _folded("Bounds of what is free"):
-            for name in (*species.bounds, "body_pitch"):
+            for name in (*species.bounds, *species.path_bounds):
                 self._build_bound(name)
             self._resets.append(button("As the animal's file has them", lambda: change(bounds={}), "quiet"))
         for group, title in _GROUPS.items():
@@ -90,10 +90,10 @@ class Numbers:
             field.show(self._bound_text(self._now(name)[end], name))
 
     def _is_angle(self, name: str) -> bool:
-        return name in ANGLES or name == "body_pitch"
+        return name in ANGLES or name in self._species.path_bounds
 
     def _now(self, name: str) -> tuple[float, float]:
-        own = self._species.bounds.get(name, self._species.body_pitch_bounds)
+        own = (self._species.path_bounds | self._species.bounds)[name]
         low, high = self._scenario.bounds.get(name, own)
         return low, high
 

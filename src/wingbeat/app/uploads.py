@@ -176,11 +176,11 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
     if written_out:
         # A file keeps no reasons for its bounds, and its numbers to six digits; the rest is set below.
         text = species_text(
-            dataclasses.replace(species, reasons=dict.fromkeys((*species.bounds, "body_pitch"), ""))
+            dataclasses.replace(species, reasons=dict.fromkeys((*species.bounds, *species.path_bounds), ""))
         )
         name = clean_label(name)
     known = species_in(Scenario(species=name, species_file=text))
-    bounds = {**known.bounds, "body_pitch": known.body_pitch_bounds}
+    bounds = known.bounds | known.path_bounds
     return Scenario(
         species=name,
         species_file=text,

@@ -47,6 +47,10 @@ Extension = Annotated[
 ]
 BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
 Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
+WingsMayCross = Annotated[
+    bool,
+    Parameter(negative="", help="Let the wings pass through the plane of symmetry, through each other."),
+]
 ForcePoint = Annotated[str, Parameter(help="Where the force acts: quarter-chord or centre-of-pressure.")]
 
 

@@ -29,6 +29,7 @@ from wingbeat.cli.options import (
     Settings,
     Strips,
     Whole,
+    WingsMayCross,
     aero_with,
     check_files,
     check_outputs,
@@ -90,6 +91,7 @@ def orbit(
         ),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    wings_may_cross: WingsMayCross = False,
     set_: Settings = None,
     payload: Payload = 0.0,
     kinematics: Kinematics = None,
@@ -143,6 +145,8 @@ def orbit(
         bounds = _amplitude_bounds(animal, flap_amplitude_max)
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
         asked: dict[str, Any] = {"climb": climb, "aero": loads, "bounds": bounds, "subject_to": subject_to or ()}
+        if wings_may_cross:
+            asked["wings_may_cross"] = True
         if minimise is not None:
             asked["minimise"] = minimise
         if kinematics is None:

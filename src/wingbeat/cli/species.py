@@ -230,7 +230,7 @@ def _free_table(animal: Species) -> Table:
 
     table = _table("free in an orbit, and the limits of its path", "quantity", "bounds>r", "unit", "reason")
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
-    for path, limits in (bounds | {"body_pitch": animal.body_pitch_bounds}).items():
+    for path, limits in (bounds | animal.path_bounds).items():
         unit = FREE_UNITS.get(path.removeprefix("wingbeat."), "rad")
         name, shown = display(path, Number(0.0, unit, range=limits))
         low, high = shown.range or limits

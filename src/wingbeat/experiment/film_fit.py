@@ -182,6 +182,8 @@ class FilmedBeat:
         if "frequency" not in free:
             more.setdefault("minimise", "mean_positive_power")
         bounds |= more.pop("bounds", {})
+        # What was filmed is held: a limit of the stroke could only hide it. An orbit that crosses draws a warning.
+        more.setdefault("wings_may_cross", True)
         return OrbitProblem(self.on(species), speed, free=free, bounds=bounds, **more)
 
     def draws(self, wingbeat: Wingbeat, count: int = 32, seed: int = 0) -> list[Wingbeat]:

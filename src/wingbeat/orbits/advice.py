@@ -124,7 +124,7 @@ def _plainly(problem: OrbitProblem) -> OrbitProblem:
 
 
 def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
-    """Yield (name, sign) of the bounds that a beat leans on, ``body_pitch`` for the whole path."""
+    """Yield (name, sign) of the bounds that a beat leans on, and of the limits of the whole path."""
     names, reach = programme.unknowns.names, _LEANING * (programme.upper - programme.lower)
     for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
         if name in programme.problem.free:
@@ -132,9 +132,8 @@ def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str,
                 yield name, ">="
             if high - x <= near:
                 yield name, "<="
-    for margin, sign in zip(programme.margins(scaled)[:2], (">=", "<="), strict=True):
-        if margin <= _LEANING:
-            yield "body_pitch", sign
+    margins = zip(programme.path_limits, programme.margins(scaled), strict=False)
+    yield from dict.fromkeys(limit for limit, margin in margins if margin <= _LEANING)
 
 
 def _certified_change(problem: OrbitProblem, eased: Eased) -> Relaxation | None:

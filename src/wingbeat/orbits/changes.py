@@ -11,12 +11,13 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.orbits.limits import Constraint
 from wingbeat.orbits.parameters import Place, unit_of, with_number
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem import PATH_NAMES, OrbitProblem
 from wingbeat.orbits.shortage import LIFT, MOMENT, THRUST
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
 _QUARTER_TURN = 0.5 * math.pi
 _ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
+_ANY_FLAP = (-1.3 * _QUARTER_TURN, 1.3 * _QUARTER_TURN)
 _AMPLITUDE = (0.0, _QUARTER_TURN)
 _REACH = {
     "frequency": (0.1, 200.0),
@@ -27,6 +28,7 @@ _REACH = {
     "twist_ratio": (0.0, 4.0),
     "downstroke_fraction": (0.1, 0.9),
     "body_pitch": _ANY_ANGLE,
+    "flap": _ANY_FLAP,
 }
 # Of a harmonic, an angle or a share of the span.
 _HARMONIC = (-0.5, 0.5)
@@ -54,8 +56,9 @@ class Change:
 
     Parameters
     ----------
-    name : a wingbeat parameter, ``body_pitch``, a constraint's quantity, ``mass`` (whole, taken off the body),
-        ``speed``, ``climb`` or ``shoulder`` (its place ahead of the body's centre of mass).
+    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity,
+        ``mass`` (whole, taken off the body), ``speed``, ``climb`` or ``shoulder`` (its place ahead of the body's
+        centre of mass).
     sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for what is held.
     old : what it is, SI and radians.
     reach : how far it may go.
@@ -219,7 +222,7 @@ def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
     far = reach[upper]
     for _ in range(_HALVED):
         try:
-            with_parameters(problem.species.wingbeat, {} if name == "body_pitch" else {name: far})
+            with_parameters(problem.species.wingbeat, {} if name in PATH_NAMES else {name: far})
         except InvalidInputError:
             far = 0.5 * (old + far)
         else:
@@ -233,7 +236,7 @@ def _tries(short: float | None, others: tuple[float, ...]) -> tuple[float, ...]:
 
 def _towards(name: str, sign: str, old: float, reach: float, tries: tuple[float, ...] = ()) -> Iterator[Change]:
     """Yield the change from old to reach, if there is any way to go in that direction."""
-    scale = _LARGE_ANGLE if name in (*ANGLES, "body_pitch") else max(abs(old), 0.1)
+    scale = _LARGE_ANGLE if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
     if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
         yield Change(name, sign, old, reach, scale, tries)
 

@@ -17,7 +17,7 @@ _BETTER = 1e-4
 
 
 def find_series(
-    problems: Sequence[OrbitProblem], starts: int = 1, seed: int = 0, most_starts: int | None = None
+    problems: Sequence[OrbitProblem], starts: int | None = None, seed: int = 0, most_starts: int | None = None
 ) -> list[Solution]:
     """Solve problems in a row, such as speeds in order, each searched from its neighbours' answers, too.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from wingbeat.orbits.changes import Change, is_limit, with_change
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem import PATH_NAMES, OrbitProblem
 from wingbeat.orbits.search import is_closed, optimise
 from wingbeat.orbits.shooting import Flown
 from wingbeat.orbits.starts import start_point
@@ -78,17 +78,17 @@ class _EasedBound(Eased):
 
 
 class _EasedLimit(Eased):
-    """With a limit along the beat moved: of body pitch, or a constraint."""
+    """With a limit along the beat moved: of body pitch, of the flap angle, or a constraint."""
 
     def __init__(self, problem: OrbitProblem, change: Change) -> None:
         super().__init__(with_change(problem, change.name, change.sign, change.reach), change)
-        if change.name == "body_pitch":
-            rows, unit = [int(change.sign == "<=")], 1.0
-        else:
+        rows = [i for i, limit in enumerate(self.path_limits) if limit == (change.name, change.sign)]
+        unit = 1.0
+        if not rows:
             constraints = list(problem.subject_to)
             place = next(i for i, c in enumerate(constraints) if is_limit(c, change.name, change.sign))
             assert self.asked is not None
-            rows = [2 + row for row in self.asked.rows_of(place)]
+            rows = [len(self.path_limits) + row for row in self.asked.rows_of(place)]
             unit = constraints[place].quantity.scale
         self._passed, self._unit = rows, change.scale / unit
 
@@ -137,7 +137,7 @@ class _EasedNumber(Eased):
 
 def eased(problem: OrbitProblem, change: Change) -> Eased:
     """Return the programme in which one number of a problem is moved as little as can be."""
-    if change.name == "body_pitch" or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
+    if change.name in PATH_NAMES or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
         return _EasedLimit(problem, change)
     return _EasedNumber(problem, change) if change.sign == "=" else _EasedBound(problem, change)
 

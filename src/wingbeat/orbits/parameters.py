@@ -15,7 +15,7 @@ from wingbeat.species_schema import FREE_UNITS, KEYS
 # Units by the last part of a name: of the numbers of a species file, then of those that none holds.
 _UNITS = {key.name: key.unit for key in KEYS} | FREE_UNITS
 _UNITS |= {"phase_deg": "deg", "decay_rate": "1/deg", "blend_width_deg": "deg"}
-_UNITS |= {"body_pitch": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}
+_UNITS |= {"body_pitch": "rad", "flap": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}
 _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
@@ -175,7 +175,7 @@ def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
 
 
 def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
-    """Return the bound of a free parameter or of ``body_pitch``, such as ``bounds.flap_amplitude.upper``."""
+    """Return the bound of a free parameter or along the path, such as ``bounds.flap_amplitude.upper``."""
     pair = problem.bounds[name]
     size = 1.0 if unit_of(name) == "rad" else pair[1] - pair[0]
     end = SIDES.index(side)

@@ -21,10 +21,14 @@ from wingbeat.orbits.readings import check_quantities, row_count
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
 
+# What is bounded along the whole path: body pitch as flown, the flap angle of arm and hand as prescribed.
+PATH_NAMES = ("body_pitch", "flap")
 PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
 # A miss that matters, in the units of CLOSURE: makes the optimiser see numbers near one.
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
+# Free parameters that change when or how fast the wings go through the stroke, or turn the whole of it.
+_NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
 # The derivative of the pitch state at the start by itself.
 _START = np.eye(4)
 
@@ -52,12 +56,17 @@ class OrbitProblem:
     climb : mean vertical velocity, up positive [m/s].
     aero : a coefficient model such as `SuFan()`, or a `BladeElement` that also sets strips and force point.
     free : names of the wingbeat parameters that are free; the species' own if not given.
-    bounds : (lower, upper) for free parameters or for ``body_pitch`` along the whole path, SI and radians;
-        replaces the species' bounds of the same names.
+    bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
+        flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names.
     minimise : the objective, `Frequency()` as in the paper.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter holds it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
+
+    wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles out of their range.
+
+    By default the whole stroke keeps each wing on its own side. Where every parameter that shapes the stroke is
+    held, there is nothing to choose and an orbit that crosses draws a warning.
 
     `minimise` may also be a `Quantity`, or the name of one: ``"mean_positive_power"``.
 
@@ -79,6 +88,7 @@ class OrbitProblem:
     minimise: Any = field(default_factory=Frequency)
     air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
     subject_to: Sequence[Any] = ()
+    wings_may_cross: bool = False
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -88,6 +98,8 @@ class OrbitProblem:
         faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
+        if not isinstance(self.wings_may_cross, bool):
+            faults.add("wings_may_cross", self.wings_may_cross, "must be True or False")
         faults.raise_if_any()
         self._check_asked(faults)
         faults.raise_if_any()
@@ -98,10 +110,10 @@ class OrbitProblem:
         object.__setattr__(self, "air", self.air or self.species.air)
         object.__setattr__(self, "bounds", dict(self.bounds or {}))
         free = tuple(self.free or self.species.free)
-        bounds = {**self.species.bounds, "body_pitch": self.species.body_pitch_bounds, **self.bounds}
+        bounds = {**self.species.bounds, **self.species.path_bounds, **self.bounds}
         self._check_free(faults, free, bounds)
         object.__setattr__(self, "free", free)
-        object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, "body_pitch")})
+        object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, *PATH_NAMES)})
 
     def _check_asked(self, faults: FaultList) -> None:
         """Turn names and texts into objective and constraints."""
@@ -152,6 +164,11 @@ class OrbitProblem:
         bounds[name] = (lower, limit.value) if limit.sign == "<=" else (limit.value, upper)
         object.__setattr__(self, "bounds", bounds)
 
+    @property
+    def shapes_stroke(self) -> bool:
+        """Whether a free parameter changes where the wings go, seen from the body."""
+        return any(name not in _NOT_OF_THE_STROKE for name in self.free)
+
     def _quantities(self) -> list[Quantity]:
         """Return what is read off the beat."""
         objective = [self.minimise] if isinstance(self.minimise, Quantity) else []
@@ -191,14 +208,14 @@ class OrbitProblem:
         if isinstance(self.minimise, Frequency) and "frequency" not in free:
             faults.add("free", free, "leaves frequency nothing to change", "minimise something else")
         for name, pair in self.bounds.items():
-            if name != "body_pitch" and name not in free:
+            if name not in (*PATH_NAMES, *free):
                 faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
                 faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
             elif all(faults.number(f"bounds.{name}", value) for value in pair):
                 if not pair[0] < pair[1]:
                     faults.add(f"bounds.{name}", pair, "lower must be below upper")
-                if name != "body_pitch":
+                if name not in PATH_NAMES:
                     self._check_reach(faults, name, pair)
         faults.raise_if_any()
 

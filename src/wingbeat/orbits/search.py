@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import lsq_linear, minimize
 
 from wingbeat.orbits.least_misses import least_misses
-from wingbeat.orbits.problem import CLOSURE_SCALE
+from wingbeat.orbits.problem import CLOSURE_SCALE, PATH_NAMES
 from wingbeat.orbits.transcription import AT_BOUND, Transcription
 
 # A closure of 1e-4 in the user's units, by its own few steps, is what a search must reach: the last digits come
@@ -157,17 +157,17 @@ def optimise(
 
 
 def active_bounds(problem: Transcription, scaled: np.ndarray) -> tuple[str, ...]:
-    """Return the names of the unknowns at a bound; ``body_pitch`` stands for the whole path."""
+    """Return the names of the unknowns at a bound, and of the limits of the whole path, that are met."""
     names = [
         name
         for name, x, lower, upper in zip(problem.unknowns.names, scaled, problem.lower, problem.upper, strict=False)
-        if name != "body_pitch" and min(x - lower, upper - x) <= AT_BOUND * (upper - lower)
+        if name not in PATH_NAMES and min(x - lower, upper - x) <= AT_BOUND * (upper - lower)
     ]
     margins = problem.margins(scaled)
-    if margins[:2].min() <= AT_BOUND:
-        names.append("body_pitch")
+    path = problem.path_limits
+    names += dict.fromkeys(name for (name, _), margin in zip(path, margins, strict=False) if margin <= AT_BOUND)
     if problem.asked is not None:
-        names += problem.asked.active_constraints(margins[2:])
+        names += problem.asked.active_constraints(margins[len(path) :])
     return tuple(names)
 
 

@@ -19,7 +19,7 @@ from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import certify
 from wingbeat.orbits.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.polish import Conditions, Polish
-from wingbeat.orbits.problem import PITCH_STATE, OrbitProblem, Unknowns
+from wingbeat.orbits.problem import PATH_NAMES, PITCH_STATE, OrbitProblem, Unknowns
 from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.transcription import Transcription
 
@@ -110,11 +110,11 @@ class OptimumSlopes:
             for name, free, at_lower in zip(names, self._free, self._at_lower, strict=False)
             if not free and name in problem.free
         ]
-        found += [
-            bound_of(problem, PITCH_STATE[0], side) for side, on in zip(SIDES, self._on_path, strict=False) if on
-        ]
+        path = self._here.path_limits
+        met = dict.fromkeys(limit for limit, on in zip(path, self._on_path, strict=False) if on)
+        found += [bound_of(problem, name, SIDES[int(sign == "<=")]) for name, sign in met if name in PATH_NAMES]
         if self._here.asked is not None:
-            active = self._here.asked.active_rows(self._on_path[2:])
+            active = self._here.asked.active_rows(self._on_path[len(path) :])
             found += [limit_of(problem, i) for i in active]
         return found
 

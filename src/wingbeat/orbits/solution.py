@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import enum
 import functools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,9 +21,9 @@ from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.stability import floquet_multipliers
 
-# Optima nearer to one another than this, in the optimiser's scale, are one; the other is the distance from which on
-# two are two where one of them is not corrected.
-SAME, ELSEWHERE = 1e-3, 0.05
+# Optima nearer to one another than this, in the optimiser's scale, are of one family. Some wingbeats can change a
+# little at hardly any cost, and where along them a search stops is chance.
+FAMILY = 0.05
 
 
 class Status(enum.Enum):
@@ -34,19 +35,40 @@ class Status(enum.Enum):
 
 
 class Optimum(NamedTuple):
-    """Where one of the searches ended, uncorrected: the objective and the unknowns."""
+    """The best uncorrected optimum of a family: the objective, the unknowns, and how many searches ended there."""
 
     objective: float
     unknowns: np.ndarray
+    starts: int = 1
+
+
+def families(optima: Iterable[Optimum], scale: np.ndarray) -> tuple[Optimum, ...]:
+    """Return the best optimum of each family, best first, with the searches that ended in it.
+
+    Parameters
+    ----------
+    optima : those that searches ended in.
+    scale : of the unknowns.
+    """
+    found: list[Optimum] = []
+    for optimum in sorted(optima, key=lambda o: o.objective):
+        for i, other in enumerate(found):
+            if np.abs((optimum.unknowns - other.unknowns) / scale).max() <= FAMILY:
+                found[i] = other._replace(starts=other.starts + optimum.starts)
+                break
+        else:
+            found.append(optimum)
+    return tuple(found)
 
 
 @dataclass(frozen=True)
 class Solution:
     """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted.
 
-    `optima` are those that the searches met. Where there is no orbit, wingbeat and start are of the beat that comes
-    closest; `shortages` says which law of balance it breaks and by how much, the most first, and `relaxations`
-    which single changes fly, the smallest first. `learned` is what problems near by can make use of.
+    `optima` are those that the searches met, one of each family. Where there is no orbit, wingbeat and start are of
+    the beat that comes closest; `shortages` says which law of balance it breaks and by how much, the most first,
+    and `relaxations` which single changes fly, the smallest first. `learned` is what problems near by can make use
+    of.
     """
 
     problem: OrbitProblem
@@ -68,6 +90,15 @@ class Solution:
     learned: Curvature | None = None
 
     @property
+    def starts_at_best(self) -> int:
+        """How many of the searches ended in the family of this optimum."""
+        if self.status is not Status.CONVERGED:
+            return 0
+        scale = self.problem.unknowns().scale
+        near = [o.starts for o in self.optima if np.abs((o.unknowns - self.unknowns) / scale).max() <= FAMILY]
+        return max(sum(near), 1)
+
+    @property
     def unknowns(self) -> np.ndarray:
         """Pitch state at the start and free parameters, as a search starts from them."""
         return self.problem.unknowns_of(self.certificate.states[0], self.wingbeat)
@@ -80,8 +111,8 @@ class Solution:
         return (self.unknowns - drift) / self.problem.unknowns().scale
 
     def same_as(self, other: Solution) -> bool:
-        """Whether this is the same optimum of the same problem."""
-        return bool(np.abs(self.place - other.place).max() <= SAME)
+        """Whether this optimum and another of the same problem are of one family."""
+        return bool(np.abs(self.place - other.place).max() <= FAMILY)
 
     @functools.cached_property
     def objective(self) -> float:
@@ -90,6 +121,10 @@ class Solution:
         if isinstance(minimise, Quantity):
             return self.value_of(minimise)
         return minimise.value(self.problem.unknowns().names, self.unknowns)
+
+    def as_optimum(self) -> tuple[Optimum, ...]:
+        """Return the orbit as an optimum that a search ended in; none where nothing is certified."""
+        return (Optimum(self.objective, self.unknowns),) if self.status is Status.CONVERGED else ()
 
     def beat(self) -> Beat:
         """Return the certified beat as a time series, made anew: batches have no room for many."""
@@ -110,11 +145,13 @@ class Solution:
 def better_of(own: Solution, other: Solution) -> Solution:
     """Return the better of two answers to one problem, with the searches, optima and times of both."""
     converged = [s for s in (own, other) if s.status is Status.CONVERGED]
+    told = [o for s in (own, other) for o in (s.optima or s.as_optimum())]
+    optima = families(told, own.problem.unknowns().scale)
     return dataclasses.replace(
         min(converged, key=lambda s: s.objective, default=own),
         starts=own.starts + other.starts,
-        distinct_optima=own.distinct_optima + (0 if own.same_as(other) else other.distinct_optima),
-        optima=own.optima + other.optima,
+        distinct_optima=len(optima),
+        optima=optima,
         seed=own.seed,
         seconds=own.seconds + other.seconds,
         certify_seconds=own.certify_seconds + other.certify_seconds,

@@ -21,7 +21,7 @@ from wingbeat.orbits.search import (
     violation,
 )
 from wingbeat.orbits.searches import beside_best, load_programs, search_from_starts
-from wingbeat.orbits.solution import ELSEWHERE, SAME, Optimum, Solution, Status, better_of
+from wingbeat.orbits.solution import FAMILY, Optimum, Solution, Status, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.orbits.without_orbit import Ending, without_orbit
@@ -88,7 +88,7 @@ def find_orbit(
     ending = None
     if best is None:
         best, ending = without_orbit(transcription, found, threads, advise, progress)
-    return _found(transcription, best, _distinct(found), len(found), seed, begun, ending)
+    return _found(transcription, best, found, len(found), seed, begun, ending)
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
@@ -102,18 +102,17 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     level = transcription.objective(here) * problem.minimise.scale
     unsure = _UNSURE * max(abs(level), problem.minimise.scale)
     found = _first_searches(transcription, starts, seed, 1)
-    others = [
-        c for c in _distinct(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > ELSEWHERE
-    ]
+    others = [c for c in _optimal(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > FAMILY]
     best = first_certified(transcription, [c for c in others if c.objective <= level + unsure])
     if best is not None:
-        return better_of(_found(transcription, best, others, len(found), seed, begun), known)
+        return better_of(_found(transcription, best, found, len(found), seed, begun), known)
+    optima = families([*known.as_optimum(), *_optima(found)], problem.unknowns().scale)
     return dataclasses.replace(
         known,
         starts=known.starts + len(found),
         seed=seed,
-        distinct_optima=known.distinct_optima + len(others),
-        optima=(*known.optima, *_optima(others)),
+        distinct_optima=len(optima),
+        optima=optima,
         seconds=known.seconds + time.perf_counter() - begun,
         certify_seconds=known.certify_seconds + transcription.certify_seconds,
     )
@@ -164,14 +163,15 @@ def _first_searches(
 def _found(
     transcription: Transcription,
     best: Corrected,
-    optima: list[Candidate],
+    found: list[Candidate],
     searches: int,
     seed: int,
     begun: float,
     ending: Ending | None = None,
 ) -> Solution:
     seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
-    return _solution(best, searches, _optima(optima), seed, seconds, certifying, ending)
+    optima = families(_optima(found), transcription.problem.unknowns().scale)
+    return _solution(best, searches, optima, seed, seconds, certifying, ending)
 
 
 def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[np.ndarray]]:
@@ -246,10 +246,15 @@ def find_optima(problem: OrbitProblem, starts: int, seed: int = 0) -> list[Solut
     found = list(search_from_starts(Transcription(problem), range(starts), seed, False, 1))
     each = (time.perf_counter() - begun) / starts
     optima: list[Solution] = []
-    for candidate in sorted(_distinct(found), key=lambda c: c.objective):
+    known: list[np.ndarray] = []
+    for candidate in _optimal(found):
+        if any(np.abs(candidate.scaled - other).max() <= FAMILY for other in known):
+            continue
         optimum = certified_optimum(candidate, each)
-        if optimum is not None and not any(optimum.same_as(other) for other in optima):
-            optima.append(optimum)
+        if optimum is not None:
+            known.append(candidate.scaled)
+            if not any(optimum.same_as(other) for other in optima):
+                optima.append(optimum)
     return optima
 
 
@@ -296,14 +301,9 @@ def _solution(
 
 
 def _optima(candidates: list[Candidate]) -> tuple[Optimum, ...]:
-    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in candidates)
+    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _optimal(candidates))
 
 
-def _distinct(found: list[Candidate]) -> list[Candidate]:
-    """Return those candidates that are optima, one of each."""
-    optima: list[Candidate] = []
-    for candidate in found:
-        known = any(np.abs(candidate.scaled - other.scaled).max() <= SAME for other in optima)
-        if candidate.closed and candidate.optimal and not known:
-            optima.append(candidate)
-    return optima
+def _optimal(found: list[Candidate]) -> list[Candidate]:
+    """Return those candidates that are optima, the best first."""
+    return sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective)

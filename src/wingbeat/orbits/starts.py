@@ -1,4 +1,4 @@
-"""Where searches start: the species' stock wingbeat first, then seeded random ones within the bounds.
+"""Where searches start: a wingbeat of each family there is, then seeded random ones within the bounds.
 
 All start from brisk wingbeats. A vehicle that beats fast moves little within a beat, so closure is nearly linear
 there and its searches do not stray; one that beats too slowly to stay up has no orbit near. From a closed orbit of
@@ -17,6 +17,14 @@ from wingbeat.orbits.problem import OrbitProblem
 # Times the stock frequency. From 2 to 4 every pigeon and nearly every bat of +-30 % was found in one search; at 1 a
 # third of the bats strayed, and took three times the flights.
 _BRISK = 2.5
+# The families beside the stock wingbeat: flap mean in shares of half its range from the middle of its bounds, pitch
+# in radians. _MEASURED_
+_QUIET, _PITCHING = math.radians(3.0), math.radians(15.0)
+_FAMILIES: tuple[dict[str, float], ...] = (
+    {"flap_mean": -0.8, "pitch_mean": 0.0, "pitch_amplitude": _QUIET},
+    {"flap_mean": 0.8, "pitch_mean": 0.0, "pitch_amplitude": _QUIET},
+    {"flap_mean": -0.8, "pitch_amplitude": _PITCHING},
+)
 # Searches made if nothing is said. What is read off the beat has more optima than the frequency: 6 searches
 # missed the bat's least frequency within a limit of its power at 10 m/s by half, 12 did not. Least peaks have the
 # most: of 30 random starts 4 led to the bat's least peak pitch torque at 14 m/s, which 12 searches missed by half.
@@ -45,23 +53,41 @@ def start_beside(problem: OrbitProblem, best: np.ndarray, index: int, seed: int)
 def start_point(problem: OrbitProblem, index: int, seed: int) -> np.ndarray:
     """Return the unknowns that search number `index` starts from; it depends on index and seed alone."""
     unknowns = problem.unknowns()
-    beat = problem.species.wingbeat
-    stock = {name: parameter(beat, name) for name in problem.free}
-    if "frequency" in stock:
-        stock["frequency"] *= _BRISK
-    # Turning the stroke plane turns the body the other way and leaves the wings where they were.
-    pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
-    first = np.array([pitch, problem.speed, problem.climb, 0.0, *stock.values()])
-    if index == 0:
-        return np.clip(first, unknowns.lower, unknowns.upper)
+    given = structured_starts(problem)
+    if index < len(given):
+        return given[index]
     random = np.random.default_rng([seed, index])
     point = random.uniform(
         unknowns.lower + 0.1 * (unknowns.upper - unknowns.lower),
         unknowns.upper - 0.1 * (unknowns.upper - unknowns.lower),
     )
     # Near the mean velocity and a moderate attitude; frequencies spread over two octaves.
-    point[:4] = first[:4] + random.uniform([-0.2, -0.5, -1.0, -2.0], [0.3, 0.5, 1.0, 2.0])
+    point[:4] = given[0][:4] + random.uniform([-0.2, -0.5, -1.0, -2.0], [0.3, 0.5, 1.0, 2.0])
     if "frequency" in unknowns.names:
         column = unknowns.names.index("frequency")
-        point[column] = first[column] * 2.0 ** random.uniform(-1.2, 0.8)
+        point[column] = given[0][column] * 2.0 ** random.uniform(-1.2, 0.8)
     return np.clip(point, unknowns.lower, unknowns.upper)
+
+
+def structured_starts(problem: OrbitProblem) -> list[np.ndarray]:
+    """Return a start in each family of wingbeats, the species' stock wingbeat first.
+
+    Optima beat with the wings below, above or about level with the body, and with little or much pitching.
+    """
+    unknowns, beat = problem.unknowns(), problem.species.wingbeat
+    stock = {name: parameter(beat, name) for name in problem.free}
+    if "frequency" in stock:
+        stock["frequency"] *= _BRISK
+    # Turning the stroke plane turns the body the other way and leaves the wings where they were.
+    pitch = 0.1 + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
+    state = [pitch, problem.speed, problem.climb, 0.0]
+    found = []
+    for family in ({}, *_FAMILIES):
+        wingbeat = stock | {name: value for name, value in family.items() if name in stock}
+        if "flap_mean" in wingbeat and "flap_mean" in family:
+            low, high = problem.bounds["flap_mean"]
+            wingbeat["flap_mean"] = 0.5 * (low + high + family["flap_mean"] * (high - low))
+        start = np.clip([*state, *wingbeat.values()], unknowns.lower, unknowns.upper)
+        if not any(np.array_equal(start, other) for other in found):
+            found.append(start)
+    return found

@@ -14,7 +14,7 @@ from wingbeat.cores import core_count
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import Candidate, as_candidate, refine
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import FAMILY, Solution, Status
 from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
 from wingbeat.orbits.transcription import Transcription
 
@@ -29,9 +29,6 @@ _LEAST_STEP = 0.02
 _FIRST_STEP = 0.25
 # Iterations of the search that a step is given where Newton's method fails, as where a bound is met or left.
 _STEP_ITERATIONS = 20
-# Optima nearer to one another than this are one: some wingbeats can change a little at hardly any cost, and where
-# along them a search stops is chance.
-_ALIKE = 0.05
 # Between the ends of the range fewer searches are made, by this factor: most is found by continuing.
 _FEWER = 3
 # Optima of one speed that are continued, best first, whatever else was met there.
@@ -133,7 +130,7 @@ class _Tracing:
     def _add(self, place: int, optimum: Solution) -> int:
         """Return the index of an optimum among those met at its speed."""
         for index, other in enumerate(self._met[place]):
-            if np.abs(optimum.place - other.place).max() <= _ALIKE:
+            if np.abs(optimum.place - other.place).max() <= FAMILY:
                 if optimum.objective < other.objective:
                     self._met[place][index] = optimum
                 return index

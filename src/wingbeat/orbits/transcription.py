@@ -14,6 +14,7 @@ from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.quantities import Frequency
 from wingbeat.orbits.shooting import Flown, flier
+from wingbeat.orbits.stroke import StrokeLimits
 
 _LOST = 1e3
 # Sums of a flight's numbers beyond this overflow when squared, or soon will.
@@ -22,12 +23,14 @@ _WILD = 1e12
 _KEPT = 4
 # Bounds of the level under which a series' peaks are brought, in the objective's scale.
 _LEVELS = 1e6
+_PITCH_LIMITS = (("body_pitch", ">="), ("body_pitch", "<="))
 
 
 class Point(NamedTuple):
     """Values and derivatives at one place of the search, in the optimiser's scale.
 
-    ``inside`` is how far body pitch stays above its lower and below its upper bound [rad], as flown.
+    ``inside`` is how far body pitch stays above its lower and below its upper bound [rad], as flown, then how
+    far the stroke stays inside its limits.
     """
 
     closure: np.ndarray
@@ -67,6 +70,8 @@ class Transcription:
         # Searches for least frequency go astray on the smooth peak (11 orbits of a study's 14, all 14 without it);
         # optima of what is read off the beat settle between two samples and need it.
         self._peak = highest_sample if self.asked is None else peak_weights
+        self._stroke = StrokeLimits(problem)
+        self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
         self.fly = flier(self.model, problem.species.wingbeat, problem.free, whole_path=problem.reads_beat)
         self._points: dict[bytes, Point] = {}
         self._uncorrect()
@@ -76,7 +81,7 @@ class Transcription:
         self._shift = np.zeros(6)
         self._tilt = np.zeros((6, self.lower.size))
         self._anchor = np.zeros(self.lower.size)
-        self._pitch_shift = np.zeros(2)
+        self._inside_shift = np.zeros(len(self.path_limits))
         self._rows_shift = np.zeros(count)
         self._rows_tilt = np.zeros((count, self.lower.size))
         self.certify_seconds = 0.0
@@ -139,8 +144,11 @@ class Transcription:
             tamed = (np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in flight)
             closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian = tamed
         lowest, highest = self._peak(-pitch), self._peak(pitch)
-        inside_jacobian = np.stack([lowest @ pitch_jacobian, -highest @ pitch_jacobian])
-        inside = self._inside(lowest @ pitch, highest @ pitch)
+        stroke, stroke_jacobian = self._stroke.margins(unknowns[4:])
+        inside = np.append(self._inside(lowest @ pitch, highest @ pitch), stroke)
+        inside_jacobian = np.zeros((len(inside), scale.size))
+        inside_jacobian[:2] = lowest @ pitch_jacobian, -highest @ pitch_jacobian
+        inside_jacobian[2:, 4:] = stroke_jacobian * scale[4:]
         point = Point(closure, jacobian, inside, inside_jacobian, rows, rows_jacobian)
         return point if not self.has_level else with_column(point)
 
@@ -158,14 +166,15 @@ class Transcription:
     def margins(self, scaled: np.ndarray) -> np.ndarray:
         """Return how far all that must not be passed is from it; negative where it is passed.
 
-        First body pitch on the path above its lower and below its upper bound [rad], then the constraints' rows in
-        their scale, then the level above each peak that is to be lowered.
+        First body pitch on the path above its lower and below its upper bound [rad], then the limits of the stroke,
+        both as named by `path_limits`, then the constraints' rows in their scale, then the level above each peak
+        that is to be lowered.
         """
-        pitch = self._at(scaled).inside - self._pitch_shift
+        inside = self._at(scaled).inside - self._inside_shift
         if self.asked is None:
-            return pitch
+            return inside
         rows = self._rows(scaled)
-        return np.concatenate([pitch, self.asked.limits - rows[self._lowered :], self._peaks_below(scaled, rows)])
+        return np.concatenate([inside, self.asked.limits - rows[self._lowered :], self._peaks_below(scaled, rows)])
 
     def _peaks_below(self, scaled: np.ndarray, rows: np.ndarray) -> np.ndarray:
         return scaled[-1] - rows[: self._lowered] if self.has_level else np.zeros(0)
@@ -202,7 +211,7 @@ class Transcription:
         self._tilt = fine.closure_jacobian - here.closure_jacobian
         self._anchor = scaled.copy()
         self._shift = here.closure - fine.closure
-        self._pitch_shift = here.inside - fine.inside
+        self._inside_shift = here.inside - fine.inside
         self._rows_tilt = fine.rows_jacobian - here.rows_jacobian
         self._rows_shift = here.rows - fine.rows
 
@@ -211,7 +220,7 @@ class Transcription:
         unknowns = self.physical(scaled)
         miss = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         self._shift = self._shift + self.closure(scaled) - miss
-        self._pitch_shift = self._at(scaled).inside - self.pitch_margins(certificate.pitch)
+        self._inside_shift[:2] = self._at(scaled).inside[:2] - self.pitch_margins(certificate.pitch)
         if self.asked is not None:
             self._rows_shift = (
                 self._rows_shift + self._rows(scaled) - self.asked.read_certified(unknowns, certificate)
@@ -219,11 +228,11 @@ class Transcription:
 
     def certified_margins(self, scaled: np.ndarray, certificate: Certificate) -> np.ndarray:
         """Return the margins of body pitch and constraints that the certifier finds."""
-        pitch = self.pitch_margins(certificate.pitch)
+        inside = np.append(self.pitch_margins(certificate.pitch), self._at(scaled).inside[2:])
         if self.asked is None:
-            return pitch
+            return inside
         rows = self.asked.read_certified(self.physical(scaled), certificate)
-        return np.concatenate([pitch, self.asked.limits - rows[self._lowered :]])
+        return np.concatenate([inside, self.asked.limits - rows[self._lowered :]])
 
     def objective(self, scaled: np.ndarray) -> float:
         """Return the objective over its scale."""

@@ -150,7 +150,8 @@ def glide_polar(
     loads = aero if isinstance(aero, BladeElement) else BladeElement(aero or SuFan())
     model = flight_model(species.vehicle, loads, species.air)
     either_way = -0.5 * math.pi, 0.5 * math.pi
-    reach = species.body_pitch_bounds if trim == "body-pitch" else species.bounds.get("flap_mean", either_way)
+    mean = species.bounds.get("flap_mean", either_way)
+    reach = species.path_bounds["body_pitch"] if trim == "body-pitch" else mean
     solver = GlideSolver(model, species.wingbeat, flap, trim, reach)
     glides = tuple(solver.at(float(angle)) for angle in angles)
     sink = _best(solver, glides, lambda glide: glide.sink)

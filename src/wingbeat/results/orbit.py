@@ -286,7 +286,7 @@ def solve_orbits(
 
 
 def solve_series(
-    problems: Sequence[OrbitProblem], starts: int = 1, seed: int = 0, most_starts: int | None = None
+    problems: Sequence[OrbitProblem], starts: int | None = None, seed: int = 0, most_starts: int | None = None
 ) -> list[Orbit]:
     """Find and certify orbits of problems in a row, such as speeds in order, each helped by its neighbours.
 
@@ -308,8 +308,10 @@ def solve_series(
     >>> all(orbit.record()["starts"] > 1 for orbit in orbits)
     True
     """
-    check_search(starts, seed)
-    return [Orbit.of(solution, starts, seed) for solution in find_series(problems, starts, seed, most_starts)]
+    check_search(1 if starts is None else starts, seed)
+    found = find_series(problems, starts, seed, most_starts)
+    asked = (usual_starts(problem) if starts is None else starts for problem in problems)
+    return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
 
 
 def load_orbit(path: str | PathLike[str]) -> Orbit:

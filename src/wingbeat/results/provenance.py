@@ -50,7 +50,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
             "free": species.free,
             "bounds": species.bounds,
             "guessed_bounds": sorted(species.guessed_bounds),
-            "body_pitch_bounds": species.body_pitch_bounds,
+            "path_bounds": species.path_bounds,
             "warnings": species.warnings,
             "numbers": species.numbers,
         },
@@ -62,6 +62,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
         "climb": problem.climb,
         "free": problem.free,
         "bounds": problem.bounds,
+        "wings_may_cross": problem.wings_may_cross,
         "objective": _asked_for(problem.minimise),
         "constraints": [
             {"quantity": _asked_for(c.quantity), "limit": c.limit, "at_most": c.at_most} for c in problem.subject_to
@@ -87,6 +88,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         aero=aero_from(inputs["aero"]),
         free=tuple(inputs["free"]),
         bounds=_pairs(inputs["bounds"]),
+        wings_may_cross=inputs["wings_may_cross"],
         minimise=_brought_back(named_objective, inputs["objective"]),
         subject_to=[
             Constraint(_brought_back(named_quantity, c["quantity"]), c["limit"], c["at_most"])
@@ -114,7 +116,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
         free=tuple(known["free"]),
         bounds=_pairs(known["bounds"]),
         guessed_bounds=frozenset(known["guessed_bounds"]),
-        body_pitch_bounds=(known["body_pitch_bounds"][0], known["body_pitch_bounds"][1]),
+        path_bounds=_pairs(known["path_bounds"]),
         reasons={},
         numbers={path: _number(*number) for path, number in known["numbers"].items()},
         alternatives={},

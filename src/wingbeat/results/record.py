@@ -70,6 +70,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "optimality": solution.optimality,
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,
+        "starts_at_best": solution.starts_at_best,
         **power_summary(solution, beat),
         **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),

@@ -25,7 +25,17 @@ _LISTS = (
     *("alpha_quarter_span", "alpha_three_quarter_span"),
 )
 _NUMBERS = (
-    *("speed", "climb", "optimality", "starts", "distinct_optima", "stable", "solve_seconds", "body_pitch_range"),
+    *(
+        "speed",
+        "climb",
+        "optimality",
+        "starts",
+        "distinct_optima",
+        "starts_at_best",
+        "stable",
+        "solve_seconds",
+        "body_pitch_range",
+    ),
     *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
     *("objective_value", "cost_of_transport", "strouhal", "reduced_frequency", "reynolds"),
 )

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
-from wingbeat.kinematics import ANGLES
+from wingbeat.clearance import flap_angles, has_room, lateral_corners
+from wingbeat.kinematics import ANGLES, Wingbeat
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import ELSEWHERE, Solution, Status
+from wingbeat.orbits.solution import FAMILY, Solution, Status
 from wingbeat.vehicle import Air, Vehicle
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.
@@ -17,6 +18,9 @@ _SLOW = 3.0
 _MENTION = 0.01
 # A body that turns by this much within a beat turns a sixth of its lift into thrust and drag by turns.
 _SWING = math.radians(20.0)
+# Phases at which a stroke is looked at, how far across, as a share of the wing's length, is told, and how far past
+# the shoulder's range [rad].
+_STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
 # Optima whose objectives differ by less than this share are worth the same to most.
 _RIVAL = 0.01
 
@@ -39,19 +43,20 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             f"body pitch swings through {math.degrees(swing):.0f} degrees in each beat: "
             "the body rows with the wings, which flying animals were not checked to do"
         )
+    notes += crossing(problem, solution.wingbeat)
     notes += rivals(solution)
     if solution.distinct_optima > 1:
         notes.append(
-            f"{solution.distinct_optima} distinct optima were met in {solution.starts} searches; "
-            "this is the best of them, not proven the best of all"
+            f"{solution.starts} searches met {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
+            "ended in this one, the best met, which is not proven the best of all"
         )
     return notes
 
 
 def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
-    """Return the species' bounds of a parameter, or of body pitch; a user's own are no guess."""
+    """Return the species' bounds of a parameter, or along the path; a user's own are no guess."""
     species = problem.species
-    return species.body_pitch_bounds if name == "body_pitch" else species.bounds[name]
+    return (species.path_bounds | species.bounds)[name]
 
 
 def rivals(solution: Solution) -> list[str]:
@@ -61,7 +66,7 @@ def rivals(solution: Solution) -> list[str]:
     best, unknowns = solution.objective, solution.problem.unknowns()
     near = [o for o in solution.optima if o.objective - best <= _RIVAL * abs(best)]
     away = [np.abs(o.unknowns - solution.unknowns) / unknowns.scale for o in near]
-    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > ELSEWHERE]
+    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > FAMILY]
     if not others:
         return []
     other, apart = max(others, key=lambda pair: pair[1].max())
@@ -75,6 +80,30 @@ def rivals(solution: Solution) -> list[str]:
         f"other optima met within 1 % of the best: {len(others)}; they differ most in {name}, "
         f"{there:.3g} against {here:.3g}{unit}"
     ]
+
+
+def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
+    """Warn of wings that pass through the plane of symmetry, and so through each other, or turn past their joints.
+
+    A search keeps off both; what is prescribed, such as a filmed wingbeat, may not.
+    """
+    phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
+    leading, trailing = map(np.asarray, lateral_corners(problem.vehicle, wingbeat, phase, problem.aero.strips))
+    pitch_axis = 0.75 * leading + 0.25 * trailing
+    nearest = np.minimum(leading, trailing) if has_room(problem.vehicle) else pitch_axis
+    across, notes = -float(nearest.min()), []
+    if across > _ACROSS * problem.vehicle.wing.semi_span:
+        notes.append(
+            f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
+            "where it meets the other: no animal can beat like this"
+        )
+    angles = np.asarray(flap_angles(wingbeat, phase))
+    low, high = problem.bounds["flap"]
+    if max(low - angles.min(), angles.max() - high) > _PAST:
+        least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])
+        reach = f"the shoulder reaches from {low:.0f} to {high:.0f}"
+        notes.append(f"the wing flaps from {least:.0f} to {most:.0f} degrees; {reach}")
+    return notes
 
 
 def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:

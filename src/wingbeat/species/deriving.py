@@ -78,9 +78,15 @@ def derive(
     found |= _wingbeat(kind, mass, span, area, *air)
     for path, number in found.items():
         content.numbers.setdefault(path, number)
-    content.free, content.body_pitch = _bounds(content.numbers["wingbeat.frequency"], frequencies)
+    content.free, content.path = _bounds(content.numbers["wingbeat.frequency"], frequencies)
     content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
     content.alternatives = _alternatives(kind, mass)
+
+
+def _shoulder(mass: float, span: float) -> Number:
+    half_width = scaling.BODY_HALF_WIDTH.number(mass)
+    beside = f"guess: level with the body's centre of mass; to the side by half its width, {half_width.source}"
+    return Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span))
 
 
 def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) -> dict[str, Number]:
@@ -101,9 +107,7 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
         "vehicle.wing.chord": _chord(kind, span, area),
         "vehicle.wing.mass": wing_mass,
         "vehicle.wing.mass_exponent": exponent,
-        "vehicle.wing.shoulder": Number(
-            (0.0, 0.0, 0.0), "m", "guess: at the body's centre of mass", (-0.02 * span, 0.07 * span)
-        ),
+        "vehicle.wing.shoulder": _shoulder(mass, span),
         "vehicle.wing.stroke_plane_angle": _guess("vehicle.wing.stroke_plane_angle", None, 45, 110, vertical),
     }
 
@@ -168,8 +172,8 @@ def _guess(path: str, degrees: float | None, low: float, high: float, source: st
     return Number(value, "rad", source, (math.radians(low), math.radians(high)))
 
 
-def _bounds(stock: Number, given: tuple[float, float] | None) -> tuple[dict[str, Bound], Bound]:
-    """Return the bounds of what an orbit may choose, and of the body's pitch."""
+def _bounds(stock: Number, given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
+    """Return the bounds of what an orbit may choose, and those along the whole path."""
     low, high = (factor * single(stock) for factor in _WIDE)
     frequency = Bound((low, high), "guess: an eighth to four times the stock frequency", True)
     if given is not None:
@@ -186,7 +190,11 @@ def _bounds(stock: Number, given: tuple[float, float] | None) -> tuple[dict[str,
         "pitch_mean": angles(-30, 40, reach),
         "pitch_amplitude": angles(0, 60, reach),
     }
-    return free, angles(-60, 60, "steeper is a manoeuvre, not forward flight")
+    path = {
+        "body_pitch": angles(-60, 60, "steeper is a manoeuvre, not forward flight"),
+        "flap": angles(-90, 90, f"{reach}: upright above and below; no measurement found"),
+    }
+    return free, path
 
 
 def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:

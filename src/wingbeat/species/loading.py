@@ -25,7 +25,11 @@ from wingbeat.species_schema import (
 __all__ = ["load_species", "species_of"]
 
 # Nose straight up or down: where a file sets no limit, no more than this can be flight.
-_BODY_PITCH = Bound((-math.pi / 2, math.pi / 2), "no limit given: nose straight down to straight up", True)
+_UPRIGHT = (-math.pi / 2, math.pi / 2)
+_PATH = {
+    "body_pitch": Bound(_UPRIGHT, "no limit given: nose straight down to straight up", True),
+    "flap": Bound(_UPRIGHT, "no limit given: wing straight down to straight up", True),
+}
 _SEPARATORS = [separator for separator in ("/", os.sep, os.altsep) if separator]
 _LARGEST = 1 << 18  # bytes; ours have 12 000
 
@@ -72,7 +76,8 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
     numbers: dict[str, Number] = dict(content.numbers)
     if WHOLE in numbers:
         derive_body(numbers, content.numbers, faults)
-    bounds = content.free | {"body_pitch": content.body_pitch or _BODY_PITCH}
+    path = _PATH | content.path
+    bounds = content.free | path
     check_bounds(content, faults)
     records = build_records(numbers, content.numbers, faults)
     for other in content.alternatives.values():
@@ -90,7 +95,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         free=tuple(content.free),
         bounds={key: bound.bounds for key, bound in content.free.items()},
         guessed_bounds=frozenset(key for key, bound in bounds.items() if bound.guessed),
-        body_pitch_bounds=bounds["body_pitch"].bounds,
+        path_bounds={key: bound.bounds for key, bound in path.items()},
         reasons={key: bound.reason for key, bound in bounds.items()},
         numbers={key.path: numbers[key.path] for key in KEYS},
         alternatives=content.alternatives,

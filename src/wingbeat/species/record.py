@@ -32,8 +32,8 @@ class Species:
     vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
     free : the wingbeat parameters that an orbit may choose.
     bounds : lowest and highest value of each free parameter, in SI units and radians.
-    guessed_bounds : those of `free`, and ``body_pitch``, whose bounds are a guess.
-    body_pitch_bounds : limits of body pitch along the whole path [rad].
+    guessed_bounds : those of `free` and of `path_bounds` whose bounds are a guess.
+    path_bounds : limits along the whole path: ``body_pitch``, and ``flap`` of arm and hand [rad].
     reasons : why each bound stands where it stands.
     numbers : every number by its path, with unit, source and plausible range.
     alternatives : named sets of other numbers.
@@ -57,7 +57,7 @@ class Species:
     free: tuple[str, ...]
     bounds: dict[str, tuple[float, float]]
     guessed_bounds: frozenset[str]
-    body_pitch_bounds: tuple[float, float]
+    path_bounds: dict[str, tuple[float, float]]
     reasons: dict[str, str]
     numbers: dict[str, Number]
     alternatives: dict[str, Alternative]

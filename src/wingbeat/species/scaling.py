@@ -201,6 +201,15 @@ BODY_DRAG_AREA = Law(
     (0.5, 1.5),
     "guess: drag coefficients of 0.1 to 0.3 are in use",
 )
+BODY_HALF_WIDTH = Law(
+    "m",
+    "(0.00813 m^0.666 / pi)^(1/2), the radius of a circle of the body's frontal area",
+    ("m kg",),
+    lambda mass: math.sqrt(0.00813 * mass**0.666 / math.pi),
+    "Pennycuick 1988, birds, as in the R package afpt",
+    (0.5, 1.5),
+    "guess",
+)
 
 # --- the wingbeat ---
 

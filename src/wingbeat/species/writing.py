@@ -34,7 +34,8 @@ def species_text(species: Species) -> str:
         "[free]",
     ]
     lines += [_bound(species, name) for name in species.free]
-    lines += ["", "# Limits along the whole path, not only at its start.", "[path]", _bound(species, "body_pitch")]
+    lines += ["", "# Limits along the whole path, not only at its start.", "[path]"]
+    lines += [_bound(species, name) for name in species.path_bounds]
     for name, other in species.alternatives.items():
         table = f"alternatives.{name if re.fullmatch('[A-Za-z0-9_-]+', name) else _quoted(name)}"
         lines += ["", f"[{table}]", f"reason = {_quoted(other.reason)}"]
@@ -58,7 +59,7 @@ def _tables(numbers: Mapping[str, Number], prefix: str, left_out: str) -> Iterat
 
 
 def _bound(species: Species, name: str) -> str:
-    limits = species.bounds.get(name, species.body_pitch_bounds)
+    limits = (species.path_bounds | species.bounds)[name]
     unit = species.numbers[f"wingbeat.{name}"].unit if name in species.bounds else "rad"
     if unit == "rad":
         unit, limits = "deg", (math.degrees(limits[0]), math.degrees(limits[1]))

@@ -11,7 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wingbeat.errors import FaultList
-from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, SpeciesFile
 
 __all__ = [
@@ -163,7 +163,7 @@ def _known_keys(loc: tuple[Any, ...]) -> list[str]:
         place = place[2:]
     if TABLE in place:
         return list(BoundTable.model_fields) if place[0] in ("free", "path") else NUMBER_FIELDS
-    paths = [path for key in (*KEYS, *FREE, BODY_PITCH) for path in key.spellings]
+    paths = [path for key in (*KEYS, *FREE, *PATH) for path in key.spellings]
     if not place:
         return list(SpeciesFile.model_fields)
     depth = len(place)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
 
-__all__ = ["BODY_PITCH", "FREE", "FREE_UNITS", "KEYS", "Key"]
+__all__ = ["FREE", "FREE_UNITS", "KEYS", "PATH", "Key"]
 
 
 class Key(NamedTuple):
@@ -62,7 +62,11 @@ KEYS = (
     Key("air.viscosity", "m2/s", "kinematic viscosity of the air", False),
     Key("air.gravity", "m/s2", "pull of the planet", False),
 )
-BODY_PITCH = Key("path.body_pitch", "rad", "body pitch, nose up, along the whole path")
+# Limits along the whole path, not only at its start.
+PATH = (
+    Key("path.body_pitch", "rad", "body pitch, nose up, along the whole path"),
+    Key("path.flap", "rad", "flap angle of arm and hand, wing up positive, along the whole stroke"),
+)
 # Strips are arm or hand as a whole, so an orbit changes in steps with the wrist: no derivative, no search.
 FREE = (
     *(

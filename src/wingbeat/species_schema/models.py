@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
-from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
 
 __all__ = ["ADAPTERS", "NUMBER_FIELDS", "TABLE", "TAGS", "BoundTable", "SpeciesFile", "json_schema"]
 
@@ -113,7 +113,7 @@ SpeciesFile = _table(
         "scientific_name": (str, ""),
         **_sections(complete=True),
         "free": (_table("Free", _leaves(FREE, bound=True), []), None),
-        "path": (_table("Path", _leaves([BODY_PITCH], bound=True), []), None),
+        "path": (_table("Path", _leaves(PATH, bound=True), []), None),
         "alternatives": (dict[str, _Alternative], None),
     },
     ["vehicle", "wingbeat"],

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
-from wingbeat.species_schema.keys import BODY_PITCH, FREE, KEYS, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
 
 __all__ = [
     "Alternative",
@@ -83,7 +83,7 @@ class SpeciesText:
     scientific_name: str = ""
     numbers: Numbers = field(default_factory=Numbers)
     free: dict[str, Bound] = field(default_factory=dict)
-    body_pitch: Bound | None = None
+    path: dict[str, Bound] = field(default_factory=dict)
     alternatives: dict[str, Alternative] = field(default_factory=dict)
     written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
 
@@ -123,7 +123,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     result.numbers = _numbers(raw, (), faults)
     _note_missing(raw, result.numbers, faults)
     result.free = _bounds(raw, FREE, result.written, faults)
-    result.body_pitch = _bounds(raw, [BODY_PITCH], result.written, faults).get(BODY_PITCH.name)
+    result.path = _bounds(raw, PATH, result.written, faults)
     alternatives = raw.get("alternatives")
     for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
         if isinstance(content, dict):

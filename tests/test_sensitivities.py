@@ -64,7 +64,8 @@ def test_every_derivative_is_that_of_solving_anew(name, speed, minimise, every):
         changes = np.array([*slope.initial_state.values(), *slope.wingbeat.values()]) / optimum.scale
         found = np.array([slope.objective, slope.quantities["mean_positive_power"], *changes])
         least = 1e-6 / (SHARE * parameter.size)
-        allowed = 0.01 * np.abs(anew) + least + doubt
+        # An optimum is found to some 1e-6 of its numbers.
+        allowed = 0.01 * np.abs(anew) + least * np.maximum(1.0, np.abs(numbers(optimum))) + doubt
         # An unknown that hardly moves has a part in the whole move's error.
         allowed[2:] += 0.002 * np.abs(anew[2:]).max()
         assert (np.abs(found - anew) <= allowed).all(), parameter.path

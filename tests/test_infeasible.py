@@ -287,3 +287,10 @@ def test_optima_worth_the_same_are_told_with_where_they_differ(bat_orbit):
     assert "within 1 % of the best: 1;" in told
     assert "flap_mean" in told
     assert rivals(dataclasses.replace(solution, optima=(far,))) == []
+
+
+def test_no_more_searches_are_told_of_than_there_are():
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), 10.0, subject_to=["peak_power<=20"])
+    told = []
+    find_orbit(problem, 1, progress=lambda *counts: told.append(counts), most_starts=3, advise=False)
+    assert told == [(1, 1), (2, 3), (3, 3)]  # besides, the optima without the limit were tried

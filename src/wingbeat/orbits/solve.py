@@ -137,10 +137,10 @@ def _searched(
         if (best := first_certified(transcription, led)) is not None:
             break
     more = range(starts, most if best is None else starts)
-    for candidate in search_from_starts(transcription, more, seed, True, threads):
+    for done, candidate in enumerate(search_from_starts(transcription, more, seed, True, threads), starts + 1):
         found.append(candidate)
-        if progress is not None:
-            progress(len(found), max(starts, most))
+        if progress is not None:  # what limits led to is none of the starts
+            progress(done, max(starts, most))
         if (best := first_certified(transcription, [candidate])) is not None:
             break
     return best, found

@@ -1,11 +1,12 @@
 """Cheap work for pools of workers."""
 
 import os
+import sys
 import time
 
 
 def do(what, hand):
-    """Do as told: echo, wait in steps, wait deaf, fail, die, or fill memory and let it go."""
+    """Do as told: echo, wait in steps, wait deaf, fail, die, outgrow the memory, or ask for more than there is."""
     kind, value = what
     if kind == "steps":
         for step in range(value):
@@ -17,4 +18,8 @@ def do(what, hand):
         raise ValueError(value)
     elif kind == "die":
         os._exit(value)
+    elif kind == "outgrow":
+        sys.modules["__main__"]._MOST_MEMORY = value  # of the worker
+    elif kind == "hoard":
+        return {"echo": len(bytearray(value))}
     return {"echo": value, "pid": os.getpid()}

@@ -130,7 +130,7 @@ def test_a_killed_worker_is_told_of_and_replaced(make_pool):
     _, heard = ask(pool, ("deaf", 1000.0))
     heard.until("started")
     os.kill(pool.workers[0], signal.SIGKILL)
-    assert heard.end() == Event("lost", "SIGKILL")
+    assert heard.end() == Event("lost", "SIGKILL, exit code 137, as when memory runs out")
     assert ask(pool, ("echo", 1))[1].end().kind == "done"
 
 

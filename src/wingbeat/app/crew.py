@@ -13,10 +13,15 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from wingbeat.app.worker import NO_MEMORY
+
 __all__ = ["WorkerProcess"]
 
 # Seconds in which a process that has closed its pipe may end by itself, so that its own exit code is told.
 _LAST_BREATH = 2.0
+
+# How the system and the C++ libraries end a process that has no memory left, among other reasons.
+_WITHOUT_MEMORY = (signal.SIGABRT, signal.SIGKILL)
 
 
 class WorkerProcess:
@@ -82,8 +87,16 @@ class WorkerProcess:
             with self._lock, suppress(OSError):
                 assert pipe is not None
                 pipe.close()
-        if code >= 0:
-            return f"exit code {code}"
-        with suppress(ValueError):
-            return signal.Signals(-code).name
-        return f"signal {-code}"
+        return _ending(code)
+
+
+def _ending(code: int) -> str:
+    """Return in words how a process ended, with the exit code that a shell would tell."""
+    if code == NO_MEMORY:
+        return f"exit code {code}: out of memory"
+    if code >= 0:
+        return f"exit code {code}"
+    name = f"signal {-code}"
+    with suppress(ValueError):
+        name = signal.Signals(-code).name
+    return f"{name}, exit code {128 - code}" + (", as when memory runs out" if -code in _WITHOUT_MEMORY else "")

@@ -6,22 +6,23 @@ closes it ends at once: whoever would hear its answer is gone.
 
 from __future__ import annotations
 
-import importlib
-import json
 import os
 import queue
-import signal
 import sys
-import threading
 import traceback
 from typing import Any
 
-from wingbeat.garbage import collect_seldom
+from wingbeat.workers import answer_through_stdout, hear_stdin, load_work
 
-__all__ = ["Hand", "StoppedError", "main"]
+__all__ = ["NO_MEMORY", "Hand", "StoppedError", "main"]
+
+# The exit code of a worker that was refused memory: ENOMEM, as systems number their errors.
+NO_MEMORY = 12
 
 # Memory after which a worker leaves between two jobs, to be replaced: compiled programs pile up.
 _MOST_MEMORY = 3 << 30
+# How XLA, threads and the system say that there is no memory left, where Python does not say so by a MemoryError.
+_NO_MEMORY_WORDS = ("RESOURCE_EXHAUSTED", "can't start new thread", "Cannot allocate memory")
 
 
 class StoppedError(Exception):
@@ -45,16 +46,6 @@ class Hand:
         self._tell({"kind": "progress", "value": [done, total]})
 
 
-def _read(jobs: queue.SimpleQueue[Any], unwanted: set[int]) -> None:
-    for line in sys.stdin.buffer:
-        told = json.loads(line)
-        if "stop" in told:
-            unwanted.add(told["stop"])
-        else:
-            jobs.put(told)
-    os._exit(0)
-
-
 def _memory() -> int:
     """Return the resident memory [bytes], 0 where the system does not tell."""
     try:
@@ -66,27 +57,11 @@ def _memory() -> int:
 
 def main(work: str) -> None:
     """Work until stdin closes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    collect_seldom()
-    # Answers go out where stdout was; what the work prints goes to stderr.
-    out = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)
-    lock = threading.Lock()
-
-    def tell(what: Any) -> None:
-        line = json.dumps(what, allow_nan=False) + "\n"
-        try:
-            with lock:
-                out.write(line)
-                out.flush()
-        except OSError:  # nobody listens any more
-            os._exit(0)
-
-    module, _, name = work.partition(":")
-    do = getattr(importlib.import_module(module), name)
+    tell = answer_through_stdout()
+    do = load_work(work)
     jobs: queue.SimpleQueue[Any] = queue.SimpleQueue()
     unwanted: set[int] = set()
-    threading.Thread(target=_read, args=(jobs, unwanted), daemon=True).start()
+    hear_stdin(lambda told: unwanted.add(told["stop"]) if "stop" in told else jobs.put(told))
     tell({"kind": "ready"})
     while True:
         job = jobs.get()
@@ -104,9 +79,9 @@ def _outcome(do: Any, what: Any, hand: Hand) -> dict[str, Any]:
         return {"kind": "done", "value": do(what, hand)}
     except StoppedError:
         return {"kind": "stopped", "value": None}
-    except MemoryError:
-        return {"kind": "failed", "value": "it took more memory than there is"}
     except Exception as error:
+        if isinstance(error, MemoryError) or any(words in str(error) for words in _NO_MEMORY_WORDS):
+            os._exit(NO_MEMORY)  # what is left of the process could not be relied on
         traceback.print_exc()
         return {"kind": "failed", "value": f"{type(error).__name__}: {error}".split("\n")[0][:300]}
 

@@ -7,18 +7,14 @@ once, whatever it is doing: whoever would hear its answer is gone.
 from __future__ import annotations
 
 import faulthandler
-import importlib
-import json
 import os
 import queue
-import signal
 import sys
-import threading
 from typing import Any
 
 from wingbeat.cores import pin_to
-from wingbeat.garbage import collect_seldom
 from wingbeat.studies.units import Task, Unit
+from wingbeat.workers import answer_through_stdout, hear_stdin, load_work
 
 __all__ = ["main"]
 
@@ -26,33 +22,13 @@ __all__ = ["main"]
 _BACKSTOP = 2.0
 
 
-def _read(batches: queue.SimpleQueue[Any]) -> None:
-    # Not through sys.stdin: a process that ends while a thread reads from that aborts.
-    with open(os.dup(0), "rb") as lines:
-        for line in lines:
-            batches.put(json.loads(line))
-    os._exit(0)
-
-
 def main(work: str, timeout: float, core: int | None = None) -> None:
     """Work until stdin closes, on one core if it is given."""
     pin_to(core)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    collect_seldom()
-    # Answers go out where stdout was; what the work prints goes to stderr.
-    out = os.fdopen(os.dup(1), "w", encoding="utf-8", buffering=1)
-    os.dup2(2, 1)
-    module, _, name = work.partition(":")
-    solve = getattr(importlib.import_module(module), name)
+    tell = answer_through_stdout()
+    solve = load_work(work)
     batches: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    threading.Thread(target=_read, args=(batches,), daemon=True).start()
-
-    def tell(what: Any) -> None:
-        try:
-            out.write(json.dumps(what) + "\n")
-        except OSError:  # nobody listens any more
-            os._exit(0)
-
+    hear_stdin(batches.put)
     tell("ready")
     quiet = open(os.devnull, "w")  # noqa: SIM115  # as long as the process
     while True:

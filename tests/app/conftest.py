@@ -26,11 +26,11 @@ def served() -> Iterator[Served]:
     """The explorer on a port of its own, in a thread, so that tests see its insides."""
     uvicorn = pytest.importorskip("uvicorn")
     pytest.importorskip("nicegui")
-    from wingbeat.app.server import House, build
+    from wingbeat.app.server import House, configure
 
     house = House(2)
     listening = socket.create_server(("127.0.0.1", 0))
-    server = uvicorn.Server(uvicorn.Config(build(house, "127.0.0.1"), log_level="warning"))
+    server = uvicorn.Server(configure(house, "127.0.0.1"))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
     thread.start()
     while not server.started:

@@ -170,6 +170,76 @@ def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, mo
     assert float(page.locator(".what").get_attribute("data-solver-seconds")) > 0
 
 
+DIM = """(place) => {
+    const sheer = (element) => element ? getComputedStyle(element).opacity * sheer(element.parentElement) : 1;
+    return sheer(document.querySelector(place));
+}"""
+EARLIER = "This is the answer to an earlier question."
+
+
+def dims(page, place=".badge"):
+    page.wait_for_function(f"({DIM})({place!r}) < 0.6")
+
+
+def is_bright(page, place=".badge"):
+    page.wait_for_function(f"({DIM})({place!r}) === 1")
+
+
+def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
+    page = visit("species=pigeon&speed=10&starts=1&sweep=9:10:1")
+    solved(page, "pigeon")
+    page.get_by_role("button", name="Fill in the curve").click()
+    page.locator(".curve .note", has_text="2 speeds certified").wait_for()
+    for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
+        is_bright(page, place)
+    assert not page.get_by_text(EARLIER).is_visible()
+    held = served.house.pool.workers
+    for worker in held:
+        os.kill(worker, signal.SIGSTOP)  # nothing is solved until it was looked at
+    try:
+        page.get_by_label("Model", exact=True).select_option("dickinson")
+        for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
+            dims(page, place)
+        page.get_by_text(EARLIER).wait_for()
+        page.get_by_text("These are the answers to an earlier question.").wait_for()
+        assert "su-fan" in page.locator(".what").inner_text()
+    finally:
+        for worker in held:
+            os.kill(worker, signal.SIGCONT)
+    solved(page, "dickinson")
+    is_bright(page)
+    dims(page, ".curve table")
+    assert not page.get_by_text(EARLIER).is_visible()
+
+
+def test_an_answer_is_dimmed_while_the_form_says_something_else(visit):
+    page = visit()
+    solved(page, "pigeon")
+    field = page.get_by_label("Speed [m/s]", exact=True).first
+    field.fill("11")  # not entered yet
+    dims(page)
+    page.get_by_text(EARLIER).wait_for()
+    field.fill("10")
+    field.press("Tab")
+    is_bright(page)
+    enter(page, "Speed [m/s]", "fast")
+    page.locator(".fault", has_text="is not a number").wait_for()
+    dims(page)
+    enter(page, "Speed [m/s]", "400")
+    page.locator(".fault", has_text="must be >= 0 and <= 100 m/s").wait_for()
+    dims(page)
+    enter(page, "Speed [m/s]", "10")
+    solved(page, "pigeon at 10 m/s")
+    is_bright(page)
+
+
+def test_what_is_too_long_to_be_an_entry_is_told_beside_its_control(visit):
+    page = visit()
+    solved(page, "pigeon")
+    enter(page, "Within limits", "x" * 70_000)
+    page.locator(".fault", has_text="has 70000 characters; it may have at most 5000").wait_for()
+
+
 def test_what_cannot_fly_says_why_and_what_would(visit):
     page = visit("species=pigeon&speed=10&starts=1&bound=frequency:1.0:3.0")
     page.locator(".badge", has_text="Not certified: infeasible").wait_for(timeout=2 * PATIENCE)

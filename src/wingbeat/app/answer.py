@@ -23,6 +23,7 @@ class Headline:
                 self._badge = tag("p", "Not solved yet", "badge none")
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
+                tag("p", "This is the answer to an earlier question.", "earlier")
             self._strip = tag("dl", classes="tiles")
 
     def show(self, answer: dict[str, Any]) -> None:

@@ -51,6 +51,12 @@ class CurvePanel:
         self._state = tag("p", "Each speed is searched from every start and from its neighbour's answer.", "note")
         self._state.props["role"] = "status"
         self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Points of the curve")
+        self._found = tag("div", classes="found")
+        with self._found:
+            self._build_found()
+
+    def _build_found(self) -> None:
+        tag("p", "These are the answers to an earlier question.", "earlier")
         self._drawing = ui.html("", sanitize=False)  # holds numbers and words of our own alone
         self._table = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Points of the curve")
 
@@ -67,7 +73,9 @@ class CurvePanel:
         return act
 
     def show_sweep(self, scenario: Scenario) -> None:
-        """Show the range of a scenario."""
+        """Show the range of a scenario, and dim a curve of another question."""
+        other = self._asked is not None and not scenario.at(self._asked.speed).asks_as(self._asked)
+        self._found.classes("stale") if other else self._found.classes(remove="stale")
         for field, value in zip(self._fields, scenario.sweep, strict=True):
             field.show(f"{value:g}")
 
@@ -83,6 +91,7 @@ class CurvePanel:
             self._state.set_text("Not started: a choice cannot be, see the mark beside it.")
             return
         self._asked, self._points = self._session.scenario, []
+        self.show_sweep(self._asked)
         self._speeds = self._asked.speeds()
         self._stop.props.pop("disabled", None)
         self._bar.classes(remove="hidden")

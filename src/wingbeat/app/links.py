@@ -144,7 +144,7 @@ def from_plain(plain: Any) -> Scenario:
         **dict.fromkeys(_WORDS, _word),
         **dict.fromkeys(_NUMBERS, _finite),
         **dict.fromkeys(_WHOLE, lambda value: value),  # the scenario's own check names the range
-        "species_file": lambda value: value if isinstance(value, str) else None,
+        "species_file": _text,
         "limits": lambda value: _all(value, _word),
         "sweep": lambda value: found if (found := _all(value, _finite)) and len(found) == 3 else None,
         "bounds": lambda value: _table(
@@ -217,6 +217,11 @@ def _finite(value: Any) -> float | None:
 def _word(value: Any) -> str | None:
     good = isinstance(value, str) and len(value) <= _LONGEST_WORD and value.isprintable()
     return value if good else None
+
+
+def _text(value: Any) -> str | None:
+    """Return a text that can be written down; JSON also has halves of characters."""
+    return value if isinstance(value, str) and value.encode(errors="ignore").decode() == value else None
 
 
 def _all(value: Any, check: Callable[[Any], Any]) -> tuple[Any, ...] | None:

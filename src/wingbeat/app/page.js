@@ -32,3 +32,11 @@ window.wingbeatPage = {
     }
   },
 };
+
+// What is typed and not entered yet makes the answer one of an earlier question.
+const typing = (is) => (event) => {
+  if (event.target.matches?.('.side input[type="text"]')) document.body.classList.toggle("typing", is);
+};
+document.addEventListener("input", typing(true));
+document.addEventListener("change", typing(false));
+document.addEventListener("focusout", typing(false));

@@ -45,16 +45,29 @@ class Page:
     def __init__(self, name: str, pool: Pool, shelf: Shelf, query: str) -> None:
         self.name, self._shelf = name, shelf
         self._client: Client = ui.context.client
-        refusals, scenario = [], Scenario()
+        self._refusals, scenario = [], Scenario()
         try:
             scenario = from_query(query)
         except InvalidInputError as error:
-            refusals = [f"The link was not understood. {fault}" for fault in error.faults]
+            self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
         self._session = Session(name, pool, scenario, self)
         self._build(scenario)
+        self._asked = False
+        self._client.on_connect(self._come)
+
+    def _come(self) -> None:
+        """Solve what the address asks for, now that somebody is here; who only fetches the page starts nothing."""
+        if self._asked:  # the socket was lost, and is back
+            return
+        self._asked = True
         self._session.ask(whole=True)
-        if refusals:  # told after it is asked, for asking takes away what was told before
-            self.show_trouble(*refusals)
+        if self._refusals:  # told after it is asked, for asking takes away what was told before
+            self.show_trouble(*self._refusals)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the page's socket is connected."""
+        return self._client.has_socket_connection
 
     def context(self) -> AbstractContextManager[Any]:
         """Return the context in which the page's elements may be changed."""
@@ -74,7 +87,8 @@ class Page:
             self._build_header()
         with tag("div", classes="status"):
             self._build_status()
-        with tag("div", classes="whole"):
+        self._whole = tag("div", classes="whole")
+        with self._whole:
             with tag("div", classes="side quick"):
                 self._controls.build_flight()
             with tag("div", classes="middle", id="answer", tabindex="-1"):
@@ -148,6 +162,10 @@ class Page:
         self._answer.show(answer)
         self._influence.clear()
         self._curve.mark(float(answer["record"]["speed"]))
+
+    def show_stale(self, stale: bool) -> None:
+        """Dim the answer while it is that of another question than the form's."""
+        self._whole.classes("stale") if stale else self._whole.classes(remove="stale")
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show what was refused beside its control, the rest above."""

@@ -108,6 +108,10 @@ class Scenario:
         """Return this at another speed [m/s]."""
         return dataclasses.replace(self, speed=speed)
 
+    def asks_as(self, other: Scenario) -> bool:
+        """Return whether this asks for the same orbit as another; they may differ in the range of the curve."""
+        return self == dataclasses.replace(other, sweep=self.sweep)
+
 
 def _whole(faults: FaultList, where: str, value: Any, least: int, most: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:

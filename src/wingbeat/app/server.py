@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import os
 import secrets
 import socket
+import sys
 import tempfile
 import threading
 import webbrowser
@@ -15,10 +17,10 @@ from typing import Any
 
 import uvicorn
 from fastapi import FastAPI, Request, Response
-from nicegui import Client, ui
-from starlette.middleware.trustedhost import TrustedHostMiddleware
+from nicegui import Client, core, ui
 from starlette.requests import ClientDisconnect
 
+from wingbeat.app.door import Door, guard_events, is_loopback
 from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
 from wingbeat.app.page import Page
 from wingbeat.app.pool import Pool
@@ -29,7 +31,7 @@ from wingbeat.errors import Fault, InvalidInputError
 __all__ = ["serve"]
 
 _WORK = "wingbeat.app.jobs:do"
-_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+_LOOPBACK = "127.0.0.1"
 _HEADERS = {
     # Nothing is fetched from elsewhere, and nobody else's page frames this one.
     "content-security-policy": "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
@@ -43,6 +45,10 @@ _HEAD = """<link rel="stylesheet" href="/wingbeat/page.css"><script src="/wingbe
 _ICON = "🐦"
 # Seconds that a page may be silent, on a busy machine or a train, before it is taken to be gone.
 _PATIENCE = 30.0
+# Bytes of the head of a request; a longer one is cut off unanswered, a shorter link is refused in words.
+_LONGEST_HEAD = 1 << 20
+# Seconds that browsers get to let go of the server once it ends; one that is suspended never does.
+_FAREWELL = 0.2
 
 
 class House:
@@ -71,12 +77,26 @@ class House:
         self.folder.cleanup()
 
 
+class _Server(uvicorn.Server):
+    """A server that waits for nobody when it ends."""
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Say farewell to every browser, and soon hang up on those that do not let go."""
+        asyncio.get_running_loop().call_later(_FAREWELL, self._hang_up)
+        await super().shutdown(sockets)
+
+    def _hang_up(self) -> None:
+        for connection in list(self.server_state.connections):
+            if (transport := getattr(connection, "transport", None)) is not None:
+                transport.abort()
+
+
 def serve(host: str, port: int, processes: int, opens: bool) -> None:
     """Serve the explorer until it is interrupted.
 
     Parameters
     ----------
-    host, port : where to listen; port 0 is any that is free.
+    host, port : where to listen; an empty host is this machine alone, port 0 is any that is free.
     processes : worker processes.
     opens : whether a browser is opened.
 
@@ -84,26 +104,53 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
     ------
     InvalidInputError : the address cannot be listened at.
     """
+    host = host.strip() or _LOOPBACK  # for the system an empty one would be every address there is
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         listening = socket.create_server((host, port), family=family)
-    except OSError as error:
-        rule = f"cannot be listened at: {(error.strerror or str(error)).lower()}"
+    except (OSError, UnicodeError, ValueError) as error:
+        rule = f"cannot be listened at: {(getattr(error, 'strerror', None) or str(error)).lower()}"
         raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
     house = House(processes)
-    shown = f"[{host}]" if ":" in host else host
-    address = f"http://{shown}:{listening.getsockname()[1]}"
-    print(f"wingbeat explorer: {address} (Ctrl-C ends it)", flush=True)
-    if host not in _LOOPBACK:
-        print("Whoever reaches this address can use it: there are no passwords.", flush=True)
-    if opens:
-        threading.Timer(1.0, webbrowser.open, [address]).start()
-    app = build(house, host)
-    settings = uvicorn.Config(app, log_level="warning", ws_max_size=1 << 20, timeout_graceful_shutdown=2)
     try:
-        uvicorn.Server(settings).run(sockets=[listening])
+        address = _announce(host, listening)
+        if opens:
+            clock = threading.Timer(1.0, webbrowser.open, [address])
+            clock.daemon = True
+            clock.start()
+        _Server(configure(house, host)).run(sockets=[listening])
     finally:
         house.close()
+
+
+def _announce(host: str, listening: socket.socket) -> str:
+    """Print where the server listens, and warn if others reach it; return the address to open."""
+    bound, port = listening.getsockname()[:2]
+    # "Every address" is no address to open; this machine's own is one of them.
+    shown = {"0.0.0.0": _LOOPBACK, "::": "::1"}.get(bound, host)
+    address = f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}"
+    print(f"wingbeat explorer: {address} (Ctrl-C ends it)", flush=True)
+    if not is_loopback(bound):
+        where = "every address of this machine" if shown != host else f"{host}, a public address"
+        print(
+            f"warning: the explorer listens at {where}. Whoever reaches it can use it and this machine's "
+            "processors: there are no passwords. Leave --host out to keep it to this machine.",
+            file=sys.stderr,
+            flush=True,
+        )
+    return address
+
+
+def configure(house: House, host: str) -> uvicorn.Config:
+    """Return how the web application is served."""
+    return uvicorn.Config(
+        build(house, host),
+        http="h11",
+        h11_max_incomplete_event_size=_LONGEST_HEAD,
+        log_level="warning",
+        ws_max_size=1 << 20,
+        timeout_graceful_shutdown=1,
+    )
 
 
 def build(house: House, host: str) -> Any:
@@ -125,6 +172,8 @@ def build(house: House, host: str) -> Any:
         ui.add_head_html(_HEAD)
         house.open_page(client, request.url.query)
 
+    guard_events()
+    core.app.config.socket_io_js_transports = ["websocket"]  # what the door lets in
     ui.run_with(
         app,
         title="wingbeat explorer",
@@ -141,8 +190,7 @@ def build(house: House, host: str) -> Any:
         response.headers.update(_HEADERS)
         return response
 
-    if host in _LOOPBACK:  # a page elsewhere may give this machine a name of its own and ask through that
-        app.add_middleware(TrustedHostMiddleware, allowed_hosts=["127.0.0.1", "localhost", "[::1]"])
+    app.add_middleware(Door, host=host)
     return app
 
 
@@ -175,7 +223,7 @@ async def _take(house: House, session: str, request: Request) -> Response:
     page = house.pages.get(session)
     label = clean_label(request.query_params.get("name", ""))
     rule = f"{label} was refused: a file may have at most {MOST_BYTES // 1_000_000} million bytes."
-    if page is None:
+    if page is None or not page.is_open:
         return Response("This page is closed; load it again.", 404, media_type="text/plain")
     told = request.headers.get("content-length", "0")
     if not told.isdecimal() or int(told) > MOST_BYTES:

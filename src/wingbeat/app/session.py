@@ -44,6 +44,9 @@ class View(Protocol):
     def show_answer(self, answer: dict[str, Any]) -> None:
         """Show an answer."""
 
+    def show_stale(self, stale: bool) -> None:
+        """Say whether what is shown is the answer to another question than what is asked now."""
+
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show what was refused, [where, message] each; none takes earlier ones away."""
 
@@ -64,6 +67,7 @@ class Session:
     def __init__(self, name: str, pool: Pool, scenario: Scenario, view: View) -> None:
         self.name, self.scenario = name, scenario
         self.answer: dict[str, Any] | None = None
+        self._answered = scenario
         self.beside: dict[str, Any] | None = None
         self._pool, self._view = pool, view
         self._loop = asyncio.get_running_loop()
@@ -84,7 +88,11 @@ class Session:
         """Change what does not concern the answer."""
         self.scenario = dataclasses.replace(self.scenario, **choices)
         self._tell_faults()
+        self._tell_scenario()
+
+    def _tell_scenario(self) -> None:
         self._view.show_scenario(self.scenario)
+        self._view.show_stale(self.answer is not None and not self.scenario.asks_as(self._answered))
 
     def _tell_faults(self) -> bool:
         faults = self.scenario.faults().faults
@@ -95,7 +103,7 @@ class Session:
         """Solve the scenario: continued from the answer before where there is one, or by a `whole` search."""
         self._cancel_calm()
         self._continued = None
-        self._view.show_scenario(self.scenario)
+        self._tell_scenario()
         if self._tell_faults():
             self.stop("Not solved: a choice cannot be, see the mark beside it.")
             return False
@@ -162,7 +170,8 @@ class Session:
         elif event.kind == "started":
             self._view.show_state("Solving.", busy=True)
         elif event.kind == "progress":
-            done, total = event.value
+            total = event.value[1]
+            done = min(event.value[0], total)
             self._view.show_state(f"Solving: {done} of {total} searches.", busy=True, done=done / max(total, 1))
         elif event.ends:
             self._end(scenario, event)
@@ -195,7 +204,7 @@ class Session:
         elif self._continued is not None and best is not None and answer["near"] is not None:
             better = self._continued < best - _BETTER * abs(best)
             answer["continued_better"] = self._continued if better else None
-        self._show(answer)
+        self._show(answer, scenario)
         if answer.get("continued") and not self._again:
             self._view.show_state("Continued from the answer before; now searching from every start.", busy=True)
             self._calm = self._loop.call_later(_CALM, self._inside, self._submit, None)
@@ -208,14 +217,15 @@ class Session:
         if scenario is not None:
             self.scenario = scenario
             self._tell_faults()
-            self._view.show_scenario(scenario)
+            self._tell_scenario()
         answer["scenario"] = to_plain(self.scenario) if scenario is not None else None
-        self._show(answer)
+        self._show(answer, self.scenario)
 
-    def _show(self, answer: dict[str, Any]) -> None:
-        self.answer = answer
+    def _show(self, answer: dict[str, Any], scenario: Scenario) -> None:
+        self.answer, self._answered = answer, scenario
         self._continued = self._continued if answer.get("continued") else None
         self._view.show_answer(answer)
+        self._view.show_stale(not self.scenario.asks_as(scenario))
 
     def _cancel_calm(self) -> None:
         if self._calm is not None:

@@ -15,6 +15,7 @@ __all__ = ["Field", "Rows", "box", "button", "choice_field", "number_field", "ta
 _KEEP = "(event) => { element.props.value = event.target.value; }"
 # The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.
 _EMIT = "(event) => { element.props.value = event.target.value; emit(event.target.value); }"
+_LONGEST = 5000  # characters of one entry
 
 
 def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
@@ -109,9 +110,13 @@ def _field(label: str, unit: str, hint: str, tip: str, make: Callable[[], Any], 
     return Field(row, control, fault, below)
 
 
-def _heard(control: Any, event: str, act: Callable[[str], Any], throttle: float = 0.0) -> None:
+def _heard(
+    control: Any, event: str, act: Callable[[str], Any], refuse: Callable[[str], Any], throttle: float = 0.0
+) -> None:
     def hear(event: Any) -> None:
-        if isinstance(event.args, str) and len(event.args) < 5000:
+        if isinstance(event.args, str) and len(event.args) > _LONGEST:
+            refuse(f"has {len(event.args)} characters; it may have at most {_LONGEST}")
+        elif isinstance(event.args, str):
             control.props._suspend_count += 1  # what the browser shows need not be sent back to it
             control.props["value"] = event.args
             control.props._suspend_count -= 1
@@ -123,28 +128,29 @@ def _heard(control: Any, event: str, act: Callable[[str], Any], throttle: float 
     control.on(event, hear, js_handler=_EMIT, throttle=throttle, leading_events=True, trailing_events=True)
 
 
+def _hearing(field: Field, act: Callable[[str], Any]) -> Field:
+    _heard(field.control, "change", act, field.refuse)
+    return field
+
+
 def number_field(
     label: str, value: str, act: Callable[[str], Any], *, unit: str = "", hint: str = "", tip: str = ""
 ) -> Field:
     """Return a field for a number, or several with commas between; `act` gets the text when it is entered."""
 
     def make() -> Any:
-        control = tag("input", type="text", inputmode="decimal", autocomplete="off", value=value)
-        _heard(control, "change", act)
-        return control
+        return tag("input", type="text", inputmode="decimal", autocomplete="off", value=value)
 
-    return _field(label, unit, hint, tip, make, wide=False)
+    return _hearing(_field(label, unit, hint, tip, make, wide=False), act)
 
 
 def text_field(label: str, value: str, act: Callable[[str], Any], *, hint: str = "") -> Field:
     """Return a field for a text."""
 
     def make() -> Any:
-        control = tag("input", type="text", autocomplete="off", spellcheck="false", value=value)
-        _heard(control, "change", act)
-        return control
+        return tag("input", type="text", autocomplete="off", spellcheck="false", value=value)
 
-    return _field(label, "", hint, "", make, wide=True)
+    return _hearing(_field(label, "", hint, "", make, wide=True), act)
 
 
 def choice_field(
@@ -157,17 +163,16 @@ def choice_field(
         with control:
             for key, text in options:
                 tag("option", text, value=key)
-        _heard(control, "change", act)
         return control
 
-    return _field(label, "", hint, "", make, wide=True)
+    return _hearing(_field(label, "", hint, "", make, wide=True), act)
 
 
 def slider(label: str, value: float, least: float, most: float, step: float, act: Callable[[str], Any]) -> Any:
     """Return a slider; `act` hears every movement, at most some twenty a second."""
     control = tag("input", classes="slider", type="range", min=least, max=most, step=step, aria_label=label)
     control.props["value"] = value
-    _heard(control, "input", act, throttle=0.05)
+    _heard(control, "input", act, lambda _: None, throttle=0.05)
     return control
 
 

@@ -1,0 +1,190 @@
+"""Who may come in: pages that this server sent, under its own name, and messages as these pages write them."""
+
+from __future__ import annotations
+
+import inspect
+import ipaddress
+import logging
+import re
+import socket
+from collections.abc import Awaitable, Callable, MutableMapping
+from contextlib import suppress
+from functools import wraps
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from nicegui import core, json
+from starlette.datastructures import Headers
+from starlette.responses import PlainTextResponse
+
+__all__ = ["Door", "guard_events", "is_loopback"]
+
+Scope = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
+Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
+
+_SOCKET = "/_nicegui_ws/"
+_SOCKET_ENDS = (f"{_SOCKET}socket.io", f"{_SOCKET}socket.io/")
+# What a page may send, by Engine.IO 4 and Socket.IO 5: close, pong; connect, disconnect, event.
+_FRAME = re.compile(r"1|3|40(?:\{.*\})?|41|42\d{0,9}(?P<event>\[.*\])", re.DOTALL)
+_EVENTS = ("handshake", "event", "javascript_response", "ack", "log")
+_POLICY_VIOLATION = 1008  # the close code of RFC 6455 for a message that breaks the server's rules
+_LONGEST_PATH = 1000  # characters; those of our own have some hundred
+_log = logging.getLogger("uvicorn.error")
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether a host as in a URL or an address means this machine alone.
+
+    >>> is_loopback("localhost"), is_loopback("[::1]"), is_loopback("0.0.0.0"), is_loopback("localhost.evil.org")
+    (True, True, False, False)
+    """
+    address = _address(host)
+    return host.lower() == "localhost" if address is None else address.is_loopback
+
+
+def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    try:
+        return ipaddress.ip_address(host.strip("[]").partition("%")[0])
+    except ValueError:
+        return None
+
+
+class Door:
+    """Refuses, with a sentence, requests and socket messages that no page of this server sends.
+
+    Browsers send the Host header and the Origin header by themselves; a page cannot forge them. A page of another
+    site that gives this machine a name of its own (DNS rebinding) shows by the Host header, one that reaches for
+    the server from its own site by the Origin header.
+
+    Parameters
+    ----------
+    app : what stands behind the door.
+    host : the address or name that the server listens at.
+    """
+
+    def __init__(self, app: Callable[[Scope, Receive, Send], Awaitable[None]], host: str) -> None:
+        self._app = app
+        self._only_here = is_loopback(host)
+        self._names = {"localhost", host.lower()}
+        if not self._only_here:
+            name = socket.gethostname().lower()
+            self._names |= {name, name.partition(".")[0], f"{name.partition('.')[0]}.local"}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Let a request pass, or answer why not."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        status, why_not = self._refusal(scope)
+        if why_not and scope["type"] == "websocket":
+            _log.warning("A socket was refused. %s", why_not)
+            await send({"type": "websocket.close"})  # answered with 403
+        elif why_not:
+            await PlainTextResponse(f"{why_not}\n", status)(scope, receive, send)
+        elif scope["type"] == "websocket":
+            await self._app(scope, _checked(receive, send), send)
+        else:
+            await self._app(scope, receive, send)
+
+    def _refusal(self, scope: Scope) -> tuple[int, str]:
+        """Return the status and the sentence that a request is refused with; no sentence if it may pass."""
+        headers, is_socket = Headers(scope=scope), scope["type"] == "websocket"
+        host = headers.get("host", "")
+        if not self._is_own(host):
+            return 400, (
+                f"The explorer does not answer under the name {host[:100]!r}. "
+                "Open the address that it printed, or start it with this name as --host."
+            )
+        if is_socket or scope["method"] not in ("GET", "HEAD", "OPTIONS"):
+            for origin in headers.getlist("origin"):
+                if not _is_of(origin, host):
+                    return 403, f"The explorer takes nothing from pages of another origin, here {origin[:100]!r}."
+        if len(scope["path"]) > _LONGEST_PATH:
+            return 414, f"The path of the address has more than {_LONGEST_PATH} characters."
+        if not scope["path"].isprintable():
+            return 400, "The address holds a character that cannot be printed."
+        if is_socket != scope["path"].startswith(_SOCKET) or (is_socket and not _is_page_socket(scope)):
+            return 400, "Only pages of the explorer connect here, by WebSocket."
+        return 200, ""
+
+    def _is_own(self, header: str) -> bool:
+        """Return whether a Host header is a name of this server; an address as such is nobody's name."""
+        match = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]+)(?::\d*)?", header)
+        if match is None:
+            return False
+        host = match[1].lower()
+        if _address(host) is not None:
+            return is_loopback(host) or not self._only_here
+        return host in self._names
+
+
+def _is_of(origin: str, host: str) -> bool:
+    """Return whether an Origin header is that of pages which the server under this Host header sent."""
+    try:
+        parts = urlsplit(origin)
+    except ValueError:
+        return False
+    return parts.scheme in ("http", "https") and parts.netloc.lower() == host.lower()
+
+
+def _is_page_socket(scope: Scope) -> bool:
+    query = parse_qs(scope["query_string"].decode("latin-1"))
+    asked = query.get("EIO") == ["4"] and query.get("transport") == ["websocket"]
+    return scope["path"] in _SOCKET_ENDS and asked and not {"sid", "j"} & query.keys()
+
+
+def _checked(receive: Receive, send: Send) -> Receive:
+    """Return `receive` for a socket that is closed, with the reason, at the first message no page would send."""
+
+    async def checked() -> MutableMapping[str, Any]:
+        event = await receive()
+        if event["type"] != "websocket.receive" or _is_understood(event.get("text")):
+            return event
+        await _close(send)
+        return {"type": "websocket.disconnect", "code": _POLICY_VIOLATION}
+
+    return checked
+
+
+async def _close(send: Send) -> None:
+    """Close a socket, and say why to both sides."""
+    _log.warning("A socket was closed: a message was not understood.")
+    why = "The message was not understood; load the page again."
+    await send({"type": "websocket.close", "code": _POLICY_VIOLATION, "reason": why})
+
+
+def _is_understood(text: str | None) -> bool:
+    frame = _FRAME.fullmatch(text or "")
+    if frame is None:
+        return False
+    if frame["event"] is None:
+        return True
+    try:
+        name, *what = json.loads(frame["event"])
+    except (ValueError, RecursionError):
+        return False
+    return name in _EVENTS and len(what) == 1 and isinstance(what[0], dict)
+
+
+def guard_events() -> None:
+    """Have a socket closed whose event NiceGUI's own handlers stumble over, in place of a traceback in the log.
+
+    What goes wrong in this page's handlers NiceGUI reports by itself, before it comes here.
+    """
+    for name in ("connect", *_EVENTS):
+        core.sio.on(name, _guarded(inspect.unwrap(core.sio.handlers["/"][name])))
+
+
+def _guarded(handler: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(handler)
+    async def guarded(sid: str, *what: Any) -> Any:
+        try:
+            result = handler(sid, *what)
+            return await result if inspect.isawaitable(result) else result
+        except (LookupError, TypeError, ValueError, AttributeError):
+            with suppress(LookupError, RuntimeError):  # it has gone already
+                await _close((core.sio.get_environ(sid) or {})["asgi.send"])
+            return False
+
+    return guarded

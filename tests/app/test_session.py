@@ -1,0 +1,50 @@
+"""What a page is told of its search."""
+
+import asyncio
+import contextlib
+
+from wingbeat.app.pool import Event
+from wingbeat.app.scenario import Scenario
+from wingbeat.app.session import Session
+
+
+class Shown:
+    """A page that notes what it was told."""
+
+    def __init__(self):
+        self.states = []
+
+    def context(self):
+        return contextlib.nullcontext()
+
+    def show_state(self, text, busy, done=None):
+        self.states.append((text, done))
+
+    def show_scenario(self, scenario):
+        pass
+
+    show_stale = show_refusals = show_scenario
+
+
+class Pool:
+    """A pool that solves nothing, and tells what it is asked to."""
+
+    def submit(self, session, what, tell):
+        self.tell = tell
+        return object()
+
+
+def test_no_more_searches_are_done_than_were_asked_for():
+    async def visit():
+        page, pool = Shown(), Pool()
+        Session("a", pool, Scenario(), page).ask(whole=True)
+        for done in (11, 12, 13):
+            pool.tell(Event("progress", [done, 12]))
+        await asyncio.sleep(0)
+        return page.states
+
+    assert asyncio.run(visit()) == [
+        ("Solving: 11 of 12 searches.", 11 / 12),
+        ("Solving: 12 of 12 searches.", 1.0),
+        ("Solving: 12 of 12 searches.", 1.0),
+    ]

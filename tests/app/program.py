@@ -33,7 +33,9 @@ class Program:
             self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
         self.line = self.process.stdout.readline()
         found = re.search(r"http://(\S+):(\d+)", self.line)
-        assert found, self.log.read_text()
+        if found is None:
+            self.end()
+            raise AssertionError(self.line + self.log.read_text())
         self.host, self.port = found[1], int(found[2])
 
     def request(self, path, method="GET", body=None, **headers):

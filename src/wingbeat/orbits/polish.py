@@ -61,7 +61,7 @@ class Polish:
         self.on_path = problem.margins(scaled) <= AT_BOUND
         _, jacobian = self._rows(scaled)
         # Fewer unknowns than conditions cannot meet them.
-        self.fits = jacobian.shape[0] <= jacobian.shape[1]
+        self.fits = jacobian.shape[0] <= jacobian.shape[1] and bool(np.isfinite(jacobian).all())
         if not self.fits:
             return
         if like is not None and self._has_the_active_of(like):
@@ -70,7 +70,7 @@ class Polish:
             conditions = Conditions(jacobian)
             self.along = conditions.null
             self.curvature = self._curvature(scaled, jacobian, conditions)
-            self.fits = bool((np.linalg.eigvalsh(self.curvature) > 0).all())
+            self.fits = bool(np.isfinite(self.curvature).all() and (np.linalg.eigvalsh(self.curvature) > 0).all())
 
     @property
     def learned(self) -> Curvature | None:
@@ -122,10 +122,13 @@ class Polish:
         before: tuple[np.ndarray, ...] | None = None
         for _ in range(_ITERATIONS if self.fits else 0):
             values, jacobian = self._rows(scaled)
-            if not np.isfinite(values).all() or np.abs(values).max() > _LOST:
+            if not (np.isfinite(values).all() and np.isfinite(jacobian).all()) or np.abs(values).max() > _LOST:
                 return
             gradient = problem.objective_gradient(scaled)[self.free]
             conditions = Conditions(jacobian)
+            # Conditions of another rank leave other directions free, of which the curvature says nothing.
+            if conditions.null.shape != self.along.shape:
+                return
             step = np.zeros(scaled.size)
             if np.abs(values).max() <= _HELD and np.abs(conditions.null.T @ gradient).max(initial=0.0) <= _FLAT:
                 yield scaled, step

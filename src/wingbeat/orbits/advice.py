@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.changes import Change, Relaxation, possible_changes, relaxation
 from wingbeat.orbits.correction import correct
 from wingbeat.orbits.easing import least_change
@@ -93,7 +94,7 @@ def least_changes(
     changes = list(possible_changes(problem, leans, {s.law: s.share for s in nearest.shortages}))
     met = []
     with ThreadPoolExecutor(threads) as pool:
-        found = pool.map(lambda change: least_change(problem, change, near), changes)
+        found = pool.map(lambda change: _least_change(problem, change, near), changes)
         for i, (change, answer) in enumerate(zip(changes, found, strict=True), start=1):
             if answer is not None:
                 met.append(Eased(change, *answer))
@@ -136,10 +137,21 @@ def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str,
     yield from dict.fromkeys(limit for limit, margin in margins if margin <= _LEANING)
 
 
+def _least_change(problem: OrbitProblem, change: Change, near: np.ndarray) -> tuple[float, np.ndarray] | None:
+    """Return what `least_change` does; a change on whose way a problem is impossible is none."""
+    try:
+        return least_change(problem, change, near)
+    except InvalidInputError:
+        return None
+
+
 def _certified_change(problem: OrbitProblem, eased: Eased) -> Relaxation | None:
     for more in _WIDER:
         change = relaxation(problem, eased.change, eased.change.moved(_SLACK * eased.share), more)
-        programme = Transcription(change.apply(problem))
+        try:
+            programme = Transcription(change.apply(problem))
+        except InvalidInputError:  # rounded to where no problem is: a shoulder at the centre of mass, for one
+            continue
         for seek in (refine, search):
             met = seek(programme.anew(), eased.unknowns)
             if met.closed and met.optimal and correct(met.programme, met.scaled).is_orbit():

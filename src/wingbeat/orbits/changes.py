@@ -11,7 +11,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.orbits.limits import Constraint
 from wingbeat.orbits.parameters import Place, unit_of, with_number
-from wingbeat.orbits.problem import PATH_NAMES, OrbitProblem
+from wingbeat.orbits.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
 from wingbeat.orbits.shortage import LIFT, MOMENT, THRUST
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
@@ -38,9 +38,15 @@ _HALVED = 6
 _LARGE_ANGLE = math.radians(60.0)
 # Times itself that a limit is raised, or divided by, in looking for an orbit.
 _FAR = 30.0
-# The lightest body, and the fastest flight, that is looked at, as a share of what was asked for.
+# The lightest body, and the most that is added to the speed, as a share of what was asked for.
 _LIGHTEST = 0.1
-_FASTEST = 5.0
+_MUCH_FASTER = 5.0
+# Where a cost of transport is asked for, which hover has none of, the slowest flight, as a share of the speed.
+_SLOWEST = 0.01
+# A much wider range of frequencies: its ends times and over this, and shares of the upper end by which it is raised
+# first. Bounds of a scaling law used outside its data were met to be 9 times too low (a bat of 10 kg).
+_WIDE = 10.0
+_RAISED = (1.0, 3.0, _WIDE - 1.0)
 # Times what is short that a number is moved first.
 _MORE = 1.1
 # The least change that is worth a digit of its own, as a share of its scale.
@@ -48,6 +54,11 @@ _LEAST = 1e-3
 # Chords that the shoulder is moved by, at most; of a speed near 0, what counts as large [m/s].
 _CHORDS = 2.0
 _BRISK = 2.0
+
+
+# Ends of the range of frequencies, which are moved whether or not the nearest beat is at them: a search that never
+# came near an orbit says nothing of where the frequency would have to be.
+WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 
 
 @dataclass(frozen=True)
@@ -84,8 +95,9 @@ class Change:
         return math.copysign(1.0, self.reach - self.old)
 
     def moved(self, share: float) -> float:
-        """Return the number moved by a share of its scale."""
-        return self.old + self.direction * share * self.scale
+        """Return the number moved by a share of its scale, never past its reach."""
+        moved = self.old + self.direction * share * self.scale
+        return min(max(moved, min(self.old, self.reach)), max(self.old, self.reach))
 
 
 @dataclass(frozen=True)
@@ -193,33 +205,45 @@ def possible_changes(
         old = float(constraint.limit)
         scale = abs(old) or constraint.quantity.scale
         yield Change(name, sign, old, old + (_FAR if constraint.at_most else -_FAR) * scale, scale)
-    for name, sign in leaning:
+    for name, sign in dict.fromkeys((*leaning, *WIDER_FREQUENCIES)):
         if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
             upper = sign == "<="
             old = float(problem.bounds[name][upper])
-            yield from _towards(name, sign, old, _reach(problem, name, old, upper))
+            tries = _RAISED if (name, upper) == ("frequency", True) else ()
+            yield from _towards(name, sign, old, _reach(problem, name, old, upper), tries)
     for name in problem.species.bounds:
         if name not in problem.free:
             old = float(parameter(problem.species.wingbeat, name))
             for upper in (False, True):
-                yield from _towards(name, "=", old, _reach(problem, name, old, upper), (0.1, 0.3))
+                tries = (0.1, 0.3, *_RAISED) if name == "frequency" else (0.1, 0.3)
+                yield from _towards(name, "=", old, _reach(problem, name, old, upper), tries)
     wing = problem.vehicle.wing
     mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
     yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, _tries(short.get(LIFT), (0.3, 0.6)))
     brisk = max(problem.speed, _BRISK)
-    yield Change("speed", "=", problem.speed, problem.speed + _FASTEST * brisk, brisk, (0.3, 1.0, 2.5))
-    if problem.speed > 0:
-        yield Change("speed", "=", problem.speed, 0.0, brisk, (0.3,))
-    yield Change("climb", "=", problem.climb, problem.climb - brisk, brisk, _tries(short.get(THRUST), (0.2, 0.4)))
+    fastest = min(problem.speed + _MUCH_FASTER * brisk, FASTEST)
+    yield from _moving("speed", problem.speed, fastest, brisk, (0.3, 1.0, 2.5))
+    slowest = _SLOWEST * problem.speed if problem.asks_cost_of_transport else 0.0
+    yield from _moving("speed", problem.speed, slowest, brisk, (0.3,))
+    steepest = max(problem.climb - brisk, -FASTEST_CLIMB)
+    yield from _moving("climb", problem.climb, steepest, brisk, _tries(short.get(THRUST), (0.2, 0.4)))
     for way in (1.0, -1.0):
         reach, tries = ahead + way * _CHORDS * wing.mean_chord, _tries(short.get(MOMENT), (0.2, 0.6))
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
+
+
+def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[float, ...]) -> Iterator[Change]:
+    """Yield the change of a velocity, if it leaves any way to go."""
+    if reach != old:
+        yield Change(name, "=", old, reach, scale, tries)
 
 
 def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
     """Return how far a number of the wingbeat may go, up or down, for there still to be a wingbeat."""
     reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
     far = reach[upper]
+    if name == "frequency":
+        far = max(far, _WIDE * old) if upper else min(far, old / _WIDE)
     for _ in range(_HALVED):
         try:
             with_parameters(problem.species.wingbeat, {} if name in PATH_NAMES else {name: far})

@@ -29,6 +29,8 @@ CLOSURE = ("x", "z", *PITCH_STATE)
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
 # Free parameters that change when or how fast the wings go through the stroke, or turn the whole of it.
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
+# The fastest flight, and climb or descent, that a problem may ask for [m/s].
+FASTEST = FASTEST_CLIMB = 100.0
 # The derivative of the pitch state at the start by itself.
 _START = np.eye(4)
 
@@ -94,8 +96,9 @@ class OrbitProblem:
         faults = FaultList()
         if not isinstance(self.species, Species):
             faults.add("species", self.species, "is not a Species", "use load_species(name or path)")
-        faults.number("speed", self.speed, at_least=0, at_most=100, unit="m/s", fix="0 is hover")
-        faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
+        faults.number("speed", self.speed, at_least=0, at_most=FASTEST, unit="m/s", fix="0 is hover")
+        limits = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB}
+        faults.number("climb", self.climb, **limits, unit="m/s", fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
         if not isinstance(self.wings_may_cross, bool):
@@ -148,7 +151,7 @@ class OrbitProblem:
                 faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
         object.__setattr__(self, "minimise", minimise)
         object.__setattr__(self, "subject_to", tuple(constraints))
-        if not faults.faults and self.speed == 0 and "cost_of_transport" in {q.name for q in self._quantities()}:
+        if not faults.faults and self.speed == 0 and self.asks_cost_of_transport:
             faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
 
     def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
@@ -178,6 +181,11 @@ class OrbitProblem:
     def reads_beat(self) -> bool:
         """Whether objective or constraints are read off the beat, not off the unknowns."""
         return bool(self._quantities())
+
+    @property
+    def asks_cost_of_transport(self) -> bool:
+        """Whether objective or a constraint is the cost of transport, which hover has none of."""
+        return "cost_of_transport" in {quantity.name for quantity in self._quantities()}
 
     @property
     def has_own_bounds(self) -> bool:

@@ -28,6 +28,8 @@ _WEIGHT = 100.0
 # its last step lessens the squares.
 _EVALUATIONS, _TRIAL = 150, 25
 _SETTLED = 1e-5
+# The least gravity that gives a weight to compare forces with [m/s2]; without one nothing is a share of it.
+_LEAST_GRAVITY = 1e-3
 # A miss that is none, in the optimiser's scale, and a share that is none.
 _KEPT = 1e-3
 NOTHING = 1e-3
@@ -92,7 +94,7 @@ class Balance:
 
     def __init__(self, programme: Transcription) -> None:
         self._programme, problem = programme, programme.problem
-        vehicle, gravity = problem.vehicle, problem.air.gravity
+        vehicle, gravity = problem.vehicle, max(problem.air.gravity, _LEAST_GRAVITY)
         weight = vehicle.mass * gravity
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
         inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: _pitch_inertia(problem)}

@@ -11,6 +11,7 @@ import numpy as np
 from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 from wingbeat.orbits.correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
+from wingbeat.orbits.least_frequency import is_at_lower_bound
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.search import (
@@ -278,7 +279,7 @@ def _solution(
     certify_seconds: float,
     ending: Ending | None = None,
 ) -> Solution:
-    told = ending or Ending(Status.CONVERGED, f"certified: re-flown, it closes to {size(best.miss):.0e}")
+    told = ending or Ending(Status.CONVERGED, _certified_words(best))
     return Solution(
         best.programme.problem,
         told.status,
@@ -298,6 +299,15 @@ def _solution(
         told.relaxations,
         best.learned,
     )
+
+
+def _certified_words(best: Corrected) -> str:
+    words = f"certified: re-flown, it closes to {size(best.miss):.0e}"
+    problem = best.programme.problem
+    if is_at_lower_bound(problem, best.programme.physical(best.scaled)):
+        low = problem.bounds["frequency"][0]
+        words += f"; the frequency is at its lower bound, {low:g} Hz: no search can better it"
+    return words
 
 
 def _optima(candidates: list[Candidate]) -> tuple[Optimum, ...]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from wingbeat.orbits.advice import certified_changes, least_changes, nearest_beat, words_of
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.correction import Corrected, certified, first_certified
+from wingbeat.orbits.least_frequency import from_raised_bound, may_end_at_lower_bound, words_of_raise
 from wingbeat.orbits.search import Candidate, search
 from wingbeat.orbits.shortage import NOTHING, Shortage
 from wingbeat.orbits.solution import Status
@@ -49,6 +50,10 @@ def without_orbit(
         if progress is not None:
             progress(len(found) + done, len(found) + total)
 
+    closed = [programme.physical(c.scaled) for c in found if c.closed]
+    raised = from_raised_bound(problem) if may_end_at_lower_bound(problem, closed) else None
+    if raised is not None:
+        return _below(programme, *raised)
     met = least_changes(problem, near, nearest, threads, told) if advise and not nearest.closes else []
     # A change of next to nothing is none: the searches missed what was there.
     leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
@@ -73,3 +78,14 @@ def without_orbit(
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
     ending = Ending(Status.INFEASIBLE, message, nearest.shortages, changes)
     return certified(programme.anew(), nearest.scaled), ending
+
+
+def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:
+    """Return the orbit that one at a raised bound of the frequency leads to, or that one and what to change."""
+    problem, beat = programme.problem, orbit.programme.physical(orbit.scaled)
+    lower = first_certified(programme, [search(programme.anew(), beat)])
+    if lower is not None:
+        return lower, None
+    message = words_of_raise(problem, change)
+    ending = Ending(Status.NOT_CONVERGED, message, relaxations=(change,))
+    return certified(programme.anew(), programme.scaled(beat)), ending

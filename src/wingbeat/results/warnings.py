@@ -9,6 +9,7 @@ import numpy as np
 from wingbeat.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.kinematics import ANGLES, Wingbeat
 from wingbeat.orbits.beat import Beat
+from wingbeat.orbits.least_frequency import is_at_lower_bound
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import FAMILY, Solution, Status
 from wingbeat.vehicle import Air, Vehicle
@@ -44,6 +45,9 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             "the body rows with the wings, which flying animals were not checked to do"
         )
     notes += crossing(problem, solution.wingbeat)
+    if is_at_lower_bound(problem, solution.unknowns):
+        notes += at_lower_bound(solution)
+        return notes
     notes += rivals(solution)
     if solution.distinct_optima > 1:
         notes.append(
@@ -51,6 +55,18 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             "ended in this one, the best met, which is not proven the best of all"
         )
     return notes
+
+
+def at_lower_bound(solution: Solution) -> list[str]:
+    """Warn that least frequency is the bound itself: other orbits at the bound are worth the same."""
+    if solution.status is not Status.CONVERGED:
+        return []
+    low = solution.problem.bounds["frequency"][0]
+    return [
+        f"the least frequency is its lower bound, {low:g} Hz: the bound is the answer, more starts cannot better "
+        "it, and other orbits at this bound are worth the same; lower the bound, minimise a power, or see "
+        f"`wingbeat glide {solution.problem.species.name}`"
+    ]
 
 
 def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:

@@ -169,15 +169,12 @@ def _check_size(size: dict[str, Any], faults: FaultList) -> None:
 
 
 def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: FaultList) -> None:
-    """Note a size for which the laws of bats, which are not powers, give no wingbeat."""
-    if kind is not BAT:
+    """Note an area for which the law of bats' amplitude, a logarithm, gives no wingbeat."""
+    if kind is not BAT or "wingbeat.flap_amplitude" in given:
         return
-    beat = zip(
-        bat_beat(mass, area), ("frequency", "flap_amplitude"), (("mass", mass), ("wing_area", area)), strict=True
-    )
-    for number, name, (where, value) in beat:
-        if f"wingbeat.{name}" not in given and single(number) <= 0:
-            faults.add(where, value, f"is beyond the law of bats' {name}", f"give {name}=")
+    _, amplitude = bat_beat(mass, area)
+    if single(amplitude) <= 0:
+        faults.add("wing_area", area, "is beyond the law of bats' flap_amplitude", "give flap_amplitude=")
 
 
 def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:

@@ -11,6 +11,7 @@ from typing import Any, cast
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
+from wingbeat.species.law import OUTSIDE
 from wingbeat.species.settings import plain, settable
 from wingbeat.species_schema import FREE_UNITS, Alternative, Number, Numbers, check_value, display, suggest, to_si
 from wingbeat.vehicle import Air, Vehicle
@@ -203,9 +204,22 @@ def find_warnings(species: Species) -> tuple[str, ...]:
     ]
     if derived:
         found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
+    found += _outside_data(species)
     if not species.free:
         found.append("free: no wingbeat parameter is free, so no orbit can be sought; add the table [free]")
     return tuple(found)
+
+
+def _outside_data(species: Species) -> list[str]:
+    """Warn of numbers that scaling laws gave outside the data they were fitted to."""
+    told = [
+        f"{path.removeprefix('vehicle.')} ({number.source.partition(OUTSIDE)[2].partition(' (')[0]})"
+        for path, number in species.numbers.items()
+        if number.source.startswith(DERIVED) and OUTSIDE in number.source
+    ]
+    if not told:
+        return []
+    return [f"scaling laws used outside the data they were fitted to, so with little trust: {'; '.join(told)}"]
 
 
 def _jsonable(value: Any) -> Any:

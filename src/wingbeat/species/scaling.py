@@ -1,14 +1,14 @@
 """Published laws that give a flying animal's numbers from its mass, wing span and wing area, each written once.
 
 Where no law was found the single animal or robot that was measured is scaled by isometry, and the source says so.
+Each law names the data it was fitted to; beyond them its number says so, and the species warns.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
 
+from wingbeat.species.law import Data, Law
 from wingbeat.species_schema import Number
 
 __all__ = ["Law", "exponent_of_inertia", "mass_exponent"]
@@ -20,49 +20,24 @@ HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, da
 FLAPPER = "parameters of the Flapper Nimble+ in federicoangioni/flapper-dynamic-model, how found not stated"
 
 
-@dataclass(frozen=True)
-class Law:
-    """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
+# --- what the laws were fitted to ---
 
-    Parameters
-    ----------
-    unit : of the number.
-    formula : as it is printed, for the reader of a source.
-    inputs : symbol and unit of each value that it takes.
-    function : the formula.
-    source : where it was read.
-    spread : factors between which measured values lie, of the value that the law gives.
-    scatter : where the spread comes from.
-
-    >>> number = BIRD_WING_MASS.number(0.316)
-    >>> f"{number.value:.4f} {number.unit}"
-    '0.0199 kg'
-    """
-
-    unit: str
-    formula: str
-    inputs: tuple[str, ...]
-    function: Callable[..., float]
-    source: str
-    spread: tuple[float, float]
-    scatter: str
-
-    def __call__(self, *values: float) -> float:
-        """Return what the law gives."""
-        return self.function(*values)
-
-    def number(self, *values: float) -> Number:
-        """Return what the law gives, marked as derived, with its spread as the plausible range."""
-        value, (low, high) = self(*values), self.spread
-        where = ", ".join(_told(*pair) for pair in zip(self.inputs, values, strict=True))
-        formula = f"{self.formula} at {where}" if where else self.formula
-        source = f"derived: {formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
-        return Number(value, self.unit, source, (low * value, high * value))
+# Of the table that `BIRD_MASS` was fitted to; rows marked as outliers left out.
+_BIRD_TABLE = Data({"b": (0.087, 3.25)}, "689 species of that table")
+# The paper's own table was not read.
+_RAYNER_BIRDS = Data({"m": (0.01, 10.0), "l": (0.085, 1.31)}, "29 birds: the axes of its figures 5 and 6")
+_RAYNER_WINGS = Data({"m_w": (4.5e-4, 0.885), "l": (0.085, 1.31)}, "29 birds of 0.01 to 10 kg, by its own laws")
+_PENNYCUICK_BIRDS = Data({"m": (0.0054, 11.9), "b": (0.154, 3.04)}, "219 birds that the same author measured")
+_BATS = "65 species whose frequency is known: Norberg and Norberg 2012, J Exp Biol 215:711, abstract"
+_BATS_MASSES, _BATS_AREAS = (0.002, 0.87), (0.0028, 0.16)
+_NO_DATA = Data({}, "none: not fitted to anything")
 
 
-def _told(symbol_and_unit: str, value: float) -> str:
-    symbol, unit = symbol_and_unit.split()
-    return f"{symbol} = {value:.4g} {unit}"
+def _one(whose: str, mass: float) -> Data:
+    """Return the range in which one animal may be scaled by isometry: three times as long or short, a guess."""
+    return Data(
+        {"m": (mass / 27, mass * 27)}, f"one {whose} of {mass:g} kg and those to 3 times its length, a guess"
+    )
 
 
 # --- lengths ---
@@ -75,6 +50,7 @@ BIRD_MASS = Law(
     "fitted to a table of mass, span and area compiled from 27 studies, BirdWingData_tidy_ver2.1",
     (0.23, 3.8),
     "all of 613 bird species in that table",
+    _BIRD_TABLE,
 )
 BIRD_SEMI_SPAN = Law(
     "m",
@@ -84,6 +60,7 @@ BIRD_SEMI_SPAN = Law(
     f"wing length 0.528 m^0.396 ({RAYNER}) over span 1.137 m^0.396 of the birds of BirdWingData_tidy_ver2.1",
     (0.95, 1.08),
     f"0.45 of the span of one dissected pigeon ({HARVEY}) to half the span",
+    _BIRD_TABLE,
 )
 HALF_SPAN = Law(
     "m",
@@ -93,6 +70,7 @@ HALF_SPAN = Law(
     "no law found: as Su et al., arXiv 2302.09602, take it for their bat",
     (0.9, 1.0),
     "guess: the body between the wings is left out",
+    _NO_DATA,
 )
 MEAN_CHORD = Law(
     "m",
@@ -102,6 +80,7 @@ MEAN_CHORD = Law(
     "its definition",
     (0.85, 1.1),
     "guess: some count the body between the wings to the area and some do not",
+    _NO_DATA,
 )
 
 # Span over mean chord, whole table or guess.
@@ -119,6 +98,7 @@ BIRD_WING_MASS = Law(
     RAYNER,
     (0.6, 1.6),
     f"guess: r2 is 0.972 in log-log, and one dissected pigeon lies at 1.5 ({HARVEY})",
+    _RAYNER_BIRDS,
 )
 BAT_WING_MASS = Law(
     "kg",
@@ -128,6 +108,7 @@ BAT_WING_MASS = Law(
     "no law found: a guess",
     (0.77, 1.43),
     f"guess: 5.4 % is the law of birds at 68 g ({RAYNER}), 10 % a guess",
+    _NO_DATA,
 )
 ROBOT_WING_MASS = Law(
     "kg",
@@ -137,6 +118,7 @@ ROBOT_WING_MASS = Law(
     f"no law found: one robot, 103 g with and 94.3 g without wings; {FLAPPER}",
     (0.4, 2.5),
     "guess",
+    _one("robot", 0.103),
 )
 BIRD_FLAP_INERTIA = Law(
     "kg m2",
@@ -146,6 +128,7 @@ BIRD_FLAP_INERTIA = Law(
     RAYNER,
     (0.45, 1.6),
     f"the birds of its figure 6 lie at 0.6 to 1.6, one dissected pigeon at 0.5 ({HARVEY})",
+    _RAYNER_WINGS,
 )
 BAT_FLAP_INERTIA = Law(
     "kg m2",
@@ -155,6 +138,7 @@ BAT_FLAP_INERTIA = Law(
     f"{RAYNER} and text: bats have twice the inertia",
     (0.5, 1.3),
     "the law of birds to the highest of the three bats of its figure 6",
+    _RAYNER_WINGS,
 )
 ROBOT_MASS_EXPONENT = Law(
     "1",
@@ -164,6 +148,7 @@ ROBOT_MASS_EXPONENT = Law(
     "no law found: one robot's wing, 0.08 m of 0.25 m, in code of Fan, Gehrke and Breuer, arXiv 2408.15577",
     (0.0, 2.0),
     "guess: uniform to as a bird",
+    _NO_DATA,
 )
 BIRD_PITCH_INERTIA = Law(
     "kg m2",
@@ -173,6 +158,7 @@ BIRD_PITCH_INERTIA = Law(
     f"no law found: one dissected pigeon of 0.26 kg, {HARVEY}, scaled by isometry",
     (0.5, 2.0),
     "guess",
+    _one("pigeon", 0.26),
 )
 BAT_PITCH_INERTIA = Law(
     "kg m2",
@@ -182,6 +168,7 @@ BAT_PITCH_INERTIA = Law(
     "no law found: an ellipsoid 82 mm long for a bat of 68 g, scaled by isometry",
     (0.5, 2.1),
     "guess",
+    _one("bat", 0.068),
 )
 ROBOT_PITCH_INERTIA = Law(
     "kg m2",
@@ -191,6 +178,7 @@ ROBOT_PITCH_INERTIA = Law(
     f"no law found: one robot of 103 g, scaled by isometry; {FLAPPER}",
     (0.33, 3.0),
     "guess",
+    _one("robot", 0.103),
 )
 BODY_DRAG_AREA = Law(
     "m2",
@@ -200,6 +188,7 @@ BODY_DRAG_AREA = Law(
     "Pennycuick 1988, birds, as in the R package afpt",
     (0.5, 1.5),
     "guess: drag coefficients of 0.1 to 0.3 are in use",
+    Data({}, "not read"),
 )
 BODY_HALF_WIDTH = Law(
     "m",
@@ -209,6 +198,7 @@ BODY_HALF_WIDTH = Law(
     "Pennycuick 1988, birds, as in the R package afpt",
     (0.5, 1.5),
     "guess",
+    Data({}, "not read"),
 )
 
 # --- the wingbeat ---
@@ -221,6 +211,7 @@ FREQUENCY_BY_MASS = Law(
     RAYNER,
     (0.5, 2.0),
     "guess: r2 is 0.653 in log-log",
+    _RAYNER_BIRDS,
 )
 FREQUENCY_BY_WING = Law(
     "Hz",
@@ -230,6 +221,7 @@ FREQUENCY_BY_WING = Law(
     RAYNER,
     (0.6, 1.6),
     "guess: r2 is 0.877 in log-log",
+    _RAYNER_BIRDS,
 )
 
 
@@ -240,6 +232,13 @@ def _pennycuick(mass: float, span: float, area: float, density: float, gravity: 
     return mass ** (3 / 8) * gravity**0.5 * span ** (-23 / 24) * area ** (-1 / 3) * density ** (-3 / 8)
 
 
+def _bullen(mass: float, speed: float) -> float:
+    """Return the law of bats, outside its data as a power: from 10 kg on its logarithm gives no frequency."""
+    inside = min(max(mass, _BATS_MASSES[0]), _BATS_MASSES[1])
+    fitted = 5.54 - 3.068 * math.log10(inside) - 2.857 * math.log10(speed)
+    return fitted * (mass / inside) ** -0.26
+
+
 BIRD_FREQUENCY = Law(
     "Hz",
     "m^3/8 g^1/2 b^-23/24 S^-1/3 rho^-3/8",
@@ -248,6 +247,7 @@ BIRD_FREQUENCY = Law(
     f"{PENNYCUICK}, 47 species in cruise",
     (0.7, 1.3),
     "alcids and a pigeon lie at 0.73 to 1.04, 14 species at 0.81 to 1.05 (Pennycuick 2001, J Exp Biol 204:3283)",
+    _PENNYCUICK_BIRDS,
 )
 ROBOT_FREQUENCY = Law(
     "Hz",
@@ -257,15 +257,18 @@ ROBOT_FREQUENCY = Law(
     f"no law of robots found: that of birds, {PENNYCUICK}",
     (0.7, 1.3),
     "four robots lie at 0.80 to 1.16 (USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust)",
+    _PENNYCUICK_BIRDS,
 )
 BAT_FREQUENCY = Law(
     "Hz",
     "5.54 - 3.068 log10 m - 2.857 log10 V",
     ("m kg", "V m/s"),
-    lambda mass, speed: 5.54 - 3.068 * math.log10(mass) - 2.857 * math.log10(speed),
+    _bullen,
     f"{BULLEN}, abstract: 23 Australian species",
     (0.75, 1.3),
     "21 of the 23 within 1 Hz, and speeds from 4 to 10 m/s",
+    Data({"m": _BATS_MASSES}, _BATS),
+    "as m^-0.26, the power of those species, from the nearest end",
 )
 BIRD_FLAP_AMPLITUDE = Law(
     "rad",
@@ -275,6 +278,7 @@ BIRD_FLAP_AMPLITUDE = Law(
     "Nudds, Taylor and Thomas 2004, as quoted in code",
     (0.5, 1.6),
     "guess",
+    Data({}, "60 species of birds, their spans not read"),
 )
 BAT_FLAP_AMPLITUDE = Law(
     "rad",
@@ -284,6 +288,7 @@ BAT_FLAP_AMPLITUDE = Law(
     f"{BULLEN}, abstract: 23 Australian species",
     (0.6, 1.6),
     "15 degrees either side of the whole, and speeds from 4 to 10 m/s",
+    Data({"S": _BATS_AREAS}, "bats of 2 to 870 g with the shape of 24 noctules"),
 )
 ROBOT_FLAP_AMPLITUDE = Law(
     "rad",
@@ -293,6 +298,7 @@ ROBOT_FLAP_AMPLITUDE = Law(
     "no law found: the mean of USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust",
     (0.6, 1.35),
     "those four, of 50 to 105 degrees",
+    _NO_DATA,
 )
 
 # --- the cruise ---
@@ -305,6 +311,7 @@ CRUISE_BY_MASS = Law(
     "Alerstam et al. 2007, PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, 138 species",
     (0.6, 1.6),
     "guess",
+    Data({"m": (0.01, 10.0)}, "138 species, abstract"),
 )
 
 
@@ -328,7 +335,7 @@ def mass_exponent(law: Law, wing_mass: float, length: float) -> Number:
     source = (
         f"derived: gives the wing the flap inertia {inertia:.3g} kg m2, {law.formula} at m_w = {wing_mass:.4g} kg, "
         f"l = {length:.4g} m ({law.source}); "
-        f"spread {low:g} to {high:g} times the inertia: {law.scatter}"
+        f"spread {low:g} to {high:g} times the inertia: {law.scatter}{law.outside(wing_mass, length)}"
     )
     limits = exponent_of_inertia(high * inertia / whole), exponent_of_inertia(low * inertia / whole)
     return Number(exponent_of_inertia(inertia / whole), "1", source, limits)

@@ -1,0 +1,91 @@
+"""A scaling law: a formula with its source, how far animals scatter around it, and the data it was fitted to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from wingbeat.species_schema import Number
+
+__all__ = ["OUTSIDE", "Data", "Law"]
+
+# Stands in the source of a number that a law gave outside its data, before what is outside of what.
+OUTSIDE = "outside its data: "
+
+
+@dataclass(frozen=True)
+class Data:
+    """What a law was fitted to: lowest and highest value of its inputs, SI units, and where these were read.
+
+    Parameters
+    ----------
+    ranges : by the symbol of the input; none for a law without data, or whose data were not found.
+    where : where the ranges were read, or why there are none.
+    """
+
+    ranges: dict[str, tuple[float, float]]
+    where: str
+
+
+@dataclass(frozen=True)
+class Law:
+    """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
+
+    Parameters
+    ----------
+    unit : of the number.
+    formula : as it is printed, for the reader of a source.
+    inputs : symbol and unit of each value that it takes.
+    function : the formula.
+    source : where it was read.
+    spread : factors between which measured values lie, of the value that the law gives.
+    scatter : where the spread comes from.
+    data : what it was fitted to.
+    beyond : how it goes on outside its data, if not by its formula.
+
+    >>> from wingbeat.species.scaling import BIRD_WING_MASS
+    >>> number = BIRD_WING_MASS.number(0.316)
+    >>> f"{number.value:.4f} {number.unit}"
+    '0.0199 kg'
+    """
+
+    unit: str
+    formula: str
+    inputs: tuple[str, ...]
+    function: Callable[..., float]
+    source: str
+    spread: tuple[float, float]
+    scatter: str
+    data: Data
+    beyond: str = ""
+
+    def __call__(self, *values: float) -> float:
+        """Return what the law gives."""
+        return self.function(*values)
+
+    def number(self, *values: float) -> Number:
+        """Return what the law gives, marked as derived, with its spread as the plausible range."""
+        value, (low, high) = self(*values), self.spread
+        where = ", ".join(_told(*pair) for pair in zip(self.inputs, values, strict=True))
+        formula = f"{self.formula} at {where}" if where else self.formula
+        source = f"derived: {formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
+        return Number(value, self.unit, source + self.outside(*values), (low * value, high * value))
+
+    def outside(self, *values: float) -> str:
+        """Return what of these values is outside the law's data, as the end of a source; empty if nothing is."""
+        found = []
+        for pair, value in zip(self.inputs, values, strict=True):
+            symbol, unit = pair.split()
+            low, high = self.data.ranges.get(symbol, (-math.inf, math.inf))
+            if not low <= value <= high:
+                found.append(f"{_told(pair, value)}, data {low:.4g} to {high:.4g} {unit}")
+        if not found:
+            return ""
+        beyond = f"; there {self.beyond}" if self.beyond else ""
+        return f"; {OUTSIDE}{' and '.join(found)} ({self.data.where}){beyond}"
+
+
+def _told(symbol_and_unit: str, value: float) -> str:
+    symbol, unit = symbol_and_unit.split()
+    return f"{symbol} = {value:.4g} {unit}"

@@ -77,7 +77,7 @@ def derive(
     frequencies : bounds of the wingbeat frequency [Hz]; wide ones around the stock frequency where None.
     """
     found = _vehicle(kind, content.numbers, mass, span, area) | _air()
-    air = [content.numbers.get(path, found[path]).value for path in ("air.density", "air.gravity")]
+    air = [single(content.numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
     found |= _wingbeat(kind, mass, span, area, *air)
     for path, number in found.items():
         content.numbers.setdefault(path, number)
@@ -180,7 +180,7 @@ def _guess(path: str, degrees: float | None, low: float, high: float, source: st
 
 
 def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
-    """Return the bounds of what an orbit may choose, and those along the whole path; `usual` are frequencies [Hz]."""
+    """Return the bounds of what an orbit may choose, and those along the path; `usual` are frequencies [Hz]."""
     low, high = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
     frequency = Bound((low, high), "guess: an eighth to four times what the laws of the frequency give", True)
     if given is not None:

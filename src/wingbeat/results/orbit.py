@@ -25,7 +25,7 @@ from wingbeat.orbits.solve import Progress, check_search, find_orbit
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.dataset import evaluate, flight_dataset
-from wingbeat.results.provenance import inputs_of, problem_from
+from wingbeat.results.provenance import inputs_of, own_functions, problem_from
 from wingbeat.results.record import orbit_record
 from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes, save_dataset
 
@@ -45,12 +45,23 @@ class Summary(NamedTuple):
     relaxations: tuple[Relaxation, ...] = ()
 
 
-def _dataset(
-    problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate, record: dict[str, Any], inputs: dict[str, Any]
-) -> xr.Dataset:
+# A flight to be shown: problem, wingbeat, and what the certifier flew.
+_Flown = tuple[OrbitProblem, Wingbeat, Certificate]
+
+
+def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[str, Any]) -> xr.Dataset:
     """Return the time series of what was flown of a wingbeat, with record and inputs as attributes."""
-    flight = problem.model, wingbeat, flown.phase, flown.states
+    problem, wingbeat, certificate = flown()
+    flight = problem.model, wingbeat, certificate.phase, certificate.states
     return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
+
+
+def _flown_by(solution: Solution) -> _Flown:
+    return solution.problem, solution.wingbeat, solution.certificate
+
+
+def _flown_again(problem: OrbitProblem, wingbeat: Wingbeat, pitch_state: np.ndarray) -> _Flown:
+    return problem, wingbeat, certify(problem.model, wingbeat, pitch_state)
 
 
 def _summary(record: dict[str, Any]) -> Summary:
@@ -64,19 +75,24 @@ def _summary(record: dict[str, Any]) -> Summary:
 
 
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit` and its like, `load_orbit` or a study."""
+    """One periodic orbit and everything about it; made by `solve_orbit` and its like, `load_orbit` or a study.
+
+    It can be pickled and copied, also to another process.
+    """
 
     def __init__(
         self,
         summary: Summary,
         inputs: dict[str, Any],
-        record: Callable[[], dict[str, Any]],
-        series: Callable[[], xr.Dataset],
+        record: dict[str, Any] | Callable[[], dict[str, Any]],
+        series: xr.Dataset | Callable[[dict[str, Any]], xr.Dataset],
+        problem: OrbitProblem | None = None,
     ) -> None:
         self._summary = summary
         self._inputs = inputs
-        self._make_record = record
-        self._series = series
+        self._given_record = record
+        self._given_series = series
+        self._problem = problem
 
     @classmethod
     def of(cls, solution: Solution, starts: int, seed: int = 0) -> Orbit:
@@ -88,11 +104,11 @@ class Orbit:
         starts, seed : what the search was asked for.
         """
         inputs = inputs_of(solution.problem, starts, seed)
-        record = functools.cache(lambda: orbit_record(solution))
         start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
-        flown = solution.problem, solution.wingbeat, solution.certificate
-        return cls(summary, inputs, record, lambda: _dataset(*flown, record(), inputs))
+        # Partial functions, and no lambdas: an orbit can be pickled.
+        series = functools.partial(_series, functools.partial(_flown_by, solution), inputs)
+        return cls(summary, inputs, functools.partial(orbit_record, solution), series, solution.problem)
 
     @classmethod
     def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
@@ -105,16 +121,17 @@ class Orbit:
         starts, seed : what the search was asked for.
         """
         inputs, summary = inputs_of(problem, starts, seed), _summary(record)
-        wingbeat, pitch_state = summary.wingbeat, np.array(summary.initial_state)[2:]
+        pitch_state = np.array(summary.initial_state)[2:]
+        flown = functools.partial(_flown_again, problem, summary.wingbeat, pitch_state)
+        return cls(summary, inputs, record, functools.partial(_series, flown, inputs), problem)
 
-        def series() -> xr.Dataset:
-            return _dataset(problem, wingbeat, certify(problem.model, wingbeat, pitch_state), record, inputs)
-
-        return cls(summary, inputs, lambda: record, series)
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is pickled: the record as it is here, and the time series if they were made."""
+        return vars(self) | {"_record": self._record}
 
     @functools.cached_property
     def _record(self) -> dict[str, Any]:
-        return self._make_record()
+        return self._given_record() if callable(self._given_record) else self._given_record
 
     def __repr__(self) -> str:
         what, beat = self._inputs, f"{self.wingbeat.frequency:.3f} Hz"
@@ -152,7 +169,9 @@ class Orbit:
 
     @property
     def problem(self) -> OrbitProblem:
-        """The problem this orbit answers, set up again from its inputs."""
+        """The problem this orbit answers, set up again from its inputs unless they hold a user's function."""
+        if self._problem is not None and own_functions(self._inputs):
+            return self._problem
         return problem_from(self._inputs)
 
     @property
@@ -167,7 +186,7 @@ class Orbit:
     @functools.cached_property
     def dataset(self) -> xr.Dataset:
         """The time series of one beat, labelled, with the record as attributes."""
-        return self._series()
+        return self._given_series(self._record) if callable(self._given_series) else self._given_series
 
     def view(self, beside: Orbit | None = None) -> FlightWidget:
         """Return the flight in motion, for a cell of a notebook; needs the extra ``notebook``.
@@ -323,4 +342,4 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     """
     dataset = load_dataset(path)
     record, inputs = parse_attributes(dataset.attrs, path)
-    return Orbit(_summary(record), inputs, lambda: record, lambda: dataset)
+    return Orbit(_summary(record), inputs, record, dataset)

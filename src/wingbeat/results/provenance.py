@@ -98,6 +98,12 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
     )
 
 
+def own_functions(inputs: dict[str, Any]) -> list[str]:
+    """Return the names of what no file can bring back: objective and quantities of the user's own."""
+    names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
+    return [name for name in names if name.startswith(_OWN)]
+
+
 def species_from(inputs: dict[str, Any]) -> Species:
     """Set up the species of what `inputs_of` described; its reasons and alternatives are not in it.
 

@@ -15,12 +15,14 @@ from wingbeat.cli.options import (
     BlendWidth,
     Extension,
     ForcePoint,
+    Output,
     Settings,
     Strips,
     Whole,
     aero_with,
     check_files,
     check_outputs,
+    check_result,
     species_with,
 )
 from wingbeat.cli.progress import progress_bar
@@ -58,9 +60,7 @@ def curve(
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Write every optimum to this NetCDF file.")
-    ] = None,
+    output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw power and frequency: .png, .pdf or .svg.")] = None,
 ) -> int:
     """Find the power and frequency curves along speed, their branches and their characteristic speeds.
@@ -72,6 +72,7 @@ def curve(
     wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc
     """
     faults = FaultList()
+    check_result(faults, output)
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
     row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))

@@ -16,12 +16,14 @@ from wingbeat.cli.options import (
     BlendWidth,
     Extension,
     ForcePoint,
+    Output,
     Payload,
     Settings,
     Strips,
     aero_with,
     check_files,
     check_outputs,
+    check_result,
     species_with,
 )
 from wingbeat.cli.ranges import parse_range
@@ -51,9 +53,7 @@ def glide(
     set_: Settings = None,
     payload: Payload = 0.0,
     json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Write the polar to this NetCDF file.")
-    ] = None,
+    output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
 ) -> int:
     """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
@@ -64,6 +64,7 @@ def glide(
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
     """
     faults = FaultList()
+    check_result(faults, output)
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
     angles = parse_range(alpha, "--alpha")

@@ -15,6 +15,7 @@ from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.files import writing
+from wingbeat.results.saving import check_result_name
 from wingbeat.species import Species, load_species, parse_setting
 
 
@@ -104,6 +105,20 @@ def unpacking(path: Path) -> Iterator[None]:
 
 class _Enough(Exception):
     """A path can be written; there is nothing to write yet."""
+
+
+Output = Annotated[
+    Path | None,
+    Parameter(
+        name=["--output", "-o"], help="Write the result: .nc for `show`, `plot`, `view`; .csv; .mat for MATLAB."
+    ),
+]
+
+
+def check_result(faults: FaultList, output: Path | None) -> None:
+    """Note an output that is no file of a result."""
+    if output is not None:
+        check_result_name(faults, "--output", output)
 
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:

@@ -25,6 +25,7 @@ from wingbeat.cli.options import (
     BlendWidth,
     Extension,
     ForcePoint,
+    Output,
     Payload,
     Settings,
     Strips,
@@ -33,6 +34,7 @@ from wingbeat.cli.options import (
     aero_with,
     check_files,
     check_outputs,
+    check_result,
     fit_of,
     given_beside,
     species_with,
@@ -102,9 +104,7 @@ def orbit(
         bool, Parameter(negative="", help="Say what the power is made of, what braking costs, what a spring saves.")
     ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
-    ] = None,
+    output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
     sensitivities: Annotated[
         bool, Parameter(negative="", help="Say what the answer hangs on, what bounds cost, and how sure it is.")
@@ -125,6 +125,7 @@ def orbit(
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
+    check_result(faults, output)
     check_files(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")

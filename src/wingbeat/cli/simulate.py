@@ -19,12 +19,14 @@ from wingbeat.cli.options import (
     BlendWidth,
     Extension,
     ForcePoint,
+    Output,
     Settings,
     Strips,
     Whole,
     aero_with,
     check_files,
     check_outputs,
+    check_result,
     given_beside,
     species_with,
     unpacking,
@@ -65,9 +67,7 @@ def simulate(
         Parameter(name="--from", help="Take wingbeat, vehicle, air loads and start from this orbit."),
     ] = None,
     json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Write the time series to this NetCDF file.")
-    ] = None,
+    output: Output = None,
 ) -> int:
     """Fly an initial state for some wingbeats with the wings prescribed.
 
@@ -83,6 +83,7 @@ def simulate(
         faults.add("SPECIES", None, "is missing", fix)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
+    check_result(faults, output)
     check_files(faults, output, plot_kinematics=plot_kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")

@@ -25,7 +25,8 @@ from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
-from wingbeat.results.storage import KIND, inputs_hash, load_dataset, save_dataset
+from wingbeat.results.saving import save_result
+from wingbeat.results.storage import KIND, inputs_hash, load_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -106,13 +107,14 @@ class Curve:
         return finite_or_none(record)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the dataset to a NetCDF-4 file, whole or not at all.
+        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
 
         Raises
         ------
+        InvalidInputError : another suffix.
         FileError : the file cannot be written.
         """
-        save_dataset(self._dataset, path)
+        save_result(self._dataset, path)
 
 
 _JSON = ("vehicle", "aero", "air", "constraints", "marks", "warnings", "inputs")

@@ -16,7 +16,8 @@ from wingbeat.flights import fly_beats
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, State, check_state
 from wingbeat.results.dataset import evaluate, flight_dataset
-from wingbeat.results.storage import KIND, save_dataset
+from wingbeat.results.saving import save_result
+from wingbeat.results.storage import KIND
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,13 +51,14 @@ class Flight:
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the dataset to a NetCDF-4 file, whole or not at all.
+        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
 
         Raises
         ------
+        InvalidInputError : another suffix.
         FileError : the file cannot be written.
         """
-        save_dataset(self.dataset, path)
+        save_result(self.dataset, path)
 
 
 def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128) -> Flight:

@@ -19,7 +19,8 @@ from wingbeat.glide import TRIMS, Glide, GlideSolver
 from wingbeat.model import flight_model
 from wingbeat.nomenclature import Term
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
-from wingbeat.results.storage import KIND, save_dataset
+from wingbeat.results.saving import save_result
+from wingbeat.results.storage import KIND
 from wingbeat.species import Species
 
 if TYPE_CHECKING:
@@ -93,13 +94,14 @@ class GlidePolar:
         return xr.Dataset(variables, attrs=attributes).set_coords("angle_of_attack")
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the dataset to a NetCDF-4 file, whole or not at all.
+        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
 
         Raises
         ------
+        InvalidInputError : another suffix.
         FileError : the file cannot be written.
         """
-        save_dataset(self.dataset, path)
+        save_result(self.dataset, path)
 
 
 def glide_polar(

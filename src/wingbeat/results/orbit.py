@@ -27,7 +27,8 @@ from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, own_functions, problem_from
 from wingbeat.results.record import orbit_record
-from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes, save_dataset
+from wingbeat.results.saving import save_result
+from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -206,13 +207,14 @@ class Orbit:
         return FlightWidget([(label, orbit.dataset) for label, orbit in zip(labels, shown, strict=True)])
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write dataset and record to a NetCDF-4 file, whole or not at all.
+        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
 
         Raises
         ------
+        InvalidInputError : another suffix.
         FileError : the file cannot be written.
         """
-        save_dataset(self.dataset, path)
+        save_result(self.dataset, path)
 
 
 def solve_orbit(

@@ -117,6 +117,9 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
     FileError : missing, unreadable, truncated, or not NetCDF-4.
     """
     shown = repr(os.fspath(path))
+    if (suffix := os.path.splitext(os.fspath(path))[1].lower()) in (".csv", ".mat"):
+        fix = f"{suffix} is for other programs; save the result as .nc too"
+        raise FileError(f"cannot read {shown}: wingbeat reads results from .nc files; {fix}")
     try:
         # A pipe or a terminal would wait for ever.
         mode = os.stat(path).st_mode

@@ -15,6 +15,7 @@ from wingbeat.cores import core_count
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.results.columns import unit_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
@@ -24,7 +25,7 @@ from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
 from wingbeat.studies.store import Store
-from wingbeat.studies.table import frame_of, save_table, to_dataset, unit_of, varied_numbers
+from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from datetime import UTC, datetime
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FaultList, WingbeatError
 from wingbeat.files import write_atomically
-from wingbeat.orbits import parameters
-from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.results.columns import flat
 from wingbeat.studies.store import Row, Store
 
 if TYPE_CHECKING:
@@ -24,40 +23,14 @@ if TYPE_CHECKING:
 __all__ = [
     "SUFFIXES",
     "check_table_name",
-    "flat",
     "frame_of",
     "save_table",
     "to_dataset",
-    "unit_of",
     "varied_numbers",
 ]
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
-# Units of a record's numbers that nobody chooses, by the last part of their names.
-_UNITS = {"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s", "run_seconds": "s"}
-
-
-def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
-
-    Lists of anything else are JSON text.
-
-    >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
-    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
-    """
-    for key, value in record.items():
-        path = f"{before}{key}"
-        if isinstance(value, dict):
-            yield from flat(value, f"{path}.")
-        elif isinstance(value, list) and value and _numeric(value):
-            yield from flat({str(i): item for i, item in enumerate(value)}, f"{path}.")
-        else:
-            yield path, json.dumps(value) if isinstance(value, list) else value
-
-
-def _numeric(value: list[Any]) -> bool:
-    return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
 
 
 def frame_of(store: Store) -> pd.DataFrame:
@@ -189,24 +162,3 @@ def check_parquet() -> None:
             "Parquet needs pyarrow, which is not installed; run `pip install 'wingbeat[parquet]'`, or end the name "
             "in .nc or .csv"
         ) from None
-
-
-def unit_of(column: str) -> str:
-    """Return the unit of a column of numbers, ``1`` where it has none or nobody told.
-
-    >>> unit_of("wing.mass"), unit_of("mean_power"), unit_of("wingbeat.frequency"), unit_of("strouhal")
-    ('kg', 'W', 'Hz', '1')
-    """
-    parts = [part for part in column.split(".") if not part.isdigit()]
-    name = parts[-1]
-    if parts[0] in ("bounds", "limit"):
-        name = parts[1]
-    if name in QUANTITIES:
-        return QUANTITIES[name].unit
-    if name in ("x", "y", "z") and "shoulder" in parts:
-        return "m"
-    if name.endswith("_deg"):
-        return "deg"
-    if name.startswith("alpha_"):
-        return "rad"
-    return _UNITS.get(name) or parameters.unit_of(name)

@@ -1,0 +1,109 @@
+"""Nested records as flat columns: their dotted names, and the unit of each."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import InvalidInputError
+from wingbeat.orbits import parameters
+from wingbeat.orbits.quantities import QUANTITIES, named_objective, named_quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["cf_unit", "flat", "leaves", "result_unit", "unit_of"]
+
+# Units of a record's numbers that nobody chooses, by the last part of their names.
+_UNITS = {
+    **{"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s"},
+    **{"run_seconds": "s", "solve_seconds": "s"},
+}
+
+
+def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
+
+    Lists of anything else are JSON text.
+
+    >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
+    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
+    """
+    for path, value in leaves(record, before):
+        yield path, json.dumps(value) if isinstance(value, list) else value
+
+
+def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield what `flat` does, but lists of anything else as they are."""
+    for key, value in record.items():
+        path = f"{before}{key}"
+        if isinstance(value, dict):
+            yield from leaves(value, f"{path}.")
+        elif isinstance(value, list) and value and _numeric(value):
+            yield from leaves({str(i): item for i, item in enumerate(value)}, f"{path}.")
+        else:
+            yield path, value
+
+
+def _numeric(value: list[Any]) -> bool:
+    return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
+
+
+def unit_of(column: str) -> str:
+    """Return the unit of a column of numbers, ``1`` where it has none or nobody told.
+
+    >>> unit_of("wing.mass"), unit_of("mean_power"), unit_of("wingbeat.frequency"), unit_of("strouhal")
+    ('kg', 'W', 'Hz', '1')
+    """
+    parts = [part for part in column.split(".") if not part.isdigit()]
+    name = parts[-1]
+    if parts[0] in ("bounds", "limit"):
+        name = parts[1]
+    if name in QUANTITIES:
+        return QUANTITIES[name].unit
+    if name in ("x", "y", "z") and "shoulder" in parts:
+        return "m"
+    if name.endswith("_deg"):
+        return "deg"
+    if name.startswith("alpha_"):
+        return "rad"
+    return _UNITS.get(name) or parameters.unit_of(name)
+
+
+def cf_unit(unit: str) -> str:
+    """Return a unit as data sets write it, without a stroke.
+
+    >>> cf_unit("m/s2"), cf_unit("kg/m3"), cf_unit("N m"), cf_unit("1/deg")
+    ('m s-2', 'kg m-3', 'N m', 'deg-1')
+    """
+    above, *below = unit.split("/")
+    factors = [above] if above != "1" or not below else []
+    for part in " ".join(below).split():
+        base, power = re.fullmatch(r"(\D+)(\d*)", part).groups()  # type: ignore[union-attr]
+        factors.append(f"{base}-{power or 1}")
+    return " ".join(factors)
+
+
+def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
+    """Return the unit of a single value beside a data set's series, nothing where it is none that could have one.
+
+    Parameters
+    ----------
+    dataset, results : the data set, and what its attributes hold.
+    path, value : dotted name and value of one of the results.
+    """
+    head, last = path.partition(".")[0], path.rpartition(".")[2]
+    if isinstance(value, bool | str | dict | None) or (isinstance(value, list) and not (value and _numeric(value))):
+        return ""
+    if last in dataset.variables and "units" in dataset[last].attrs:
+        return dataset[last].attrs["units"]
+    try:
+        if path == "objective_value":
+            return cf_unit(named_objective(results["objective"]).unit)
+        if head == "constraints":
+            return cf_unit(named_quantity(re.split("[<>=]", path.partition(".")[2])[0]).unit)
+    except InvalidInputError:  # a function of the user's, whose unit no record holds
+        return ""
+    return cf_unit(unit_of(path))

@@ -1,0 +1,104 @@
+"""A result as a flat CSV table: units and single numbers in the head, behind ``#``, then a row a sample.
+
+The head can be skipped as comments: ``pandas.read_csv(file, comment="#")`` in Python, ``readtable(file,
+CommentStyle="#")`` in MATLAB, ``read.csv(file, comment.char = "#")`` in R.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import json
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from wingbeat.results.columns import leaves, result_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["csv_text"]
+
+# Along what each kind of result has a row.
+_ROWS = {"orbit": "phase", "flight": "phase", "curve": "speed", "glide": "angle_of_attack"}
+
+
+class _Column(NamedTuple):
+    name: str
+    unit: str
+    meaning: str
+    values: Any
+
+
+def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
+    """Return the text of a CSV file.
+
+    Parameters
+    ----------
+    dataset : an orbit's, a flight's, a curve's or a glide polar's.
+    results : what its attributes hold, as `results_of` says it.
+    """
+    kind = results["wingbeat_kind"]
+    along = _ROWS[kind]
+    columns = list(_columns(dataset, along))
+    out = io.StringIO()
+    out.write(f"# {kind} of wingbeat, SI units and radians; a row for each {along.replace('_', ' ')}\n")
+    out.write("#\n# results: name = value [unit]; values are JSON\n")
+    for path, value in _single_values(dataset, along, results):
+        out.write(f"# {path} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")
+    out.write("#\n# columns: name [unit] meaning\n")
+    for column in columns:
+        out.write(f"# {column.name}{_bracket(column.unit)} {column.meaning}".rstrip() + "\n")
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(column.name for column in columns)
+    table.writerows(zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True))
+    return out.getvalue()
+
+
+def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
+    """Yield the columns of each variable that has the rows' dimension, the rows' own coordinate first."""
+    for name in (along, *(name for name in dataset.variables if name != along)):
+        variable = dataset[name]
+        if along not in variable.dims:
+            continue
+        attributes, others = variable.attrs, [dim for dim in variable.dims if dim != along]
+        meaning, unit = attributes.get("long_name", ""), attributes.get("units", "")
+        moved = variable.transpose(along, *others).values
+        for at in itertools.product(*(range(dataset.sizes[dim]) for dim in others)):
+            ends = [_end(dataset, str(dim), i) for dim, i in zip(others, at, strict=True)]
+            own = "_".join([str(name), *(short for short, _ in ends if short)])
+            said = ", ".join(part for part in (meaning, *(long for _, long in ends)) if part)
+            yield _Column(own, unit, said, moved[(slice(None), *at)])
+
+
+def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
+    """Return what a column's name and its meaning say of one place along a dimension; places count from 1."""
+    if dim == "optimum":  # the best of each speed is what most readers want, so it has the plain name
+        return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
+    label = dataset[dim].values[index]
+    if isinstance(label, str):
+        return label.replace(" ", "_"), str(label)
+    return f"{dim}_{index + 1}", f"{dim} {label:.6g}"
+
+
+def _single_values(dataset: xr.Dataset, along: str, results: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield what has no row: results by their dotted names, then variables along other dimensions, whole."""
+    yield from leaves(results)
+    for name, variable in dataset.variables.items():
+        if along not in variable.dims and name != "optimum":
+            yield str(name), variable.values.tolist()
+
+
+def _bracket(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def _cell(value: Any) -> Any:
+    """Return what stands in a cell: a number with all its digits, a text in one line."""
+    if isinstance(value, float):
+        if math.isfinite(value):
+            return repr(value)
+        return "NaN" if math.isnan(value) else "Inf" if value > 0 else "-Inf"
+    return "; ".join(value.splitlines()) if isinstance(value, str) else value

@@ -1,0 +1,87 @@
+"""A result as a MATLAB file: each series a variable of its own shape; units, meanings and results in structs."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.results.columns import result_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["mat_bytes"]
+
+# What MATLAB takes as a name (`namelengthmax`).
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
+
+
+def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
+    """Return the content of a MATLAB file, version 5, which every MATLAB since 5 and Octave load.
+
+    Parameters
+    ----------
+    dataset : an orbit's, a flight's, a curve's or a glide polar's.
+    results : what its attributes hold, as `results_of` says it.
+    """
+    from scipy.io import savemat
+
+    variables = {str(name): variable for name, variable in dataset.variables.items()}
+    content: dict[str, Any] = {name: _array(variable.values) for name, variable in variables.items()}
+    for struct, attribute in (("units", "units"), ("meaning", "long_name")):
+        content[struct] = {name: v.attrs[attribute] for name, v in variables.items() if attribute in v.attrs}
+    content["dimensions"] = {name: _value(list(map(str, v.dims))) for name, v in variables.items()}
+    content["results"] = _value(results)
+    content["results_units"] = _value(_units(dataset, results, results, ""))
+    held = io.BytesIO()
+    savemat(held, content, long_field_names=True, do_compression=True, oned_as="column")
+    return held.getvalue()
+
+
+def _units(dataset: xr.Dataset, results: dict[str, Any], part: dict[str, Any], before: str) -> dict[str, Any]:
+    """Return the units of all numbers of a part of the results, by the same names."""
+    found: dict[str, Any] = {}
+    for key, value in part.items():
+        path = f"{before}{key}"
+        unit = result_unit(dataset, results, path, value)
+        if isinstance(value, dict):
+            found[key] = _units(dataset, results, value, f"{path}.")
+        elif unit:
+            found[key] = unit
+    return found
+
+
+def _array(values: np.ndarray) -> np.ndarray:
+    """Return numbers as doubles, which MATLAB computes with, and texts as a cell array."""
+    return values.astype(float) if values.dtype.kind in "biuf" else values.astype(object)
+
+
+def _value(value: Any) -> Any:
+    """Return one part of a record as MATLAB holds it; what has no value is NaN."""
+    if value is None:
+        return np.nan
+    if isinstance(value, dict):
+        if all(_NAME.fullmatch(key) for key in value):
+            return {key: _value(item) for key, item in value.items()}
+        # A limit such as "peak_power<=30" is no name of a field.
+        return _value([{"name": key, "value": item} for key, item in value.items()])
+    if isinstance(value, list):
+        return _listed(value)
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+def _listed(items: list[Any]) -> np.ndarray:
+    """Return a list as a matrix where it holds numbers, as a cell array otherwise."""
+    try:
+        numbers = np.array(items, dtype=float)
+        if not any(isinstance(item, str) for item in items):
+            return numbers
+    except (TypeError, ValueError):
+        pass
+    cells = np.empty(len(items), dtype=object)
+    for i, item in enumerate(items):
+        cells[i] = _value(item)
+    return cells

@@ -1,0 +1,83 @@
+"""Results written for wingbeat itself (.nc) and for other programs (.csv, .mat), by the suffix of the file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.errors import FaultList
+from wingbeat.files import write_atomically
+from wingbeat.results.storage import save_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["SUFFIXES", "check_result_name", "results_of", "save_result"]
+
+# Attributes of a dataset that are plain text; other texts are JSON.
+_TEXTS = (
+    *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),
+    *("inputs", "inputs_hash"),
+)
+
+
+def results_of(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return what the attributes of an orbit, a flight, a curve or a polar hold, as plain dictionaries and lists.
+
+    All inputs together stay one JSON text, enough to find the result again.
+    """
+    found = {}
+    for name, value in dataset.attrs.items():
+        value = value.item() if hasattr(value, "item") else value
+        found[name] = json.loads(value) if isinstance(value, str) and name not in _TEXTS else value
+    return found
+
+
+def _as_csv(dataset: xr.Dataset) -> bytes:
+    from wingbeat.results.csv_table import csv_text
+
+    return csv_text(dataset, results_of(dataset)).encode()
+
+
+def _as_mat(dataset: xr.Dataset) -> bytes:
+    from wingbeat.results.mat_file import mat_bytes
+
+    return mat_bytes(dataset, results_of(dataset))
+
+
+_WRITERS: dict[str, Callable[[xr.Dataset], bytes]] = {".csv": _as_csv, ".mat": _as_mat}
+SUFFIXES = (".nc", *_WRITERS)
+
+
+def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
+    """Note a fault unless a name ends like a file that a result can be written to."""
+    if _suffix(path) not in SUFFIXES:
+        fix = "end it in .nc (NetCDF, which wingbeat reads again), .csv or .mat"
+        faults.add(where, os.fspath(path), "is no kind of file that a result can be written to", fix)
+
+
+def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
+    """Write a result as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat), whole or not at all.
+
+    Only the first can be read again by wingbeat; all three hold every number, with its unit.
+
+    Raises
+    ------
+    InvalidInputError : another suffix.
+    FileError : the file cannot be written.
+    """
+    faults = FaultList()
+    check_result_name(faults, "path", path)
+    faults.raise_if_any()
+    write = _WRITERS.get(_suffix(path))
+    if write is None:
+        save_dataset(dataset, path)
+    else:
+        write_atomically(path, write(dataset))
+
+
+def _suffix(path: str | PathLike[str]) -> str:
+    return os.path.splitext(os.fspath(path))[1].lower()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat.aero.blade_element import BladeElement
+from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.dynamics import BodyLoads, accelerations, body_drag, wing_loads
 from wingbeat.errors import FaultList
 from wingbeat.frames import from_world
@@ -53,10 +53,27 @@ class FlightModel:
     at_centre_of_pressure: bool
 
 
-def flight_model(vehicle: Vehicle, aero: BladeElement, air: Air | None = None) -> FlightModel:
-    """Join a vehicle, its air loads and the air into a flight model."""
-    at_centre = aero.force_point == "centre-of-pressure"
-    return FlightModel(vehicle, air or Air(), aero.coefficients.kernel(), aero.strips, at_centre)
+def flight_model(vehicle: Vehicle, aero: Any, air: Air | None = None) -> FlightModel:
+    """Join a vehicle, its air loads and the air into a flight model.
+
+    Parameters
+    ----------
+    vehicle : body and wings.
+    aero : a `BladeElement`, or a coefficient model, its name, the path of its file, or a function of the angle of
+        attack [rad] that returns (C_L, C_D).
+    air : standard air if not given.
+
+    Raises
+    ------
+    InvalidInputError, FileError : an `aero` that is none of these.
+
+    >>> from wingbeat.species import load_species
+    >>> flight_model(load_species("pigeon").vehicle, "dickinson").strips
+    10
+    """
+    loads = blade_element_of(aero)
+    at_centre = loads.force_point == "centre-of-pressure"
+    return FlightModel(vehicle, air or Air(), loads.coefficients.kernel(), loads.strips, at_centre)
 
 
 def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int = 1) -> WingMotion:

@@ -104,13 +104,15 @@ OUTPUTS = {
     "-o folder": "cannot write 'folder': it is a folder; give the path of a file",
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
+    "-o kept.png": "--output = 'kept.png': is no kind of file that a result can be written to; end it in .nc",
+    "-o orbit": "--output = 'orbit': is no kind of file that a result can be written to|.csv or .mat",
 }
 FIGURES = {
     "--plot page.txt": "--plot = 'page.txt': is no kind of figure; end it in .png, .pdf, .svg",
     "--plot page": "--plot = 'page': is no kind of figure",
     "--plot missing/page.png": "cannot write 'missing/page.png': no such file or directory",
     "--plot kept.png/page.png": "cannot write 'kept.png/page.png': not a directory",
-    "--plot kept.png -o ./kept.png": "--plot = 'kept.png': is the file of --output too; give each its own",
+    "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is the file of --plot too; give each its own",
 }
 FLIGHTS = {
     "--beats 0": ["beats = 0: must be a whole number from 1 to 10000"],

@@ -10,8 +10,9 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from wingbeat.aero.choosing import coefficients_of
 from wingbeat.elementary import atan2
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.jax64 import jnp
 from wingbeat.slopes import by_slopes
 
@@ -24,14 +25,16 @@ class BladeElement:
 
     Parameters
     ----------
-    coefficients : a coefficient model such as `SuFan()`.
+    coefficients : a coefficient model such as `SuFan()`, its name, the path of its file, or a function of the angle
+        of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
     force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, or a centre of
-        pressure asked of a model that has none.
+        pressure asked of a model that has none; what `coefficients_of` refuses.
+    FileError : the file of a model is missing or cannot be read.
     """
 
     coefficients: Any
@@ -40,8 +43,10 @@ class BladeElement:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        if not hasattr(self.coefficients, "kernel"):
-            faults.add("aero.coefficients", self.coefficients, "is not a coefficient model", "try SuFan()")
+        try:
+            object.__setattr__(self, "coefficients", coefficients_of(self.coefficients))
+        except InvalidInputError as error:
+            faults.faults.extend(error.faults)
         if isinstance(self.strips, bool) or not isinstance(self.strips, int) or not 1 <= self.strips <= 1000:
             faults.add("aero.strips", self.strips, "must be a whole number from 1 to 1000", "the paper has 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
@@ -54,6 +59,15 @@ class BladeElement:
                 "use quarter-chord, or a model that has one",
             )
         faults.raise_if_any()
+
+
+def blade_element_of(aero: Any) -> BladeElement:
+    """Return the air loads that are meant by ``aero``: a `BladeElement`, or what `coefficients_of` takes.
+
+    >>> blade_element_of("dickinson").strips
+    10
+    """
+    return aero if isinstance(aero, BladeElement) else BladeElement(aero)
 
 
 class StripForces(NamedTuple):

@@ -15,6 +15,7 @@ from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.files import writing
+from wingbeat.results.provenance import NotInFileError
 from wingbeat.results.saving import check_result_name
 from wingbeat.species import Species, load_species, parse_setting
 
@@ -96,6 +97,8 @@ def unpacking(path: Path) -> Iterator[None]:
     """Turn whatever goes wrong while the orbit in the file at `path` is set up again into a `FileError`."""
     try:
         yield
+    except NotInFileError as error:
+        raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error}, in Python") from None
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         reason = f"{type(error).__name__}: {error}".split("\n")[0]
         raise FileError(
@@ -116,8 +119,8 @@ Output = Annotated[
 
 
 def check_result(faults: FaultList, output: Path | None) -> None:
-    """Note an output that is no file of a result."""
-    if output is not None:
+    """Note an output that is no file of a result; what `check_outputs` cannot write to, it refuses itself."""
+    if output is not None and (output.is_file() or not output.exists()):
         check_result_name(faults, "--output", output)
 
 

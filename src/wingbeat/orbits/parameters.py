@@ -165,7 +165,7 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
         for name, value in vars(terms).items():
             if value is not None:
                 yield _made(f"aero.{curve}.{name}", value, (*place, field, name))
-    if hasattr(coefficients, "blend_width_deg"):
+    if getattr(coefficients, "blend_width_deg", None) is not None:  # a function has no blends
         yield _made("aero.blend_width_deg", coefficients.blend_width_deg, (*place, "blend_width_deg"))
 
 

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.aero import BladeElement, SuFan
+from wingbeat.aero import SuFan
+from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
@@ -56,7 +57,8 @@ class OrbitProblem:
     species : a `Species` from `load_species`; gives vehicle, stock wingbeat, air, free parameters and bounds.
     speed : mean horizontal velocity [m/s], 0 for hover.
     climb : mean vertical velocity, up positive [m/s].
-    aero : a coefficient model such as `SuFan()`, or a `BladeElement` that also sets strips and force point.
+    aero : a `BladeElement`, which also sets strips and force point; or a coefficient model such as `SuFan()`, its
+        name, the path of its file, or a JAX function of the angle of attack [rad] that returns (C_L, C_D).
     free : names of the wingbeat parameters that are free; the species' own if not given.
     bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
         flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names.
@@ -106,7 +108,7 @@ class OrbitProblem:
         faults.raise_if_any()
         self._check_asked(faults)
         faults.raise_if_any()
-        aero = self.aero if isinstance(self.aero, BladeElement) else BladeElement(self.aero)
+        aero = blade_element_of(self.aero)
         faults.faults.extend(check_quantities(self._quantities(), aero.strips))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)

@@ -14,6 +14,7 @@ import numpy as np
 
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
+from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList
 from wingbeat.glide import TRIMS, Glide, GlideSolver
 from wingbeat.model import flight_model
@@ -120,7 +121,7 @@ def glide_polar(
     Parameters
     ----------
     species : gives vehicle, twist, air, and the range of body pitch.
-    aero : a coefficient model or a `BladeElement`, `SuFan()` if not given.
+    aero : as in `OrbitProblem`, `SuFan()` if not given.
     angles_of_attack : of the chord at the root, were the wing not flapped [rad]; 1 to 30 degrees if not given.
     flap : flap angle at which the wings are held [rad].
     trim : what is turned until the moment vanishes: ``"body-pitch"`` under wings that keep their angle of attack,
@@ -149,7 +150,7 @@ def glide_polar(
     faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
-    loads = aero if isinstance(aero, BladeElement) else BladeElement(aero or SuFan())
+    loads = blade_element_of(SuFan() if aero is None else aero)
     model = flight_model(species.vehicle, loads, species.air)
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)

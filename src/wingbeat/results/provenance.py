@@ -27,8 +27,13 @@ from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
 # Before the name of a function of the user's.
 _OWN = "the user's own"
+_ANEW = "is not in the file; set the problem up with it anew"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
+
+
+class NotInFileError(ValueError):
+    """Inputs name a function of the user's, which no file holds."""
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
@@ -99,9 +104,10 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
 
 
 def own_functions(inputs: dict[str, Any]) -> list[str]:
-    """Return the names of what no file can bring back: objective and quantities of the user's own."""
+    """Return the names of what no file can bring back: objective, quantities and coefficients of the user's own."""
     names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
-    return [name for name in names if name.startswith(_OWN)]
+    own = [name for name in names if name.startswith(_OWN)]
+    return [*own, inputs["aero"]["coefficients"]] if "function" in inputs["aero"] else own
 
 
 def species_from(inputs: dict[str, Any]) -> Species:
@@ -158,6 +164,8 @@ def _in_the_box(coefficients: FormulaCoefficients) -> bool:
 
 def _coefficients(aero: dict[str, Any]) -> Any:
     how = {"extension": aero["extension"], "blend_width_deg": aero["blend_width_deg"]}
+    if "function" in aero:
+        raise NotInFileError(f"{_OWN} function {aero['coefficients']!r} {_ANEW}")
     if "table" in aero:
         return TableCoefficients(**_tuples(aero["table"]), **how)
     if "formula" not in aero:
@@ -189,7 +197,7 @@ def _asked_for(quantity: Frequency | Quantity) -> str:
 
 def _brought_back(find: Callable[[str], Any], name: str) -> Any:
     if name.startswith(_OWN):
-        raise ValueError(f"{name!r} is not in the file; set the problem up with it anew")
+        raise NotInFileError(f"{name!r} {_ANEW}")
     try:
         return find(name)
     except InvalidInputError as error:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._version import __version__
-from wingbeat.aero import BladeElement
+from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import State
 from wingbeat.orbits.beat import Beat
@@ -32,13 +32,15 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
 
 
 def aero_record(aero: BladeElement) -> dict[str, Any]:
-    """Return what makes the air loads."""
+    """Return what makes the air loads; of a function of the user's, a digest of what it computes."""
+    own = isinstance(aero.coefficients, FunctionCoefficients)
     return {
         "coefficients": aero.coefficients.name,
         "extension": aero.coefficients.extension,
         "blend_width_deg": aero.coefficients.blend_width_deg,
         "strips": aero.strips,
         "force_point": aero.force_point,
+        **({"function": f"the user's own, {aero.coefficients.program.digest[:16]}"} if own else {}),
     }
 
 

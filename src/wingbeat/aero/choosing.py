@@ -1,0 +1,82 @@
+"""What may be given for coefficients: a model, its name, the path of its file, or a function."""
+
+from __future__ import annotations
+
+import difflib
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.function import FunctionCoefficients
+from wingbeat.aero.library import LIBRARY
+from wingbeat.aero.model_file import load_model
+from wingbeat.aero.table import load_table
+from wingbeat.errors import FaultList
+
+
+def coefficients_of(given: Any) -> CoefficientModel:
+    """Return the coefficient model that is meant wherever ``aero`` is asked for.
+
+    Parameters
+    ----------
+    given : a coefficient model; a name in `LIBRARY`; the path of a table (.csv) or of a fitted model (.toml); or a
+        JAX function of the angle of attack [rad] that returns (C_L, C_D), see `FunctionCoefficients`.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : an unknown name, a function that will not do, or anything else.
+
+    >>> coefficients_of("dickinson").name, coefficients_of(LIBRARY["su-fan"]()).name
+    ('dickinson', 'su-fan')
+    """
+    if isinstance(given, str | PathLike):
+        return load_coefficients(Path(given) if isinstance(given, PathLike) else given)
+    faults = FaultList()
+    if isinstance(given, type) or any(given is maker for maker in LIBRARY.values()):
+        name = getattr(given, "__name__", "?")
+        faults.add("aero.coefficients", name, "makes coefficient models and is none", f"call it: {name}()")
+    elif hasattr(given, "kernel"):
+        return given
+    elif callable(given):
+        return FunctionCoefficients(given)
+    else:
+        fix = "give SuFan(), a name such as su-fan, the path of a model file, or a function alpha -> (C_L, C_D)"
+        faults.add("aero.coefficients", given, "is not a coefficient model", fix)
+    faults.raise_if_any()
+    raise AssertionError("a fault was noted")
+
+
+def load_coefficients(
+    name_or_path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
+) -> CoefficientModel:
+    """Return a coefficient model by its name in `LIBRARY`, or from a file: a table .csv, a fit .toml.
+
+    Parameters
+    ----------
+    name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv) or of a fitted model (.toml).
+    extension : how the coefficients reach every angle, one of `EXTENSIONS`.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : an unknown name, or what the model's constructor refuses.
+
+    >>> load_coefficients("su-fan").name
+    'su-fan'
+    """
+    name = str(name_or_path)
+    if name.lower().endswith(".csv"):
+        return load_table(name, extension, blend_width_deg)
+    if name.lower().endswith(".toml"):
+        return load_model(name, extension, blend_width_deg)
+    if name not in LIBRARY:
+        close = difflib.get_close_matches(name.lower(), LIBRARY, n=2, cutoff=0.5)
+        guess = f"did you mean {' or '.join(close)}? " if close else ""
+        faults = FaultList()
+        fix = f"{guess}The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
+        faults.add("coefficients", name, "is not a known coefficient model", fix)
+        faults.raise_if_any()
+    return LIBRARY[name](extension, blend_width_deg)

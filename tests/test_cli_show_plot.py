@@ -79,7 +79,8 @@ def test_show_prints_the_record(files, orbit, capsys):
     assert told.err == ""
     record = orbit.record()
     lines = told.out.splitlines()
-    assert lines[0].startswith("certified: re-flown, it closes to")
+    assert re.fullmatch(r"certified: closes to \de-\d\d", lines[0].rstrip())
+    assert lines[1].startswith("plausible: ")
     assert max(map(len, lines)) <= 80
     assert "\x1b" not in told.out
     mass = record["vehicle"]["body"]["mass"] + 2 * record["vehicle"]["wing"]["mass"]
@@ -142,7 +143,12 @@ def _printed(record, width=80, **options):
 def test_status_is_green_or_red_on_a_terminal(orbit):
     terminal = {"force_terminal": True, "color_system": "standard", "no_color": False}
     good = _printed(orbit.record(), **terminal).export_text(styles=True)
-    assert good.startswith("\x1b[1;32mcertified\x1b[0m: re-flown")
+    assert good.startswith("\x1b[1mcertified\x1b[0m: closes to ")  # not green: the amplitude is no bird's
+    assert "\x1b[1;33mplausible\x1b[0m: no: " in good
+    judged = [one | {"within": True} for one in orbit.record()["plausibility"]]
+    both = _printed(orbit.record() | {"plausibility": judged}, **terminal).export_text(styles=True)
+    assert both.startswith("\x1b[1;32mcertified\x1b[0m: closes to ")
+    assert "\x1b[1;32mplausible\x1b[0m: yes" in both
     lost = orbit.record() | {"status": "infeasible", "message": "no orbit", "stable": None}
     bad = _printed(lost, **terminal).export_text(styles=True)
     assert bad.startswith("\x1b[1;31mnot certified, infeasible\x1b[0m")

@@ -82,7 +82,10 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int
 
 
 @by_slopes
-def _loads(model_and_motion: tuple[FlightModel, WingMotion], forward: Any, up: Any, pitch_rate: Any) -> BodyLoads:
+def air_loads(
+    model_and_motion: tuple[FlightModel, WingMotion], forward: Any, up: Any, pitch_rate: Any
+) -> BodyLoads:
+    """Return the air loads on the whole vehicle in stroke axes; `forward` and `up` are its velocity there."""
     model, motion = model_and_motion
     wings = wing_loads(
         model.kernel, model.air.density, motion, (forward, up), pitch_rate, model.at_centre_of_pressure
@@ -96,7 +99,7 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     # The air feels the pitch state in three ways only, so three derivatives of the loads serve all four.
-    loads = _loads((model, motion), *from_world(attitude, u, w), pitch_rate)
+    loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
     ax, az, pitch_acceleration = accelerations(
         model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate
     )

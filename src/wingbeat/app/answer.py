@@ -8,6 +8,7 @@ from typing import Any
 
 from wingbeat.app.widgets import Rows, box, button, tag
 from wingbeat.app.words import number, tiles
+from wingbeat.results.plausibility import statements
 
 __all__ = ["Answer", "Headline", "Influence"]
 
@@ -21,6 +22,7 @@ class Headline:
         with self._place:
             with tag("div", classes="verdict"):
                 self._badge = tag("p", "Not solved yet", "badge none")
+                self._plausible = tag("p", "", "badge hidden")
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
                 tag("p", "This is the answer to an earlier question.", "earlier")
@@ -29,9 +31,13 @@ class Headline:
     def show(self, answer: dict[str, Any]) -> None:
         """Show the numbers of an answer."""
         record = answer["record"]
-        good = record["status"] == "converged"
-        self._badge.set_text("Certified" if good else f"Not certified: {record['status']}")
-        self._badge.classes(remove="none good bad", add="good" if good else "bad")
+        certified, said = record["status"] == "converged", statements(record)
+        self._badge.set_text(f"Certified: {said.closes}" if certified else f"Not certified: {record['status']}")
+        self._badge.classes(remove="none good bad", add="good" if said.good else "none" if certified else "bad")
+        self._plausible.set_text(f"{said.plausible[:1].upper()}{said.plausible[1:]}" if certified else "")
+        self._plausible.classes(remove="good bad hidden", add="good" if said.good else "bad")
+        if not certified:
+            self._plausible.classes("hidden")
         climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
         aero = record["aero"]["coefficients"]
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
@@ -53,7 +59,8 @@ class Headline:
 
 
 def _message(answer: dict[str, Any]) -> str:
-    parts = [str(answer["record"]["message"]).removeprefix("certified: ")]
+    # Of a certified orbit the two statements say it already.
+    parts = [] if answer["record"]["status"] == "converged" else [str(answer["record"]["message"])]
     if answer.get("from_file"):
         parts.append(f"As the file {answer['from_file']} says; not solved here.")
     elif answer.get("continued"):
@@ -62,7 +69,7 @@ def _message(answer: dict[str, Any]) -> str:
         better = number(answer["continued_better"])
         parts.append(f"Continued from its neighbour a better one is known: {better}. More starts may meet it.")
     text = ". ".join(part.rstrip(".") for part in parts if part)
-    return f"{text[:1].upper()}{text[1:]}."
+    return f"{text[:1].upper()}{text[1:]}." if text else ""
 
 
 class Answer:
@@ -97,7 +104,7 @@ class Answer:
 
 
 class Influence:
-    """What the answer hangs on: error bars, what matters most, what bounds cost."""
+    """What the answer depends on: a ranking of the numbers, and what bounds cost."""
 
     def __init__(self, ask: Callable[[], Any]) -> None:
         with box("section", "What it hangs on", "influence"):
@@ -122,17 +129,16 @@ class Influence:
         self._place.clear()
         with self._place:
             with tag("ul", classes="plain"):
-                for bar in found["bars"]:
-                    unit = "" if bar["unit"] == "1" else f" {bar['unit']}"
-                    what = str(bar["quantity"]).replace("_", " ")
-                    tag(
-                        "li", f"{what} {number(bar['value'])} ± {number(bar['deviation'], 2)}{unit}, to first order"
-                    )
+                for one in found["rankings"]:
+                    tag("li", _ranking(one))
             with (
                 tag("div", classes="scroll", tabindex="0", role="region", aria_label="Sensitivities"),
                 tag("table"),
             ):
-                tag("caption", "Change to the low and the high end of each plausible range, the largest first")
+                tag(
+                    "caption",
+                    "Change to the low and the high end of each plausible range, by a straight line: a ranking",
+                )
                 with tag("thead"), tag("tr"):
                     tag("th", "Number", scope="col")
                     tag("th", "Plausible", scope="col")
@@ -147,6 +153,14 @@ class Influence:
                     tag("li", _price(price, found["units"]))
                 if not found["prices"]:
                     tag("li", "No bound is active.")
+
+
+def _ranking(one: dict[str, Any]) -> str:
+    """Return what a quantity depends on most; a straight line over whole ranges makes no error bar."""
+    unit = "" if one["unit"] == "1" else f" {one['unit']}"
+    parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(one["ranking"].items())[:3])
+    due = f"depends most on {parts} of the variance, to first order" if parts else "no plausible ranges are known"
+    return f"{str(one['quantity']).replace('_', ' ')} {number(one['value'])}{unit}: {due}"
 
 
 def _ranked(one: dict[str, Any], names: list[str]) -> None:

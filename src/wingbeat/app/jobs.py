@@ -137,10 +137,10 @@ def _scene(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
 
 
 def _influence(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
-    """Return error bars, what matters most, and what the active bounds cost."""
+    """Return what each quantity depends on most, and what the active bounds cost."""
     orbit = orbit_again(what["of"])
     found = sensitivities(orbit)
-    bars = [found.error_bar(name)._asdict() for name in found.values]
+    rankings = [found.error_bar(name).ranked() for name in found.values]
     first = next(iter(found.values))
     ranked = [
         {
@@ -155,7 +155,7 @@ def _influence(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
         {"path": p.parameter.path, "unit": p.parameter.unit, "size": p.parameter.size, "by": p.quantities}
         for p in found.prices
     ]
-    return {"values": found.values, "units": found.units, "bars": bars, "ranked": ranked, "prices": prices}
+    return {"values": found.values, "units": found.units, "rankings": rankings, "ranked": ranked, "prices": prices}
 
 
 def _file(what: dict[str, Any], hand: Hand) -> dict[str, Any]:

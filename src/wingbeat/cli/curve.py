@@ -19,6 +19,7 @@ from wingbeat.cli.options import (
     Settings,
     Strips,
     Whole,
+    WithinPlausible,
     aero_with,
     check_files,
     check_outputs,
@@ -45,6 +46,7 @@ def curve(
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
     force_point: ForcePoint = "quarter-chord",
+    within_plausible: WithinPlausible = False,
     strips: Strips = 10,
     minimise: Annotated[
         str, Parameter(help="What to make least at each speed: frequency, positive-power, power, peak-power, ...")
@@ -81,6 +83,7 @@ def curve(
         speed=row[-1] if row else 0.0,
         climb=climb,
         aero=aero_with(aero, extension, blend_width_deg, strips, force_point),
+        bounds="plausible" if within_plausible else {},
         minimise=minimise,
         subject_to=subject_to or (),
     )

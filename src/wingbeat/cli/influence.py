@@ -17,14 +17,15 @@ _NAMED = 3
 
 
 def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console) -> None:
-    """Print error bars, the parameters that matter most, and what the active bounds cost."""
+    """Print what each quantity depends on most, the parameters, and what the active bounds cost."""
     from rich.table import Table
     from rich.text import Text
 
     console.print()
-    console.print(Text("how sure, to first order, every plausible range as likely all along it", style="bold"))
+    console.print(Text("what matters most: a ranking to first order, no error bar", style="bold"))
     for bar in bars:
-        console.print(Text(f"  {in_words(bar)}"))
+        console.print(Text(f"  {ranked_in_words(bar)}"))
+    console.print(Text("  `wingbeat uncertainty` draws the numbers anew, which an error bar needs"))
     names = list(found.values)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column("  parameter", no_wrap=True)
@@ -37,7 +38,8 @@ def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console
         swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
         table.add_row(Text(f"  {parameter.path}"), plausible, *swings)
     console.print()
-    console.print(Text("what it hangs on most: change to the low and to the high end", style="bold"))
+    heading = "change to the low and to the high end of each range, by a straight line: a ranking"
+    console.print(Text(heading, style="bold"))
     console.print(table)
     console.print()
     console.print(Text("what the active bounds cost", style="bold"))
@@ -45,6 +47,14 @@ def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console
         console.print(Text(f"  {price_in_words(price, found)}"))
     if not found.prices:
         console.print(Text("  none is active"))
+
+
+def ranked_in_words(bar: ErrorBar) -> str:
+    """Return what a quantity depends on most, without an error bar."""
+    unit = "" if bar.unit == "1" else f" {bar.unit}"
+    parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
+    due = f"depends most on {parts} of the variance" if parts else "no plausible ranges are known"
+    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g}{unit}: {due}"
 
 
 def in_words(bar: ErrorBar) -> str:

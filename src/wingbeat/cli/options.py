@@ -48,6 +48,10 @@ Extension = Annotated[
     Parameter(help="How angles beyond the fit are reached: mirrored, signed-drag, signed, clipped-drag."),
 ]
 BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
+WithinPlausible = Annotated[
+    bool,
+    Parameter(negative="", help="Search inside the plausible ranges of the species file: bounds, powers, forces."),
+]
 Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
 WingsMayCross = Annotated[
     bool,

@@ -31,6 +31,7 @@ from wingbeat.cli.options import (
     Strips,
     Whole,
     WingsMayCross,
+    WithinPlausible,
     aero_with,
     check_files,
     check_outputs,
@@ -69,6 +70,7 @@ def orbit(
     flap_amplitude_max: Annotated[
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
+    within_plausible: WithinPlausible = False,
     strips: Strips = 10,
     minimise: Annotated[
         str | None,
@@ -107,7 +109,7 @@ def orbit(
     output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
     sensitivities: Annotated[
-        bool, Parameter(negative="", help="Say what the answer hangs on, what bounds cost, and how sure it is.")
+        bool, Parameter(negative="", help="Say what the answer depends on most, and what bounds cost.")
     ] = False,
     tornado: Annotated[
         Path | None, Parameter(help="Draw what every plausible range can change: .png, .pdf or .svg.")
@@ -129,6 +131,9 @@ def orbit(
     check_files(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
+    if within_plausible and kinematics is not None:
+        fix = "leave out one of the two"
+        faults.add("--within-plausible", str(kinematics), "meets a film, which holds the wingbeat", fix)
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
     if from_ is None and speed is None:
@@ -143,9 +148,12 @@ def orbit(
         assert species is not None
         assert speed is not None
         animal = species_with(species, set_, payload)
-        bounds = _amplitude_bounds(animal, flap_amplitude_max)
+        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), list(subject_to or ())
+        if within_plausible and bounds:
+            limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
-        asked: dict[str, Any] = {"climb": climb, "aero": loads, "bounds": bounds, "subject_to": subject_to or ()}
+        asked: dict[str, Any] = {"climb": climb, "aero": loads, "subject_to": limits}
+        asked["bounds"] = "plausible" if within_plausible else bounds
         if wings_may_cross:
             asked["wings_may_cross"] = True
         if minimise is not None:
@@ -172,7 +180,7 @@ def orbit(
     if certified and (sensitivities or tornado):
         influence, bars = _influence(found, aero, tornado)
     if influence and sensitivities:
-        record |= {"sensitivities": influence.table(), "error_bars": [bar._asdict() for bar in bars]}
+        record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
     if power:
         record["power_account"] = power_account(found.dataset)
     if json:

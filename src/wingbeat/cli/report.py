@@ -11,6 +11,7 @@ import numpy as np
 
 from wingbeat.cli.power_report import power_groups
 from wingbeat.errors import FileError
+from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import Rows, orbit_groups, power_rows, state_rows, wingbeat_rows
 from wingbeat.results.storage import KIND, load_dataset
 
@@ -38,13 +39,15 @@ def read_result(path: str | PathLike[str]) -> xr.Dataset:
 
 
 def print_orbit(record: dict[str, Any], console: Console) -> None:
-    """Print an orbit record: its status first, then every group of numbers the record holds, then warnings."""
-    certified = record.get("status") == "converged"
-    message = str(record.get("message", ""))
-    # "certified" stands in front already, as the status.
-    _print_status(
-        "certified" if certified else f"not certified, {record.get('status')}", certified, message, console
-    )
+    """Print an orbit record: how it closes, whether it is plausible, every group of numbers it holds, warnings."""
+    if record.get("status") == "converged":
+        said = statements(record)
+        # The green word stands where both statements hold; each is its own.
+        _print_status("certified", "green" if said.good else "", said.closes, console)
+        _print_status("plausible", "green" if said.good else "yellow", said.plausible, console)
+    else:
+        message = str(record.get("message", ""))
+        _print_status(f"not certified, {record.get('status')}", "red", message, console)
     groups = orbit_groups(record)
     certificate = {title: groups.pop(title) for title in ("certificate", "stability")}
     _print_groups({**groups, **power_groups(record.get("power_account")), **certificate}, console)
@@ -80,7 +83,7 @@ def print_flight(summary: dict[str, Any], console: Console) -> None:
     """Print the summary of a flight."""
     completed = summary["completed"]
     message = f"{summary['beats']:.4g} beats" + ("" if completed else ", then the vehicle tumbled")
-    _print_status("flown" if completed else "not finished", completed, message, console)
+    _print_status("flown" if completed else "not finished", "green" if completed else "red", message, console)
     groups = {
         "wingbeat": wingbeat_rows(summary["wingbeat"]),
         "state at the start": state_rows(summary["start"] or {}),
@@ -90,11 +93,11 @@ def print_flight(summary: dict[str, Any], console: Console) -> None:
     _print_groups(groups, console)
 
 
-def _print_status(status: str, good: bool, message: str, console: Console) -> None:
+def _print_status(status: str, color: str, message: str, console: Console) -> None:
     from rich.text import Text
 
     message = message.removeprefix(f"{status}: ")
-    console.print(Text.assemble((status, f"bold {'green' if good else 'red'}"), ": " if message else "", message))
+    console.print(Text.assemble((status, f"bold {color}".strip()), ": " if message else "", message))
 
 
 def _print_groups(groups: dict[str, Rows], console: Console) -> None:

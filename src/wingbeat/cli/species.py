@@ -200,6 +200,8 @@ def _print_species(animal: Species) -> None:
     sources: dict[str, int] = {}
     console.print(_numbers_table("numbers", animal.numbers, sources))
     console.print(_free_table(animal))
+    if animal.plausible:
+        console.print(_plausible_table(animal, sources))
     for name, other in animal.alternatives.items():
         console.print(_numbers_table(f"alternative {name}: {other.reason}", other.numbers, sources))
     console.print("sources")
@@ -222,6 +224,19 @@ def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
         unit = "" if shown.unit == "1" else shown.unit
         name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
         table.add_row(name, ", ".join(f"{each:g}" for each in value), unit, limits, mark)
+    return table
+
+
+def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
+    """Return a table of what is plausible of a beat; the ranges of the wingbeat stand with its numbers."""
+    table = _table("plausible of a beat", "quantity", "least>r", "most>r", "unit", "at [m/s]>r", "source>r")
+    for name, known in animal.plausible.items():
+        angle = known.unit == "rad"
+        ends = ["" if end is None else f"{math.degrees(end) if angle else end:g}" for end in known[:2]]
+        unit = {"rad": "deg", "1": ""}.get(known.unit, known.unit)
+        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
+        mark = f"[{sources.setdefault(known.source, len(sources) + 1)}]" if known.source else ""
+        table.add_row(name, *ends, unit, speeds, mark)
     return table
 
 

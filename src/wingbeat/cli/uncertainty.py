@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.influence import in_words
+from wingbeat.cli.influence import in_words, ranked_in_words
 from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whole, aero_with, fit_of, species_with
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cores import core_count
@@ -79,16 +79,23 @@ def _processes(samples: int) -> int:
 
 
 def _plain(one: Comparison) -> dict[str, Any]:
-    return one._asdict() | {"first_order": one.first_order._asdict()}
+    bar = one.first_order
+    told = bar._asdict() if one.first_order_holds else bar.ranked()
+    return one._asdict() | {"first_order": told, "first_order_holds": one.first_order_holds}
 
 
 def _print(one: Comparison, console: Console) -> None:
     bar = one.first_order
     unit = "" if bar.unit == "1" else f" {bar.unit}"
     name = bar.quantity.replace("_", " ")
+    if one.first_order_holds:
+        line = ((f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),)
+        line += (("  mean of the spreads", f"{bar.value + bar.shift:.4g}{unit}"),)
+    else:
+        ranking = ranked_in_words(bar).removeprefix(f"{name} ")
+        line = ((f"{name}, first order is a ranking only", ranking),)
     rows = (
-        (f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),
-        ("  mean of the spreads", f"{bar.value + bar.shift:.4g}{unit}"),
+        *line,
         (f"{name}, {one.certified} of {one.drawn} draws fly", f"{one.mean:.4g} +- {one.deviation:.2g}{unit}"),
         ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
         ("  variance that the first order foretells", f"{max(one.explained, 0.0):.1%}"),

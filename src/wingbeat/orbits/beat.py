@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat.dynamics import strip_loads
-from wingbeat.frames import from_world
+from wingbeat.frames import from_world, to_world
 from wingbeat.hinges import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
-from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.model import FlightModel, air_loads, body_rates, motion_table
 from wingbeat.orbits.shooting import STEPS, Flown
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
@@ -23,8 +23,9 @@ class Beat(NamedTuple):
     """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), SI and radians.
 
     Names and units are those of a dataset. ``alpha``, ``strip_reynolds``, ``lift`` and ``drag`` are those of the
-    strips of one wing, shape (K, strips). Torques and powers are of both wings together. ``frequency`` [Hz],
-    ``speed`` and ``climb`` [m/s] and ``weight`` [N] are numbers.
+    strips of one wing, shape (K, strips). Torques and powers are of both wings together, ``force_x`` and
+    ``force_z`` the air load on the whole vehicle. ``frequency`` [Hz], ``flap_amplitude`` [rad], ``speed`` and
+    ``climb`` [m/s], ``mass`` [kg], ``weight`` [N] and ``semi_span`` [m] are numbers.
     """
 
     phase: Any
@@ -51,10 +52,15 @@ class Beat(NamedTuple):
     strip_reynolds: Any
     lift: Any
     drag: Any
+    force_x: Any
+    force_z: Any
     frequency: Any
+    flap_amplitude: Any
     speed: Any
     climb: Any
+    mass: Any
     weight: Any
+    semi_span: Any
 
     def mean(self, values: Any) -> Any:
         """Return the mean of a series over the beat, by the trapezoidal rule."""
@@ -78,7 +84,7 @@ def mean_positive(values: Any) -> Any:
 
 
 # Numbers of a beat that are no series.
-_NUMBERS = ("frequency", "speed", "climb", "weight")
+NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
 
 
 class _Tables(NamedTuple):
@@ -90,6 +96,7 @@ class _Tables(NamedTuple):
     flap: Any
     wing_pitch: Any
     frequency: Any
+    flap_amplitude: Any
 
 
 def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> _Tables:
@@ -100,6 +107,7 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> _Tables:
         flap_angle(wingbeat, phase),
         pitch_angle(wingbeat, phase),
         jnp.asarray(wingbeat.frequency, dtype=float),
+        jnp.asarray(wingbeat.flap_amplitude, dtype=float),
     )
 
 
@@ -108,6 +116,8 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
     body = settled(body_rates(model, motion, path)[1:])
     body_pitch, u, w, pitch_rate = path
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
+    loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
+    force_x, force_z = to_world(attitude, *loads.force)
     strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
     chord = strips_of(model.vehicle.wing, model.strips).chord
@@ -130,10 +140,15 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
         strip_reynolds=model.air.reynolds(strips.speed.T, chord),
         lift=strips.lift.T,
         drag=strips.drag.T,
+        force_x=force_x,
+        force_z=force_z,
         frequency=tables.frequency,
+        flap_amplitude=tables.flap_amplitude,
         speed=mean_velocity[0],
         climb=mean_velocity[1],
+        mass=jnp.asarray(model.vehicle.mass, dtype=float),
         weight=model.vehicle.mass * model.air.gravity,
+        semi_span=jnp.asarray(model.vehicle.wing.semi_span, dtype=float),
     )
 
 
@@ -190,7 +205,7 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
     def join(name: str) -> Any:
         parts = [np.asarray(getattr(piece, name)) for piece in pieces]
-        if name in _NUMBERS:
+        if name in NUMBERS:
             return parts[0]
         after = [part.take(range(1, part.shape[axis]), axis) for part in parts[1:]]
         return np.concatenate([parts[0], *after], axis)

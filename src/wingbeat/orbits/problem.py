@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import functools
 from collections.abc import Callable, Mapping, Sequence
@@ -17,6 +18,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.model import FlightModel, flight_model
 from wingbeat.orbits.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.quantities import Frequency, Quantity, named_objective
 from wingbeat.orbits.readings import check_quantities, row_count
 from wingbeat.species import Species
@@ -61,7 +63,9 @@ class OrbitProblem:
         name, the path of its file, or a JAX function of the angle of attack [rad] that returns (C_L, C_D).
     free : names of the wingbeat parameters that are free; the species' own if not given.
     bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
-        flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names.
+        flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
+        searches inside the species' plausible ranges: bounds are drawn in to them, and what is read off the beat
+        becomes a limit of `subject_to`.
     minimise : the objective, `Frequency()` as in the paper.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
@@ -88,7 +92,7 @@ class OrbitProblem:
     climb: float = 0.0
     aero: Any = field(default_factory=SuFan)
     free: tuple[str, ...] = ()
-    bounds: Bounds = field(default_factory=dict)
+    bounds: Any = field(default_factory=dict)
     minimise: Any = field(default_factory=Frequency)
     air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
     subject_to: Sequence[Any] = ()
@@ -105,17 +109,24 @@ class OrbitProblem:
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
         if not isinstance(self.wings_may_cross, bool):
             faults.add("wings_may_cross", self.wings_may_cross, "must be True or False")
+        named = self.bounds if isinstance(self.bounds, str) else None
+        if named is not None:
+            faults.choice("bounds", named, ("plausible",))
+            object.__setattr__(self, "bounds", {})
         faults.raise_if_any()
         self._check_asked(faults)
+        if named and not faults.faults:
+            self._draw_in(faults)
         faults.raise_if_any()
         aero = blade_element_of(self.aero)
         faults.faults.extend(check_quantities(self._quantities(), aero.strips))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
-        object.__setattr__(self, "bounds", dict(self.bounds or {}))
+        given: Bounds = dict(self.bounds or {})  # type: ignore[arg-type]
+        object.__setattr__(self, "bounds", given)
         free = tuple(self.free or self.species.free)
-        bounds = {**self.species.bounds, **self.species.path_bounds, **self.bounds}
+        bounds = {**self.species.bounds, **self.species.path_bounds, **given}
         self._check_free(faults, free, bounds)
         object.__setattr__(self, "free", free)
         object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, *PATH_NAMES)})
@@ -153,8 +164,11 @@ class OrbitProblem:
                 faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
         object.__setattr__(self, "minimise", minimise)
         object.__setattr__(self, "subject_to", tuple(constraints))
-        if not faults.faults and self.speed == 0 and self.asks_cost_of_transport:
+        names = {q.name for q in self._quantities()} if not faults.faults and self.speed == 0 else set()
+        if "cost_of_transport" in names:
             faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
+        if "strouhal" in names:
+            faults.add("speed", self.speed, "has no Strouhal number", "in hover limit frequency and flap_amplitude")
 
     def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
         """Hold a parameter at a value, or tighten its bounds."""
@@ -173,6 +187,33 @@ class OrbitProblem:
     def shapes_stroke(self) -> bool:
         """Whether a free parameter changes where the wings go, seen from the body."""
         return any(name not in _NOT_OF_THE_STROKE for name in self.free)
+
+    def _draw_in(self, faults: FaultList) -> None:
+        """Draw the bounds in to what is plausible, and keep what is read off the beat within it."""
+        bounds = {**self.species.bounds, **self.bounds}
+        free = self.free or self.species.free
+        drawn = drawn_in(self.species, free, bounds, faults)
+        object.__setattr__(self, "bounds", {**self.bounds, **drawn})
+        self._limit_plausibly(self.subject_to, faults)
+
+    def _limit_plausibly(self, others: Sequence[Any], faults: FaultList) -> None:
+        limits = plausible_limits(self.species, self.speed, self.air or self.species.air, faults)
+        object.__setattr__(self, "subject_to", (*others, *limits))
+        object.__setattr__(self, "_plausible_limits", limits)
+
+    def at_speed(self, speed: float) -> OrbitProblem:
+        """Return the problem at another mean horizontal velocity [m/s]; plausible limits are those of that speed.
+
+        Raises
+        ------
+        InvalidInputError : a speed at which nothing is plausible.
+        """
+        moved = dataclasses.replace(self, speed=speed)
+        limits, faults = getattr(self, "_plausible_limits", None), FaultList()
+        if limits is not None:
+            moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)
+            faults.raise_if_any()
+        return moved
 
     def _quantities(self) -> list[Quantity]:
         """Return what is read off the beat."""
@@ -217,7 +258,8 @@ class OrbitProblem:
             faults.add("free", free, "names a parameter twice")
         if isinstance(self.minimise, Frequency) and "frequency" not in free:
             faults.add("free", free, "leaves frequency nothing to change", "minimise something else")
-        for name, pair in self.bounds.items():
+        asked: Bounds = self.bounds
+        for name, pair in asked.items():
             if name not in (*PATH_NAMES, *free):
                 faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:

@@ -163,6 +163,20 @@ def _cost_of_transport(beat: Beat) -> Any:
     return beat.mean_positive(beat.hinge_power) / (beat.weight * beat.speed)
 
 
+def _power_per_mass(beat: Beat) -> Any:
+    return beat.mean_positive(beat.hinge_power) / beat.mass
+
+
+def _force_over_weight(beat: Beat) -> Any:
+    squared = beat.force_x**2 + beat.force_z**2
+    pushed = squared > 0.0  # the root has no derivative at 0
+    return jnp.where(pushed, jnp.sqrt(jnp.where(pushed, squared, 1.0)), 0.0) / beat.weight
+
+
+def _strouhal(beat: Beat) -> Any:
+    return 2.0 * beat.frequency * beat.semi_span * jnp.sin(beat.flap_amplitude) / beat.speed
+
+
 def _pitch_spread(beat: Beat) -> Any:
     return spread(beat.body_pitch)
 
@@ -180,7 +194,10 @@ QUANTITIES = {
         Quantity("peak_power", _Series("hinge_power"), "W", 5.0),
         Quantity("mean_actuator_power", _Cost("actuator_power", 1.0), "W"),
         Quantity("peak_actuator_power", _Series("actuator_power"), "W", 5.0),
+        Quantity("positive_power_per_mass", _power_per_mass, "W/kg", 10.0),
         Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
+        Quantity("peak_force_over_weight", _force_over_weight, "1", 0.5),
+        Quantity("strouhal", _strouhal, "1", 0.1),
         Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
         Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
         Quantity("body_pitch_range", _pitch_spread, "rad", 0.1),

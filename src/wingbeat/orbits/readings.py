@@ -16,7 +16,7 @@ import numpy as np
 
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.jax64 import jax, jnp
-from wingbeat.orbits.beat import Beat
+from wingbeat.orbits.beat import NUMBERS, Beat
 from wingbeat.orbits.limits import Constraint
 from wingbeat.orbits.peaks import PARTS, highest, peaks
 from wingbeat.orbits.quantities import Quantity
@@ -105,7 +105,7 @@ def _any_beat(strips: int) -> Beat:
     by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
     number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
     shapes: dict[str, Any] = dict.fromkeys(("alpha", "strip_reynolds", "lift", "drag"), by_strip)
-    shapes |= dict.fromkeys(("frequency", "speed", "climb", "weight"), number)
+    shapes |= dict.fromkeys(NUMBERS, number)
     return Beat(*(shapes.get(name, series) for name in Beat._fields))
 
 

@@ -76,7 +76,7 @@ def trace(
     progress : called with (tasks done, tasks known of).
     threads : tasks at a time, as many as there are cores if not given; the answer does not hang on it.
     """
-    problems = [dataclasses.replace(problem, speed=float(speed)) for speed in speeds]
+    problems = [problem.at_speed(float(speed)) for speed in speeds]
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
             return _Tracing(problems, pool, progress).branches(starts, seed)

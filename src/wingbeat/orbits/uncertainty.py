@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,6 +57,9 @@ class ErrorBar(NamedTuple):
 
     The squares of `due_to` add up to that of `deviation`. `shift` is how far the mean lies from `value`, since not
     every value is in the middle of its range.
+
+    First order is a straight line through the optimum. Only draws can tell whether it will do over whole ranges;
+    until they have, `ranking` is what can be said: which spreads matter most.
     """
 
     quantity: str
@@ -65,6 +68,16 @@ class ErrorBar(NamedTuple):
     deviation: float
     shift: float
     due_to: dict[str, float]
+
+    @property
+    def ranking(self) -> dict[str, float]:
+        """Share of the variance to first order that is due to each spread, largest first."""
+        whole = self.deviation**2
+        return {name: part**2 / whole for name, part in self.due_to.items()} if whole > 0 else {}
+
+    def ranked(self) -> dict[str, Any]:
+        """Return the quantity and its ranking, without an error bar, fit for JSON."""
+        return {"quantity": self.quantity, "unit": self.unit, "value": self.value, "ranking": self.ranking}
 
 
 def first_order(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import FaultList
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
+from wingbeat.results.plausibility import statements
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,6 +19,7 @@ _INCH = 25.4
 _STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
 _STYLE |= {"axes.labelpad": 2, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
 _TITLE, _TEXT = {"fontsize": 9, "fontweight": "bold"}, {"fontsize": 7.5}
+_GOOD = {"fontsize": 7.5, "color": "#1B7F3B"}
 _ALARM = {"fontsize": 7.5, "color": "#C00000"}
 _NEEDED = ["flap", "wing_pitch", "fold", "span_ratio", "time", "x", "z", "u", "w", "body_pitch", "pitch_rate"]
 _NEEDED += ["alpha", "strip_force", "hinge_power", "actuator_power"]
@@ -28,7 +30,8 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
     a wing kinematics, b body pitch, c power, d to f phase portraits, g effective angle of attack, h and i
     horizontal and vertical force on one strip of both wings at 1/4 and 3/4 of the span, over the weight.
-    An orbit that is not certified says so in red.
+    Above them stand two statements, how the orbit closes and whether it is plausible: green where both hold, and
+    what does not hold in red.
 
     Parameters
     ----------
@@ -99,11 +102,23 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     first = f"{about['species']} at {about['speed']:.4g} m/s{climb}, {frequency}"
     loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips a wing"
     second = f"{loads}; least {about['objective']}, on the bound of {', '.join(bounds) or 'nothing'}"
-    status, style = f"{about['message'][:1].upper()}{about['message'][1:]}", _TEXT
-    if about["status"] != "converged":
-        status, style = f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM
-    lines = [(line, look) for text, look in ((second, _TEXT), (status, style)) for line in textwrap.wrap(text, 120)]
-    return [(first[:1].upper() + first[1:], _TITLE), *lines]
+    if about["status"] == "converged":
+        said = statements({name: _read(about, name) for name in ("status", "closure", "plausibility")})
+        parts = [(f"Certified: {said.closes}", _GOOD if said.good else _TEXT)]
+        parts.append((_capital(said.plausible), _GOOD if said.good else _ALARM))
+    else:
+        parts = [(f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM)]
+    lines = [(line, look) for text, look in ((second, _TEXT), *parts) for line in textwrap.wrap(text, 120)]
+    return [(_capital(first), _TITLE), *lines]
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _read(about: dict[str, Any], name: str) -> Any:
+    """Return a part of the record; a file of a version that judged nothing has no plausibility."""
+    return about[name] if name == "status" else json.loads(about.get(name, "null"))
 
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:

@@ -1,4 +1,4 @@
-"""The tornado plot: how far each uncertain number can move an answer."""
+"""The tornado plot: which uncertain number moves an answer most."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ _STYLE |= {"axes.spines.top": False, "axes.spines.right": False, "axes.spines.le
 
 
 def tornado_page(found: Sensitivities) -> Figure:
-    """Draw what each parameter's plausible range can do to each quantity, the largest on top, to first order.
+    """Rank parameters by what their plausible ranges do to each quantity to first order, the largest on top.
 
     Parameters with no range are left out. A panel for each quantity; the line in the middle is the orbit as solved.
+    A straight line over whole ranges is no error bar, so bars are shares of the largest.
 
     Parameters
     ----------
@@ -41,7 +42,7 @@ def tornado_page(found: Sensitivities) -> Figure:
         problem = found.problem
         figure.suptitle(
             f"{problem.species.name} at {problem.speed:g} m/s, least {problem.minimise.name.replace('_', ' ')}: "
-            "what the plausible range of each number changes",
+            "which plausible range matters most, a ranking to first order",
             fontsize=8,
         )
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
@@ -53,14 +54,14 @@ def tornado_page(found: Sensitivities) -> Figure:
 
 def _draw(panel: Any, found: Sensitivities, name: str) -> None:
     ranked = [s for s in found.ranked(name) if s.parameter.plausible is not None][:_MOST]
-    value, unit = found.values[name], found.units[name]
+    largest = max((abs(end) for slope in ranked for end in found.swing(slope, name)), default=0.0) or 1.0
     for row, slope in enumerate(ranked):
         low, high = found.swing(slope, name)
         for change, color, end in ((low, _LOW, "low end of the range"), (high, _HIGH, "high end")):
-            panel.barh(row, change, left=value, height=0.7, color=color, label=end if row == 0 else None)
-    panel.axvline(value, color="0.2", linewidth=0.8)
+            panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
+    panel.axvline(0.0, color="0.2", linewidth=0.8)
     panel.set_yticks(range(len(ranked)), [s.parameter.path for s in ranked])
     panel.tick_params(axis="y", length=0)
     panel.invert_yaxis()
     panel.margins(y=0.01)
-    panel.set_xlabel(f"{name.replace('_', ' ')} [{unit}]")
+    panel.set_xlabel(f"change of {name.replace('_', ' ')}, the largest as 1 [-]")

@@ -22,7 +22,7 @@ from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Frequency, Quantity, named_objective, named_quantity
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
-from wingbeat.species_schema import Number
+from wingbeat.species_schema import Number, Range
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
 # Before the name of a function of the user's.
@@ -58,6 +58,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
             "path_bounds": species.path_bounds,
             "warnings": species.warnings,
             "numbers": species.numbers,
+            "plausible": species.plausible,
         },
         "vehicle": vehicle_record(problem.vehicle),
         "stock_wingbeat": dict(vars(species.wingbeat)),
@@ -132,6 +133,8 @@ def species_from(inputs: dict[str, Any]) -> Species:
         reasons={},
         numbers={path: _number(*number) for path, number in known["numbers"].items()},
         alternatives={},
+        # A file of a version that judged nothing has no ranges.
+        plausible={name: _plausible_range(*one) for name, one in known.get("plausible", {}).items()},
         warnings=tuple(known["warnings"]),
     )
 
@@ -149,6 +152,12 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
 def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:
     whole = tuple(value) if isinstance(value, list) else value
     return Number(whole, unit, source, None if plausible is None else (plausible[0], plausible[1]))
+
+
+def _plausible_range(
+    low: float | None, high: float | None, unit: str, source: str, speeds: list[float] | None
+) -> Range:
+    return Range(low, high, unit, source, None if speeds is None else (speeds[0], speeds[1]))
 
 
 def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:

@@ -14,6 +14,7 @@ from wingbeat.model import State
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
+from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Vehicle
 
@@ -84,6 +85,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
+    record["plausibility"] = plausibility(problem, beat, record)
     return finite_or_none(record)
 
 

@@ -30,6 +30,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "short of an orbit, at the closest beat": shortage_rows(record.get("failed_balance") or []),
         "nearest changes that fly, each by itself": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
+        "plausible, and the range": plausible_rows(record.get("plausibility") or []),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
         "power, both wings": power_rows(record),
         "certificate": certificate_rows(record),
@@ -47,6 +48,23 @@ def flight_rows(record: dict[str, Any]) -> Rows:
             rows.append((f"effective alpha at {label} span", f"{low.removesuffix(' deg')} to {high}"))
     if "body_pitch_range" in record:
         rows.append(("range of body pitch", _of(record, "body_pitch_range", "deg")))
+    return rows
+
+
+def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
+    """Return each number that is judged, with its range and whether it lies within."""
+    rows = []
+    for one in judged:
+        unit = {"rad": "deg", "1": ""}.get(one["unit"]) or str(one["unit"]).removeprefix("1")
+        factor = math.degrees(1.0) if unit == "deg" else 1.0
+        low, high = (None if end is None else _number(end, unit, factor) for end in (one["low"], one["high"]))
+        known = "no range is known"
+        if low and high:
+            known = f"{low.removesuffix(f' {unit}')} to {high}"
+        elif low or high:
+            known = f"at least {low}" if low else f"at most {high}"
+        outside = ", outside" if one["within"] is False else ""
+        rows.append((one["name"].replace("_", " "), f"{_number(one['value'], unit, factor)} ({known}{outside})"))
     return rows
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import FileError
 from wingbeat.files import write_atomically
+from wingbeat.results.plausibility import is_judgement, statements
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,6 +22,7 @@ KIND = "wingbeat_kind"
 _TEXTS = ("status", "message", "species", "objective", "version")
 _TABLES = ("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints")
 _LISTS = (
+    "plausibility",
     *("active_bounds", "failed_balance", "relaxations", "floquet_multipliers", "warnings"),
     *("alpha_quarter_span", "alpha_three_quarter_span"),
 )
@@ -55,8 +57,13 @@ def inputs_hash(inputs: dict[str, Any]) -> str:
 
 
 def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return a record and its inputs as attributes: numbers and texts as they are, all else as JSON."""
+    """Return a record and its inputs as attributes: numbers and texts as they are, all else as JSON.
+
+    What is said of closure and plausibility stands beside them as two texts.
+    """
     attributes = {name: _encode(name, value) for name, value in record.items()}
+    said = statements(record)
+    attributes |= {"statement_of_closure": said.closes, "statement_of_plausibility": said.plausible}
     return {KIND: "orbit", **attributes, "inputs": json.dumps(inputs), "inputs_hash": inputs_hash(inputs)}
 
 
@@ -95,6 +102,8 @@ def _decode(name: str, value: Any) -> Any:
         value = json.loads(value) if isinstance(value, str) else value.item()
     if not isinstance(value, _KINDS[name]) or (isinstance(value, float) and not math.isfinite(value)):
         raise ValueError(f"{name} is {value!r}")
+    if name == "plausibility" and not is_judgement(value):
+        raise ValueError(f"{name} lacks a key")
     return value
 
 

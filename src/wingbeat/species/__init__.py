@@ -5,12 +5,13 @@ from wingbeat.species.loading import load_species
 from wingbeat.species.record import Species
 from wingbeat.species.settings import parse_setting
 from wingbeat.species.writing import species_text
-from wingbeat.species_schema import Alternative, Bound, Number, json_schema, species_names, template
+from wingbeat.species_schema import Alternative, Bound, Number, Range, json_schema, species_names, template
 
 __all__ = [
     "Alternative",
     "Bound",
     "Number",
+    "Range",
     "Species",
     "bat",
     "bird",

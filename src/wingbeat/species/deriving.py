@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from wingbeat.species import scaling
 from wingbeat.species.building import default_of
+from wingbeat.species.plausibility import plausible_of_bats, plausible_of_birds, plausible_of_robots
 from wingbeat.species.scaling import Law
-from wingbeat.species_schema import KEYS, Alternative, Bound, Number, Numbers, SpeciesText
+from wingbeat.species_schema import KEYS, Alternative, Bound, Number, Numbers, Range, SpeciesText
 from wingbeat.vehicle import Air
 
 _UNITS = {key.path: key.unit for key in KEYS}
@@ -33,6 +35,7 @@ class Kind:
     aspect_ratios: tuple[tuple[float, float], str]
     recovery: dict[str, float]
     recovery_source: str
+    plausible: Callable[[float, float, float], dict[str, Range]]
 
 
 BIRD = Kind(
@@ -43,6 +46,7 @@ BIRD = Kind(
     scaling.BIRD_ASPECT_RATIO,
     {"span_retraction": 0.3, "twist_ratio": 1.0, "fold_amplitude": 0.0},
     f"guess: as the pigeon of {_SU_FAN}, who give no retraction",
+    plausible_of_birds,
 )
 BAT = Kind(
     scaling.HALF_SPAN,
@@ -52,6 +56,7 @@ BAT = Kind(
     scaling.BAT_ASPECT_RATIO,
     {"span_retraction": 0.0, "twist_ratio": 1.6, "fold_amplitude": math.radians(10)},
     f"guess: as the bat of {_SU_FAN}",
+    plausible_of_bats,
 )
 ROBOT = Kind(
     scaling.HALF_SPAN,
@@ -61,6 +66,7 @@ ROBOT = Kind(
     scaling.ROBOT_ASPECT_RATIO,
     {"span_retraction": 0.0, "twist_ratio": 1.0, "fold_amplitude": 0.0},
     "guess: rigid wings",
+    plausible_of_robots,
 )
 
 
@@ -87,6 +93,7 @@ def derive(
         usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))
     content.free, content.path = _bounds(usual, frequencies)
     content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
+    content.plausible = kind.plausible(mass, area / span, single(content.numbers["air.viscosity"]))
     content.alternatives = _alternatives(kind, mass)
 
 

@@ -99,6 +99,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         reasons={key: bound.reason for key, bound in bounds.items()},
         numbers={key.path: numbers[key.path] for key in KEYS},
         alternatives=content.alternatives,
+        plausible=content.plausible,
         warnings=(),
         **records,
     )

@@ -12,14 +12,27 @@ from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
 from wingbeat.species.law import OUTSIDE
+from wingbeat.species.plausibility import UNKNOWN, range_of
 from wingbeat.species.settings import plain, settable
-from wingbeat.species_schema import FREE_UNITS, Alternative, Number, Numbers, check_value, display, suggest, to_si
+from wingbeat.species_schema import (
+    FREE_UNITS,
+    PLAUSIBLE,
+    Alternative,
+    Number,
+    Numbers,
+    Range,
+    check_value,
+    display,
+    suggest,
+    to_si,
+)
 from wingbeat.vehicle import Air, Vehicle
 
 __all__ = ["DERIVED", "Species", "find_warnings"]
 
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 
+_UNITS = {key.name: key.unit for key in PLAUSIBLE}
 _SET_BY_HAND = "set by hand in place of"
 
 
@@ -38,6 +51,7 @@ class Species:
     reasons : why each bound stands where it stands.
     numbers : every number by its path, with unit, source and plausible range.
     alternatives : named sets of other numbers.
+    plausible : what is plausible of numbers read off a beat, by their names in the record; `plausible_range` asks.
     warnings : what looks odd, such as a number outside its plausible range.
 
     >>> from wingbeat.species import load_species
@@ -62,7 +76,33 @@ class Species:
     reasons: dict[str, str]
     numbers: dict[str, Number]
     alternatives: dict[str, Alternative]
+    plausible: dict[str, Range]
     warnings: tuple[str, ...]
+
+    def plausible_range(self, name: str, speed: float) -> Range:
+        """Return what is plausible of a number of the beat at a flight speed, both ends None if nothing is known.
+
+        Parameters
+        ----------
+        name : as in the record's ``plausibility``. That of a wingbeat parameter is the range of its number.
+        speed : of the flight [m/s].
+
+        >>> from wingbeat.species import load_species
+        >>> load_species("bat").plausible_range("strouhal", 10.0)[:2]
+        (0.2, 0.4)
+        >>> load_species("bat").plausible_range("strouhal", 2.0)[:2]
+        (None, None)
+        """
+        if f"wingbeat.{name}" in self.numbers:
+            return range_of(self.numbers[f"wingbeat.{name}"])
+        known = self.plausible.get(name)
+        if known is None:
+            return Range(None, None, _UNITS[name], UNKNOWN)
+        if known.speeds is None or known.speeds[0] <= speed <= known.speeds[1]:
+            return known
+        slowest, fastest = known.speeds
+        where = f"nothing is known at {speed:g} m/s, only from {slowest:.3g} to {fastest:.3g} m/s"
+        return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
 
     def with_values(self, values: Mapping[str, Any]) -> Species:
         """Return this species with some numbers set.

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from wingbeat.species.building import BODY, WHOLE
 from wingbeat.species.record import Species
-from wingbeat.species_schema import Number, display
+from wingbeat.species_schema import Number, Range, display
 
 __all__ = ["species_text"]
 
@@ -36,6 +36,10 @@ def species_text(species: Species) -> str:
     lines += [_bound(species, name) for name in species.free]
     lines += ["", "# Limits along the whole path, not only at its start.", "[path]"]
     lines += [_bound(species, name) for name in species.path_bounds]
+    if species.plausible:
+        lines += ["", "# What is plausible of a beat, judged beside the certificate of every orbit."]
+    for name, known in species.plausible.items():
+        lines += _plausible(name, known)
     for name, other in species.alternatives.items():
         table = f"alternatives.{name if re.fullmatch('[A-Za-z0-9_-]+', name) else _quoted(name)}"
         lines += ["", f"[{table}]", f"reason = {_quoted(other.reason)}"]
@@ -56,6 +60,20 @@ def _tables(numbers: Mapping[str, Number], prefix: str, left_out: str) -> Iterat
             yield f"range = [{_digits(shown.range[0])}, {_digits(shown.range[1])}]"
         if shown.source:
             yield f"source = {_text(shown.source)}"
+
+
+def _plausible(name: str, known: Range) -> Iterator[str]:
+    angle = known.unit == "rad"
+    yield from ("", f"[plausible.{name}{'_deg' if angle else ''}]")
+    for end in ("low", "high"):
+        value = getattr(known, end)
+        if value is not None:
+            yield f"{end} = {_digits(math.degrees(value) if angle else value)}"
+    yield f"unit = {_quoted('deg' if angle else known.unit)}"
+    if known.speeds:
+        yield f"speeds = [{_digits(known.speeds[0])}, {_digits(known.speeds[1])}]"
+    if known.source:
+        yield f"source = {_text(known.source)}"
 
 
 def _bound(species: Species, name: str) -> str:

@@ -2,13 +2,14 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken, suggest
-from wingbeat.species_schema.keys import FREE_UNITS, KEYS, Key
+from wingbeat.species_schema.keys import FREE_UNITS, KEYS, PLAUSIBLE, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
     Bound,
     Number,
     Numbers,
+    Range,
     SpeciesText,
     display,
     parse_toml,
@@ -19,11 +20,13 @@ from wingbeat.species_schema.reading import (
 __all__ = [
     "FREE_UNITS",
     "KEYS",
+    "PLAUSIBLE",
     "Alternative",
     "Bound",
     "Key",
     "Number",
     "Numbers",
+    "Range",
     "SpeciesText",
     "check_value",
     "display",

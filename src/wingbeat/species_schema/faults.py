@@ -11,8 +11,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from wingbeat.errors import FaultList
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
-from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, SpeciesFile
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, RangeTable, SpeciesFile
 
 __all__ = [
     "MAX_FAULTS",
@@ -163,7 +163,9 @@ def _known_keys(loc: tuple[Any, ...]) -> list[str]:
         place = place[2:]
     if TABLE in place:
         return list(BoundTable.model_fields) if place[0] in ("free", "path") else NUMBER_FIELDS
-    paths = [path for key in (*KEYS, *FREE, *PATH) for path in key.spellings]
+    if len(place) == 2 and place[0] == "plausible":
+        return list(RangeTable.model_fields)
+    paths = [path for key in (*KEYS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
     if not place:
         return list(SpeciesFile.model_fields)
     depth = len(place)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
 
-__all__ = ["FREE", "FREE_UNITS", "KEYS", "PATH", "Key"]
+__all__ = ["FREE", "FREE_UNITS", "KEYS", "PATH", "PLAUSIBLE", "Key"]
 
 
 class Key(NamedTuple):
@@ -78,5 +78,14 @@ FREE = (
         Key(f"free.{name}", "1" if name.startswith("span") else "rad", "one number of the harmonics")
         for name in HARMONIC_NAMES
     ),
+)
+# What is read off a beat and judged beside the certificate. The ranges of frequency and flap amplitude stand with
+# their numbers, under wingbeat.
+PLAUSIBLE = (
+    Key("plausible.positive_power_per_mass", "W/kg", "mean positive hinge power over the whole mass", False),
+    Key("plausible.peak_force_over_weight", "1", "largest air load on the whole vehicle over its weight", False),
+    Key("plausible.body_pitch_range", "rad", "largest less smallest body pitch within a beat", False),
+    Key("plausible.strouhal", "1", "2 f semi_span sin(flap_amplitude) / U", False),
+    Key("plausible.reynolds", "1", "U times mean chord over viscosity", False),
 )
 FREE_UNITS = {key.name: key.unit for key in FREE}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 
-__all__ = ["ADAPTERS", "NUMBER_FIELDS", "TABLE", "TAGS", "BoundTable", "SpeciesFile", "json_schema"]
+__all__ = ["ADAPTERS", "NUMBER_FIELDS", "TABLE", "TAGS", "BoundTable", "RangeTable", "SpeciesFile", "json_schema"]
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -62,6 +62,17 @@ class BoundTable(BaseModel):
     guessed: bool = Field(default=False, description="true: an orbit that leans on this bound says so")
 
 
+class RangeTable(BaseModel):
+    """A plausible range, open at an end that is not given, with its unit and source."""
+
+    model_config = _STRICT
+    low: _Finite | None = None
+    high: _Finite | None = None
+    unit: str = ""
+    source: str = ""
+    speeds: _Pair | None = Field(default=None, description="flight speeds that it holds at [m/s]; all if not given")
+
+
 def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
     """Return a model of optional fields whose required ones stand in the JSON schema alone.
 
@@ -73,15 +84,19 @@ def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any)
     return create_model(name, __config__=config, **fields)
 
 
-def _leaves(keys: Iterable[Key], bound: bool = False) -> dict[str, Any]:
+def _leaves(keys: Iterable[Key], kind_of: Callable[[Key], Any]) -> dict[str, Any]:
     fields: dict[str, Any] = {}
     for key in keys:
-        kind = _bare_or_table(_Pair, BoundTable) if bound else _sourced(key.shape)
+        kind = kind_of(key)
         for path in key.spellings:
             unit = "deg" if path != key.path else key.unit
             text = f"{key.meaning} [{unit}]"
             fields[path.rsplit(".", 1)[1]] = (kind, Field(default=None, description=text))
     return fields
+
+
+def _bounded(_: Key) -> Any:
+    return _bare_or_table(_Pair, BoundTable)
 
 
 def _section(prefix: str, complete: bool, inner: dict[str, Any] | None = None) -> Any:
@@ -90,7 +105,12 @@ def _section(prefix: str, complete: bool, inner: dict[str, Any] | None = None) -
     required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
     name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
     inner = inner or {}
-    return (_table(name, _leaves(own) | inner, [*required, *inner] if complete else []), None)
+    return (
+        _table(
+            name, _leaves(own, lambda key: _sourced(key.shape)) | inner, [*required, *inner] if complete else []
+        ),
+        None,
+    )
 
 
 def _sections(complete: bool) -> dict[str, Any]:
@@ -112,8 +132,9 @@ SpeciesFile = _table(
         "common_name": (str, ""),
         "scientific_name": (str, ""),
         **_sections(complete=True),
-        "free": (_table("Free", _leaves(FREE, bound=True), []), None),
-        "path": (_table("Path", _leaves(PATH, bound=True), []), None),
+        "free": (_table("Free", _leaves(FREE, _bounded), []), None),
+        "path": (_table("Path", _leaves(PATH, _bounded), []), None),
+        "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
         "alternatives": (dict[str, _Alternative], None),
     },
     ["vehicle", "wingbeat"],

@@ -10,13 +10,14 @@ from typing import Any, NamedTuple
 from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 
 __all__ = [
     "Alternative",
     "Bound",
     "Number",
     "Numbers",
+    "Range",
     "SpeciesText",
     "display",
     "parse_toml",
@@ -42,6 +43,19 @@ class Bound(NamedTuple):
     bounds: tuple[float, float]
     reason: str = ""
     guessed: bool = False
+
+
+class Range(NamedTuple):
+    """What is plausible of a quantity, SI and radians: None at an end that nothing is known of.
+
+    `speeds` are the flight speeds that it holds at [m/s], all of them if None.
+    """
+
+    low: float | None = None
+    high: float | None = None
+    unit: str = "1"
+    source: str = ""
+    speeds: tuple[float, float] | None = None
 
 
 class Numbers(dict[str, Number]):
@@ -84,6 +98,7 @@ class SpeciesText:
     numbers: Numbers = field(default_factory=Numbers)
     free: dict[str, Bound] = field(default_factory=dict)
     path: dict[str, Bound] = field(default_factory=dict)
+    plausible: dict[str, Range] = field(default_factory=dict)
     alternatives: dict[str, Alternative] = field(default_factory=dict)
     written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
 
@@ -124,6 +139,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     _note_missing(raw, result.numbers, faults)
     result.free = _bounds(raw, FREE, result.written, faults)
     result.path = _bounds(raw, PATH, result.written, faults)
+    result.plausible = _plausible(raw, faults)
     alternatives = raw.get("alternatives")
     for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
         if isinstance(content, dict):
@@ -223,6 +239,22 @@ def _bounds(
             bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
             written[key.name] = (path, pair)
     return bounds
+
+
+def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
+    found = {}
+    for key in PLAUSIBLE:
+        for path, table in _spelt(raw, key, (), faults):
+            if not isinstance(table, dict):
+                continue
+            _check_unit(path, table.get("unit"), key, path, faults)
+            ends = [table.get(end) for end in ("low", "high")]
+            low, high = (to_si(end, path) if has_shape("number", end) else None for end in ends)
+            if low is not None and high is not None and low > high:  # type: ignore[operator]
+                faults.add(path, ends, "has its low end above its high one", "exchange the two")
+            speeds = _range(f"{path}.speeds", table.get("speeds"), f"{path}.speeds", faults)
+            found[key.name] = Range(low, high, key.unit, _line(table.get("source")), speeds)  # type: ignore[arg-type]
+    return found
 
 
 def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, float] | None:

@@ -6,14 +6,15 @@ import os
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text, toml_tables
 from wingbeat.species_schema import shown, suggest
 from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
+from wingbeat.species_schema.models import LIST, TABLE
 
 __all__ = ["METHODS", "SPREADS", "Sample", "StudyForm", "Vary", "check_form", "number", "read_form"]
 
@@ -40,6 +41,11 @@ _Texts = Annotated[list[_Text], BeforeValidator(_listed), _Some]
 _Numbers = Annotated[list[_Finite], BeforeValidator(_listed), _Some]
 _Counts = Annotated[list[int], BeforeValidator(_listed), _Some]
 _Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
+# Pairs by name, or the one word; tags that `dotted` leaves out keep the faults' paths those of the file.
+_Bounds = Annotated[
+    Annotated[dict[str, _Pair], Tag(TABLE)] | Annotated[Literal["plausible"], Tag(LIST)],
+    Discriminator(lambda value: LIST if isinstance(value, str) else TABLE),
+]
 _Values = Annotated[list[Any], _Some]
 
 
@@ -98,7 +104,7 @@ class StudyForm(BaseModel):
     seed: _Counts = Field(default=[0])
     most_starts: _Counts | None = None
     free: list[_Text] | None = None
-    bounds: dict[str, _Pair] = Field(default={})
+    bounds: _Bounds = Field(default={})
     settings: dict[str, Any] = Field(default={}, alias="set")
     advise: bool = False
     chain: str | None = None
@@ -153,6 +159,8 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
             value = NOTHING
         elif fault["type"] == "extra_forbidden":
             fix = suggest(str(loc[-1]), _known(loc[:-1]))
+        elif fault["type"] == "literal_error":
+            rule, fix = "is not a known choice", f"use {fault.get('ctx', {}).get('expected')}, or a table of pairs"
         elif fault["type"] == "int_type":
             rule = "must be a whole number"
         elif fault["type"] == "list_type":

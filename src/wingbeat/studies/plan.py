@@ -224,7 +224,7 @@ def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], C
         "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
         "aero": (("aero", "extension", "blend_width_deg", "strips", "force_point"), loads),
         "minimise": (("minimise",), lambda name: as_inputs(name, folder)),
-        "bounds": ((), lambda: _bounds(form)),
+        "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }
     return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
 
@@ -278,17 +278,17 @@ def _species(form: StudyForm, name: str) -> Any:
     return species.with_values(form.settings) if form.settings else species
 
 
-def _bounds(form: StudyForm) -> dict[str, tuple[float, float]]:
+def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
     """Return bounds in radians; a name in _deg holds degrees."""
     found, faults = {}, FaultList()
-    for name, (low, high) in form.bounds.items():
+    for name, (low, high) in given.items():
         own = name.removesuffix("_deg")
         degrees = name != own
         if degrees and unit_of(own) != "rad":
             faults.add(
                 f"bounds.{name}", [low, high], "is not the name of an angle", f"give bounds.{own} in its unit"
             )
-        elif degrees and own in form.bounds:
+        elif degrees and own in given:
             faults.add(f"bounds.{name}", [low, high], f"is given as {own} too", "keep one of the two")
         found[own] = (math.radians(low), math.radians(high)) if degrees else (low, high)
     faults.raise_if_any()

@@ -51,7 +51,7 @@ class Recipe:
     aero: BladeElement
     objective: dict[str, str]
     free: tuple[str, ...]
-    bounds: dict[str, tuple[float, float]]
+    bounds: dict[str, tuple[float, float]] | str
     subject_to: tuple[str, ...]
     search: dict[str, Any]
 
@@ -151,10 +151,14 @@ class Recipe:
         return kept | {
             "objective": self.objective,
             "free": list(self.free),
-            "bounds": {name: list(pair) for name, pair in self.bounds.items()},
+            "bounds": _listed(self.bounds),
             "subject_to": list(self.subject_to),
             "search": self.search,
         }
+
+
+def _listed(bounds: dict[str, tuple[float, float]] | str) -> dict[str, list[float]] | str:
+    return bounds if isinstance(bounds, str) else {name: list(pair) for name, pair in bounds.items()}
 
 
 def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
@@ -164,7 +168,9 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
         aero_from(inputs["aero"]),
         inputs["objective"],
         tuple(inputs["free"]),
-        {name: (low, high) for name, (low, high) in inputs["bounds"].items()},
+        bounds
+        if isinstance(bounds := inputs["bounds"], str)
+        else {name: tuple(pair) for name, pair in bounds.items()},
         tuple(inputs["subject_to"]),
         inputs["search"],
     )

@@ -5,16 +5,19 @@ import math
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import wingbeat as wb
 from wingbeat.aero.model_file import FittedCurve, FittedModel
 from wingbeat.cli import main
+from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.parameters import parameters_of
 from wingbeat.orbits.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import find_orbit, settle
-from wingbeat.orbits.uncertainty import ParameterSpread, first_order
+from wingbeat.orbits.uncertainty import ErrorBar, ParameterSpread, first_order
+from wingbeat.results.sensitivities import Comparison
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005
@@ -207,13 +210,18 @@ def test_the_command_line_tells_what_an_orbit_hangs_on(capsys, tmp_path):
         == 0
     )
     told = capsys.readouterr().out
-    assert "of which wing.semi_span" in told
+    assert "Hz: depends most on wing.semi_span (" in told
+    assert "+-" not in told.partition("change to the low")[0]
     assert "1 deg more of bounds.flap_amplitude.upper: -0.1" in told
     assert figure.read_bytes()[:4] == b"\x89PNG"
     assert main(["orbit", "pigeon", "--speed", "10", "--starts", "1", "--sensitivities", "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["sensitivities"][0]["parameter"] == "wing.semi_span"
-    assert record["error_bars"][0]["quantity"] == "frequency"
+    assert "error_bars" not in record
+    first = record["rankings"][0]
+    assert (first["quantity"], next(iter(first["ranking"]))) == ("frequency", "wing.semi_span")
+    assert sum(first["ranking"].values()) == pytest.approx(1.0)
+    assert "deviation" not in first
 
 
 def test_the_command_uncertainty_prints_both_ways(capsys):
@@ -223,3 +231,22 @@ def test_the_command_uncertainty_prints_both_ways(capsys):
     assert told["frequency"]["certified"] == 10
     assert main(["uncertainty", "pigeon", "--speed", "10", "--set", "body.mass=3"]) == 3
     assert "infeasible" in capsys.readouterr().err
+
+
+def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
+    """6.99 +- 17 Hz is no error bar: over whole ranges the bat's straight line misses nearly all variance."""
+    bar = ErrorBar("frequency", "Hz", 6.99, 17.0, 0.3, {"wing.shoulder.x": 16.0, "wing.mass": math.sqrt(33.0)})
+    wrong = Comparison(bar, 7.4, 2.3, 0.1, 0.06, 148, 200)
+    _print(wrong, Console())
+    told = capsys.readouterr().out
+    assert "first order is a ranking only" in told
+    assert "depends most on wing.shoulder.x (89%), wing.mass (11%) of the variance" in told
+    assert "17" not in told
+    assert "7.4 +- 2.3 Hz" in told
+    plain = _plain(wrong)
+    assert plain["first_order_holds"] is False
+    assert "deviation" not in plain["first_order"]
+    right = wrong._replace(explained=0.97)
+    _print(right, Console())
+    assert "6.99 +- 17 Hz" in capsys.readouterr().out
+    assert _plain(right)["first_order"]["deviation"] == 17.0

@@ -42,7 +42,7 @@ def tornado_page(found: Sensitivities) -> Figure:
         problem = found.problem
         figure.suptitle(
             f"{problem.species.name} at {problem.speed:g} m/s, least {problem.minimise.name.replace('_', ' ')}: "
-            "which plausible range matters most, a ranking to first order",
+            "which plausible range matters most, a ranking to first order (largest change: 1)",
             fontsize=8,
         )
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
@@ -64,4 +64,4 @@ def _draw(panel: Any, found: Sensitivities, name: str) -> None:
     panel.tick_params(axis="y", length=0)
     panel.invert_yaxis()
     panel.margins(y=0.01)
-    panel.set_xlabel(f"change of {name.replace('_', ' ')}, the largest as 1 [-]")
+    panel.set_xlabel(f"change of {name.replace('_', ' ')} [-]")

@@ -190,7 +190,7 @@ def _of_fit(
 
 
 # Share of the draws' variance that first order must foretell: 97 to 99.9 % at a tenth and three tenths of every
-# range, where both deviations agree, 6 % over the whole ranges of the bat, where they do not (docs/sensitivities.md).
+# range, where both deviations agree, 6 % over the bat's whole ranges, where they do not (docs/sensitivities.md).
 _BORNE_OUT = 0.9
 
 

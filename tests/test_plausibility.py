@@ -75,7 +75,7 @@ def test_two_statements_in_file_show_and_figure(orbit: wb.Orbit, tmp_path: Any, 
     said = statements(orbit.record())
     assert said.closes.startswith("closes to ")
     assert " times the power of muscle" in said.plausible
-    assert "flap amplitude 70 above 52 deg" in said.plausible
+    assert "flap amplitude 60 above 52 deg" in said.plausible
     assert not said.good
     attributes = xr.load_dataset(path, engine="h5netcdf").attrs
     assert attributes["statement_of_closure"] == said.closes

@@ -125,7 +125,9 @@ def test_every_public_name_has_a_docstring() -> None:
     assert [name for name in public if not has_own_docstring(name)] == []
 
 
-@pytest.mark.parametrize("command", ["pip install uv && uv run wingbeat orbit pigeon --speed 12", "uv run pytest"])
+@pytest.mark.parametrize(
+    "command", ["pip install uv && uv run wingbeat orbit pigeon --speed 12", "uv run --group dev pytest"]
+)
 def test_readme_gives_the_two_commands(command: str) -> None:
     assert command in (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -160,3 +162,16 @@ def test_constraints_pin_every_direct_dependency() -> None:
         versions = pins.get(canonicalize_name(wanted.name), [])
         assert versions, f"{wanted.name} is not pinned: refresh constraints.txt"
         assert all(wanted.specifier.contains(version) for version in versions), f"{wanted} against {versions}"
+
+
+def test_a_user_gets_no_tool_of_development() -> None:
+    """`uv run` installs the default groups, of which there are none; CI types what README and CONTRIBUTING say."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["tool"]["uv"]["default-groups"] == []
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    said = re.findall(r"^uv run --group dev .*$", page.split("## What CI runs")[1].split("##")[0], re.MULTILINE)
+    ran = re.findall(r"^uv run .*$", (ROOT / ".ci" / "run").read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(said) == 5
+    assert ran == said
+    hooks = re.findall(r"entry: (uv run .*)$", (ROOT / ".pre-commit-config.yaml").read_text("utf-8"), re.MULTILINE)
+    assert hooks == said[:4]

@@ -3,8 +3,8 @@
 Each point is answered in no time with the record of a real orbit, so that what is left is the driver and its store.
 Run from the root of a clone, on Linux; it prints the tables of docs/clusters.md and writes nothing else::
 
-    uv run python benchmarks/driver.py            # 10^3, 10^4 and 10^5 points: minutes
-    uv run python benchmarks/driver.py 1000 10000
+    uv run --extra cluster python benchmarks/driver.py            # 10^3, 10^4 and 10^5 points: minutes
+    uv run --extra cluster python benchmarks/driver.py 1000 10000
 """
 
 from __future__ import annotations

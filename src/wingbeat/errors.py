@@ -47,6 +47,15 @@ class ClusterError(WingbeatError):
     """Other machines cannot be reached or cannot do the work; the message says which, why and a way out."""
 
 
+def install_extra(extra: str) -> str:
+    """Say how to install an extra; wingbeat is installed from a clone.
+
+    >>> install_extra("app")
+    "in the clone run uv sync --inexact --extra app, or pip install '.[app]'"
+    """
+    return f"in the clone run uv sync --inexact --extra {extra}, or pip install '.[{extra}]'"
+
+
 class FaultList:
     """Collects faults so that a door reports them all at once."""
 

@@ -356,7 +356,7 @@ def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch, capsys):
     assert main(["app", "--no-open"]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1
-    assert "pip install 'wingbeat[app]'" in lines[0]
+    assert "pip install '.[app]'" in lines[0]
 
 
 def test_the_command_serves_until_it_is_interrupted():

@@ -111,7 +111,7 @@ def test_parquet(done, tmp_path):
     try:
         import pyarrow  # noqa: F401
     except ImportError:
-        with pytest.raises(wb.WingbeatError, match=r"pip install 'wingbeat\[parquet\]'"):
+        with pytest.raises(wb.WingbeatError, match=r"pip install '\.\[parquet\]'"):
             done.export(tmp_path / "table.parquet")
         return
     done.export(tmp_path / "table.parquet")

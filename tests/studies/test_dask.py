@@ -229,7 +229,7 @@ def test_what_cannot_be_used_is_explained(cheap, monkeypatch):
     assert (code, "is given beside a Dask cluster" in err) == (2, True), err
     monkeypatch.setitem(sys.modules, "distributed", None)
     code, _, err = study.run("run", study.file, "--dask", "local:1")
-    assert (code, "pip install 'wingbeat[cluster]'" in err) == (2, True), err
+    assert (code, "pip install '.[cluster]'" in err) == (2, True), err
     assert study.points() == {}
 
 

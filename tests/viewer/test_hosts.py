@@ -76,7 +76,7 @@ def test_an_orbit_is_a_widget_in_a_notebook(bats):
 def test_without_the_extra_the_widget_says_how_to_get_it(bats, monkeypatch):
     monkeypatch.delitem(sys.modules, "wingbeat.viewer.widget", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    with pytest.raises(ModuleNotFoundError, match=r"wingbeat\[notebook\]"):
+    with pytest.raises(ModuleNotFoundError, match=r"pip install '\.\[notebook\]'"):
         bats["su-fan"].view()
 
 

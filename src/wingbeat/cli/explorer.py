@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole
 from wingbeat.cores import core_count
-from wingbeat.errors import Fault, FaultList, InvalidInputError
+from wingbeat.errors import Fault, FaultList, InvalidInputError, install_extra
 
 _MOST_PROCESSES = 64
 
@@ -26,7 +26,7 @@ def app(
 ) -> int:
     """Open the explorer in a browser: choose, slide, and see it fly; Ctrl-C ends it.
 
-    It needs the extra app: pip install 'wingbeat[app]'.
+    It needs the extra app: uv run --extra app wingbeat app.
 
     Examples: wingbeat app; wingbeat app --port 0 --no-open
     """
@@ -36,7 +36,7 @@ def app(
         faults.number("--processes", processes, at_least=1, at_most=_MOST_PROCESSES)
     faults.raise_if_any()
     if importlib.util.find_spec("nicegui") is None:
-        rule, fix = "needs NiceGUI, which is not installed", "pip install 'wingbeat[app]'"
+        rule, fix = "needs NiceGUI, which is not installed", install_extra("app")
         raise InvalidInputError([Fault("wingbeat app", "extra app", rule, fix)])
     from wingbeat.app.server import serve
 

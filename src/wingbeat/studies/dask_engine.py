@@ -14,7 +14,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import ClusterError, FaultList
+from wingbeat.errors import ClusterError, FaultList, install_extra
 from wingbeat.studies.dask_work import Order, dismiss, greet, other_numbers, solve_batch
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
@@ -219,7 +219,7 @@ def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
     try:
         import distributed
     except ImportError:
-        raise ClusterError("Dask is not installed here: pip install 'wingbeat[cluster]'") from None
+        raise ClusterError(f"Dask is not installed here: {install_extra('cluster')}") from None
     # What is wrong is told in our words, once.
     for handler in logging.getLogger("distributed").handlers:
         handler.setLevel(logging.CRITICAL + 1)

@@ -11,7 +11,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import FaultList, WingbeatError
+from wingbeat.errors import FaultList, WingbeatError, install_extra
 from wingbeat.files import write_atomically
 from wingbeat.results.columns import flat
 from wingbeat.studies.store import Row, Store
@@ -159,6 +159,6 @@ def check_parquet() -> None:
         import pyarrow  # noqa: F401  # pyright: ignore[reportMissingImports]
     except ImportError:
         raise WingbeatError(
-            "Parquet needs pyarrow, which is not installed; run `pip install 'wingbeat[parquet]'`, or end the name "
-            "in .nc or .csv"
+            f"Parquet needs pyarrow, which is not installed: {install_extra('parquet')}; "
+            "or end the name in .nc or .csv"
         ) from None

@@ -6,11 +6,13 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.errors import install_extra
+
 try:
     import anywidget
     import traitlets
 except ModuleNotFoundError as error:
-    raise ModuleNotFoundError(f"{error}; pip install 'wingbeat[notebook]'", name=error.name) from None
+    raise ModuleNotFoundError(f"{error}; {install_extra('notebook')}", name=error.name) from None
 
 from wingbeat.viewer.page import bundle_path
 from wingbeat.viewer.scene import scene

@@ -20,6 +20,7 @@ from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cores import usable_cores
 from wingbeat.species import species_text
+from wingbeat.studies.digests import about_digest
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
 
@@ -302,7 +303,9 @@ def spoil(path, how):
         connection.close()
     else:
         connection = sqlite3.connect(path)
-        connection.execute("UPDATE about SET value = 0 WHERE name = 'numerical_version'")
+        about = dict(connection.execute("SELECT name, value FROM about")) | {"numerical_version": "0"}
+        about["digest"] = about_digest(about)
+        connection.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", about.items())
         connection.commit()
         connection.close()
 
@@ -310,7 +313,7 @@ def spoil(path, how):
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ("cut short", ("the store", "nothing was deleted; restore a copy")),
+        ("cut short", ("is damaged or no store", "nothing was deleted; restore a copy")),
         ("no database", ("is damaged or no store", "nothing was deleted")),
         ("overwritten", ("is damaged or no store", "nothing was deleted")),
         ("foreign", ("is a database, but no store of a study",)),

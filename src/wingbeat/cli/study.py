@@ -111,6 +111,21 @@ def plot(
         save_figure(study_page(*_read(file).drawing(quantity)), path)
 
 
+@study.command
+def salvage(file: File) -> None:
+    """Make a damaged store anew with every answer in it that is whole; run the study to solve the rest again.
+
+    The damaged store is put aside, nothing is deleted. A store that is sound is left as it is.
+    """
+    asked = _read(file)
+    kept, aside = asked.salvage()
+    if aside is None:
+        print(f"the store {str(asked.store)!r} is not damaged; it is left as it is", file=sys.stderr)
+    else:
+        print(f"{kept} answers kept; the damaged store is now {str(aside)!r}", file=sys.stderr)
+    _print_summary(asked, asked.status())
+
+
 @contextmanager
 def _written(
     output: Path | None, check_name: Callable[[FaultList, str, Path], None], examples: str

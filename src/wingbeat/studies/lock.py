@@ -9,7 +9,7 @@ from pathlib import Path
 
 from wingbeat.errors import FileError
 
-__all__ = ["only_one"]
+__all__ = ["is_locked", "only_one"]
 
 
 def _take(descriptor: int) -> None:
@@ -24,6 +24,25 @@ def _take(descriptor: int) -> None:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
+def is_locked(store: Path) -> bool:
+    """Say whether a process holds the lock beside a store, which stays behind where that was killed."""
+    try:
+        descriptor = os.open(_beside(store), os.O_RDWR)
+    except OSError:  # there is none, or it lies where only its owner may ask
+        return False
+    try:
+        _take(descriptor)
+    except OSError:
+        return True
+    finally:
+        os.close(descriptor)
+    return False
+
+
+def _beside(store: Path) -> Path:
+    return store.with_name(store.name + ".lock")
+
+
 @contextmanager
 def only_one(store: Path) -> Iterator[None]:
     """Hold the lock beside a store.
@@ -32,7 +51,7 @@ def only_one(store: Path) -> Iterator[None]:
     ------
     FileError : another process holds it, or the folder cannot be written to.
     """
-    path = store.with_name(store.name + ".lock")
+    path = _beside(store)
     while True:
         try:
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)

@@ -24,6 +24,7 @@ from wingbeat.studies.lock import only_one
 from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
+from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
 
@@ -155,6 +156,18 @@ class Study:
         with only_one(self.store), Store.open(self.store) as store:
             store.set_plan(self.plan)
         return self.status()
+
+    def salvage(self) -> Salvaged:
+        """Make the store anew if it is damaged, with every answer that is whole; the damaged one is put aside.
+
+        What is lost is solved again by the next run.
+
+        Raises
+        ------
+        FileError : there is no store, no answer in it is whole, it is in use or cannot be written.
+        """
+        with only_one(self.store):
+            return salvage(self.store, self.plan)
 
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None

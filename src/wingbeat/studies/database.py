@@ -1,0 +1,104 @@
+"""The SQLite file under a study's store: its tables, how it is opened, and its errors in words."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from wingbeat.errors import FileError
+from wingbeat.studies.pages import whole_answers
+
+__all__ = ["APPLICATION", "FORM", "TABLES", "closing", "connect", "connect_reader", "in_words", "refusal"]
+
+# Stands in the file's head, where `file` and we tell a store from another database: "wbst".
+APPLICATION = 0x77627374
+# Raised whenever the tables change.
+FORM = "2"
+TABLES = """
+CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE bases (hash TEXT PRIMARY KEY, inputs TEXT NOT NULL);
+CREATE TABLE plan_bases (base INTEGER PRIMARY KEY, hash TEXT NOT NULL, told TEXT NOT NULL);
+CREATE TABLE plan (ordinal INTEGER PRIMARY KEY, unit INTEGER NOT NULL, key TEXT NOT NULL UNIQUE,
+    base INTEGER NOT NULL, changes TEXT NOT NULL, told TEXT NOT NULL);
+CREATE INDEX plan_unit ON plan (unit);
+CREATE TABLE points (key TEXT PRIMARY KEY, status TEXT NOT NULL, base TEXT NOT NULL, changes TEXT NOT NULL,
+    record TEXT, certificate REAL, error TEXT NOT NULL, run_seconds REAL NOT NULL, run_finished REAL NOT NULL,
+    run_worker TEXT NOT NULL, run_attempt INTEGER NOT NULL, run_number INTEGER NOT NULL, digest BLOB NOT NULL);
+CREATE INDEX points_status ON points (key, status, run_number);
+"""
+
+
+def connect(path: Path, mode: str) -> sqlite3.Connection:
+    """Open a database without waiting for others longer than a moment; transactions are begun by hand."""
+    connection = sqlite3.connect(f"{path.absolute().as_uri()}?{mode}", uri=True, timeout=10.0, isolation_level=None)
+    try:
+        connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchall()
+    except BaseException:
+        connection.close()
+        raise
+    return connection
+
+
+def connect_reader(path: Path) -> sqlite3.Connection:
+    """Open a database that may lie where nothing can be written, or be written to while it is read."""
+    try:
+        connection = connect(path, "mode=rw")
+    except sqlite3.OperationalError:
+        # Without a log beside it nobody writes to it.
+        logged = path.with_name(path.name + "-wal").exists()
+        connection = connect(path, "mode=ro" if logged else "mode=ro&immutable=1")
+    connection.execute("PRAGMA query_only = 1")
+    return connection
+
+
+@contextmanager
+def closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
+    """Close a connection at the end, whatever happens to it."""
+    try:
+        yield connection
+    finally:
+        connection.close()
+
+
+def refusal(path: Path, reason: str) -> FileError:
+    """Return the refusal of a damaged store, which says how many of its answers can be salvaged."""
+    count = 0
+    with suppress(OSError):
+        count = len(whole_answers(path))
+    if not count:
+        return FileError(
+            f"the store {str(path)!r} is damaged or no store ({reason}), and no answer can be read from it; "
+            "nothing was deleted; restore a copy, or move it away and run the study again"
+        )
+    return FileError(
+        f"the store {str(path)!r} is damaged ({reason}); nothing was deleted; run `wingbeat study salvage`, which "
+        f"keeps the {count} answers that are whole in a new store, or restore a copy"
+    )
+
+
+@contextmanager
+def in_words(path: Path) -> Iterator[None]:
+    """Turn what SQLite raises into words.
+
+    Raises
+    ------
+    FileError : in place of an error of SQLite.
+    """
+    try:
+        yield
+    except sqlite3.Error as error:
+        told = str(error)
+        code = getattr(error, "sqlite_errorname", "")
+        if code == "SQLITE_IOERR_SHORT_READ":
+            raise refusal(path, "it is cut short") from None
+        if "full" in told or code.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
+            fix = "what was stored stays; make room and run the study again"
+            raise FileError(f"cannot write the store {str(path)!r}: {told}; {fix}") from None
+        if code in ("SQLITE_READONLY", "SQLITE_CANTOPEN") or "readonly" in told:
+            fix = "check the path, or copy the study to a folder that you can write to"
+            raise FileError(f"cannot open the store {str(path)!r}: {told}; {fix}") from None
+        if "locked" in told or "busy" in told:
+            raise FileError(f"the store {str(path)!r} is in use by another program; close that") from None
+        raise refusal(path, told) from None

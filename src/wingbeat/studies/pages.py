@@ -1,0 +1,195 @@
+"""The pages of a store's files read without SQLite, which refuses a whole file for one damaged page.
+
+Formats: https://www.sqlite.org/fileformat2.html, sections 1.6 (cells and overflow pages), 2.1 (records) and 4
+(the write-ahead log). Digests decide which rows are whole, so nothing here needs to know what is damaged.
+"""
+
+from __future__ import annotations
+
+import mmap
+import struct
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from wingbeat.studies.digests import POINT_COLUMNS, row_digest
+from wingbeat.studies.units import FAILED
+
+__all__ = ["PAGE", "log_fault", "whole_answers"]
+
+# Bytes of a page; every store is made with it, so that salvage does not depend on the file's own head.
+PAGE = 4096
+_LOG_HEAD, _FRAME_HEAD = 32, 24
+_LOG_MAGIC = (0x377F0682, 0x377F0683)  # the second sums in big-endian order
+_FLOATS = tuple(POINT_COLUMNS.index(name) for name in ("certificate", "run_seconds", "run_finished"))
+_STATUS, _NUMBER = POINT_COLUMNS.index("status"), POINT_COLUMNS.index("run_number")
+# Bytes of the whole numbers and the float that a record holds, by their serial type.
+_SIZES = {0: 0, 1: 1, 2: 2, 3: 3, 4: 4, 5: 6, 6: 8, 7: 8, 8: 0, 9: 0}
+
+
+def whole_answers(path: Path) -> dict[str, tuple[Any, ...]]:
+    """Return the rows of the table ``points`` whose digests are right, by key, from the files of any store.
+
+    Of two answers of one point the one that did not fail counts, else that of the later run.
+
+    Parameters
+    ----------
+    path : of the store; its log is read as well.
+    """
+    found: dict[str, tuple[Any, ...]] = {}
+    for row in _rows(path):
+        with suppress(ValueError, TypeError, UnicodeError):
+            if len(row) == len(POINT_COLUMNS) and row_digest(row[:-1]) == row[-1]:
+                found[row[0]] = max(found.get(row[0], row), row, key=_rank)
+    return found
+
+
+def _rank(row: tuple[Any, ...]) -> tuple[bool, int]:
+    return row[_STATUS] not in FAILED, row[_NUMBER]
+
+
+def _rows(path: Path) -> Iterator[tuple[Any, ...]]:
+    """Yield whatever can be read as a row, from every page of a database and of its log."""
+    logged = _logged(path)
+    latest = dict(logged)
+    with open(path, "rb") as file:
+        size = file.seek(0, 2)
+        if size == 0:
+            return
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as whole:
+            for page in range(size // PAGE):
+                held = whole[page * PAGE : (page + 1) * PAGE]
+                yield from _cells(held, whole, {})
+            for _, held in logged:
+                # A row goes on where the log or, before it was changed there, the database says.
+                yield from _cells(held, whole, latest)
+                yield from _cells(held, whole, {})
+
+
+def _cells(page: bytes, whole: mmap.mmap, latest: Mapping[int, bytes]) -> Iterator[tuple[Any, ...]]:
+    """Yield the rows of a leaf page of a table; its type is not asked, for that may be what is damaged."""
+    count = int.from_bytes(page[3:5], "big")
+    if len(page) < PAGE or count > PAGE // 4:
+        return
+    for place in range(8, 8 + 2 * count, 2):
+        with suppress(ValueError, IndexError, KeyError, struct.error, OverflowError):
+            at = int.from_bytes(page[place : place + 2], "big")
+            length, at = _varint(page, at)
+            _, at = _varint(page, at)  # the row's number
+            yield _record(_payload(page, at, length, whole, latest))
+
+
+def _payload(page: bytes, at: int, length: int, whole: mmap.mmap, latest: Mapping[int, bytes]) -> bytes:
+    """Return the bytes of a row, its overflow pages followed."""
+    most, least = PAGE - 35, (PAGE - 12) * 32 // 255 - 23
+    if length <= most:
+        return page[at : at + length]
+    if length > len(whole) + sum(map(len, latest.values())):
+        raise ValueError
+    local = least + (length - least) % (PAGE - 4)
+    local = local if local <= most else least
+    parts, left = [page[at : at + local]], length - local
+    number = int.from_bytes(page[at + local : at + local + 4], "big")
+    while left > 0:
+        held = latest.get(number) or whole[(number - 1) * PAGE : number * PAGE]
+        if number < 1 or len(held) < PAGE:
+            raise ValueError
+        parts.append(held[4 : 4 + left])
+        left -= PAGE - 4
+        number = int.from_bytes(held[:4], "big")
+    return b"".join(parts)
+
+
+def _record(payload: bytes) -> tuple[Any, ...]:
+    """Return the values of a record, as SQLite would give those of the table ``points``."""
+    end, at = _varint(payload, 0)
+    kinds = []
+    while at < end:
+        kind, at = _varint(payload, at)
+        kinds.append(kind)
+    if len(kinds) != len(POINT_COLUMNS):
+        raise ValueError
+    values: list[Any] = []
+    at = end
+    for kind in kinds:
+        size = _SIZES[kind] if kind < 12 else (kind - 12) // 2
+        values.append(_value(kind, payload[at : at + size]))
+        at += size
+    for place in _FLOATS:  # SQLite keeps a whole float as a whole number
+        values[place] = None if values[place] is None else float(values[place])
+    return tuple(values)
+
+
+def _value(kind: int, data: bytes) -> Any:
+    if kind == 0:
+        return None
+    if kind == 7:
+        return struct.unpack(">d", data)[0]
+    if kind < 12:
+        return kind - 8 if kind > 7 else int.from_bytes(data, "big", signed=True)
+    return data.decode() if kind % 2 else data
+
+
+def _varint(data: bytes, at: int) -> tuple[int, int]:
+    """Return a whole number of one to nine bytes, and where the next thing begins."""
+    value = 0
+    for place in range(at, at + 8):
+        value = value << 7 | data[place] & 0x7F
+        if data[place] < 0x80:
+            return value, place + 1
+    return value << 8 | data[at + 8], at + 9
+
+
+def _frames(path: Path) -> tuple[bytes, list[bytes]]:
+    """Return the head of the log beside a database, and its whole frames."""
+    try:
+        held = path.with_name(path.name + "-wal").read_bytes()
+    except OSError:  # there is none
+        return b"", []
+    each = _FRAME_HEAD + PAGE
+    places = range(_LOG_HEAD, len(held) - each + 1, each)
+    return held[:_LOG_HEAD], [held[place : place + each] for place in places]
+
+
+def _is_of(frame: bytes, head: bytes) -> bool:
+    """Say whether a frame is of a log's own time: both salts of an older one differ, a flipped bit changes one."""
+    return frame[8:12] == head[16:20] or frame[12:16] == head[20:24]
+
+
+def _logged(path: Path) -> list[tuple[int, bytes]]:
+    """Return the pages of a database's log by number, in the order in which they were written."""
+    head, frames = _frames(path)
+    own = [frame for frame in frames if _is_of(frame, head)]
+    return [(int.from_bytes(frame[:4], "big"), frame[_FRAME_HEAD:]) for frame in own]
+
+
+def log_fault(path: Path) -> str | None:
+    """Say where the log beside a database is damaged; SQLite passes over the rest of such a log in silence.
+
+    A last frame that is not all there, as where its writer was killed, is no fault.
+    """
+    head, frames = _frames(path)
+    if len(head) < _LOG_HEAD:
+        return None
+    magic = int.from_bytes(head[:4], "big")
+    order = ">" if magic == _LOG_MAGIC[1] else "<"
+    sums = _summed((0, 0), head[:24], order)
+    if magic not in _LOG_MAGIC or struct.pack(">II", *sums) != head[24:32] or head[8:12] != PAGE.to_bytes(4, "big"):
+        return "the header of its log"
+    for number, frame in enumerate(frames):
+        sums = _summed(_summed(sums, frame[:8], order), frame[_FRAME_HEAD:], order)
+        if frame[8:16] != head[16:24] or struct.pack(">II", *sums) != frame[16:24]:
+            if any(_is_of(later, head) for later in frames[number:]):
+                return f"its log, from page {number + 1} on"
+            return None
+    return None
+
+
+def _summed(sums: tuple[int, int], data: bytes, order: str) -> tuple[int, int]:
+    one, two = sums
+    words = struct.unpack(f"{order}{len(data) // 4}I", data)
+    for first, second in zip(words[::2], words[1::2], strict=True):
+        one = (one + first + two) & 0xFFFFFFFF
+        two = (two + second + one) & 0xFFFFFFFF
+    return one, two

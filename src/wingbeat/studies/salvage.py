@@ -1,0 +1,83 @@
+"""A damaged store made anew from the answers in it that are whole."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from wingbeat.errors import FileError
+from wingbeat.studies.pages import whole_answers
+from wingbeat.studies.plan import Plan
+from wingbeat.studies.store import Store
+
+__all__ = ["Salvaged", "salvage"]
+
+_ENDS = ("", "-wal")
+
+
+class Salvaged(NamedTuple):
+    """What a salvage kept: how many answers, and where the damaged store lies now.
+
+    Parameters
+    ----------
+    kept : answers in the new store.
+    aside : the damaged file, unchanged; None where the store was sound and is left as it is.
+    """
+
+    kept: int
+    aside: Path | None
+
+
+def salvage(path: Path, plan: Plan) -> Salvaged:
+    """Put a new store in the place of a damaged one, with every answer of that whose digest is right.
+
+    Call it under the lock of the store. A sound store is left as it is.
+
+    Parameters
+    ----------
+    path : of the store.
+    plan : what the new store holds the points of.
+
+    Raises
+    ------
+    FileError : there is no store, no answer in it is whole, or the folder cannot be written to.
+    """
+    if not path.is_file():
+        raise FileError(f"there is no store {str(path)!r} to salvage; check the path, or run the study")
+    try:
+        with Store.open(path) as store:
+            return Salvaged(store.answers(), None)
+    except FileError:
+        rows = whole_answers(path)
+        if not rows:  # another program's file, or one of another wingbeat
+            raise
+    fresh, aside = path.with_name(path.name + ".new"), _free(path)
+    try:
+        fresh.unlink(missing_ok=True)
+        with Store.open(fresh) as store:
+            store.set_plan(plan)
+            store.restore(rows.values())
+        # A log left in its place would be taken for the new store's own.
+        for end in reversed(_ENDS):
+            with suppress(FileNotFoundError):
+                os.rename(f"{path}{end}", f"{aside}{end}")
+        with suppress(FileNotFoundError):
+            os.unlink(f"{path}-shm")
+        os.rename(fresh, path)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        fix = "copy the study to a folder that you can write to"
+        raise FileError(f"cannot write beside {str(path)!r}: {reason}; {fix}") from None
+    return Salvaged(len(rows), aside)
+
+
+def _free(path: Path) -> Path:
+    """Return a name for the damaged store that nothing has: what was put aside before stays."""
+    number = 1
+    while True:
+        aside = path.with_name(f"{path.name}.damaged" + (f"-{number}" if number > 1 else ""))
+        if not any(os.path.exists(f"{aside}{end}") for end in _ENDS):
+            return aside
+        number += 1

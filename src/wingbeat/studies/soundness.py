@@ -1,0 +1,175 @@
+"""Whether a study's store is sound: asked whenever one is opened, before anything in it is believed."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, suppress
+from pathlib import Path
+
+from wingbeat._version import NUMERICAL_VERSION
+from wingbeat.errors import FileError
+from wingbeat.studies.database import APPLICATION, FORM, TABLES, refusal
+from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, table_digest
+from wingbeat.studies.lock import is_locked
+from wingbeat.studies.pages import PAGE, log_fault, whole_answers
+
+__all__ = ["PLAN_TABLES", "check_contents", "check_files", "digest_of"]
+
+# Tables that a plan determines: each has one digest, and the order that this is made in.
+PLAN_TABLES = {"bases": "hash", "plan_bases": "base", "plan": "ordinal"}
+_MAGIC = b"SQLite format 3\0"
+# Bytes of the head of a file that are the same in every store: the size of a page, both versions of the format,
+# bytes reserved in a page, and the text encoding, UTF-8.
+_HEAD = {16: PAGE.to_bytes(2, "big"), 20: b"\0", 56: b"\0\0\0\1"}
+
+# Files that this process found sound: a command opens its store several times.
+_SOUND: dict[Path, tuple[tuple[int, int, int], ...]] = {}
+
+
+class _Damaged(Exception):
+    """Something in a store is not what was written there."""
+
+
+def check_files(path: Path, mine: bool) -> None:
+    """Refuse a store for what its files say before SQLite opens them: it would mend a log by cutting it off.
+
+    Parameters
+    ----------
+    path : of the store.
+    mine : whether this process holds the store's lock, so that nobody else is just writing to its log.
+
+    Raises
+    ------
+    FileError : the store is damaged.
+    """
+    fault = log_fault(path)
+    if fault is not None and not mine and is_locked(path):
+        fault = None
+    with open(path, "rb") as file:
+        head = file.read(100)
+    if fault is None and head.startswith(_MAGIC):
+        alike = all(head[at : at + len(held)] == held for at, held in _HEAD.items())
+        # 1 without a log, 2 with one; SQLite cannot write, or not read, what says anything else.
+        alike = alike and {*head[18:20]} <= {1, 2}
+        # Databases of other programs may differ; a store is known by its mark, or by an answer in it.
+        if not alike and (head[68:72] == APPLICATION.to_bytes(4, "big") or whole_answers(path)):
+            fault = "its header"
+    if fault is not None:
+        raise refusal(path, fault)
+
+
+def check_contents(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse what is no store, what other numbers stand in, and what is not as it was written.
+
+    Every row of every table is read, at some 30 us a point, unless this process found the same files sound before.
+
+    Raises
+    ------
+    FileError : says which of them, and what to do.
+    sqlite3.Error : what SQLite itself cannot read.
+    """
+    stamp = _stamp(path)
+    if _SOUND.get(path) == stamp:
+        return
+    connection.execute("BEGIN")  # all of it at one time, whatever a driver does meanwhile
+    try:
+        _check_kind(connection, path)
+        _check_structure(connection)
+        _check_tables(connection, dict(connection.execute("SELECT name, value FROM about")))
+    except _Damaged as fault:
+        raise refusal(path, str(fault)) from None
+    finally:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+    _SOUND[path] = stamp
+
+
+def _stamp(path: Path) -> tuple[tuple[int, int, int], ...]:
+    """Return what tells whether the files of a store were changed: of each that is not empty."""
+    found = []
+    for file in (path, path.with_name(path.name + "-wal")):
+        with suppress(FileNotFoundError):
+            held = os.stat(file)
+            found.append((held.st_ino, held.st_size, held.st_mtime_ns))
+    return tuple(stamp for stamp in found if stamp[1])
+
+
+def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse another program's database, and stores of another wingbeat."""
+    if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION:
+        if whole_answers(path):
+            raise _Damaged("its header")
+        raise FileError(f"{str(path)!r} is a database, but no store of a study; move it away or rename the study")
+    about = dict(connection.execute("SELECT name, value FROM about"))
+    theirs = f"{about.get('numerical_version')} (wingbeat {about.get('made_by')})"
+    if about.get("form") == "1" and "digest" not in about:
+        raise FileError(
+            f"the store {str(path)!r} is of numerical version {theirs} and has no digests, so damage would not "
+            "show; move it away and run the study again, or go on with the wingbeat that made it"
+        )
+    if about_digest(about) != about.get("digest"):
+        raise _Damaged("what it says about itself does not match its digest")
+    if about["form"] != FORM or about["numerical_version"] != str(NUMERICAL_VERSION):
+        raise FileError(
+            f"the store {str(path)!r} is of numerical version {theirs}, this wingbeat of {NUMERICAL_VERSION}; its "
+            "answers do not mix with new ones: move it away, or go on with the wingbeat that made it"
+        )
+
+
+def _check_structure(connection: sqlite3.Connection) -> None:
+    """Find what is wrong with tables, pages and indices, which the digests of rows do not tell."""
+    if _schema(connection) != _own_schema():
+        raise _Damaged("its tables are not those of a store")
+    (told,) = connection.execute("PRAGMA integrity_check(1)").fetchone()
+    if told != "ok":
+        raise _Damaged(" ".join(str(told).replace("*** in database main ***", "").split()))
+
+
+def _schema(connection: sqlite3.Connection) -> list[tuple[str, ...]]:
+    return sorted(connection.execute("SELECT type, name, tbl_name, COALESCE(sql, '') FROM sqlite_master"))
+
+
+@functools.cache
+def _own_schema() -> list[tuple[str, ...]]:
+    with closing(sqlite3.connect(":memory:")) as connection:
+        connection.executescript(TABLES)
+        return _schema(connection)
+
+
+def _check_tables(connection: sqlite3.Connection, about: dict[str, str]) -> None:
+    """Compare every row with its digest, and all of them with that of their table."""
+    found, damaged = Fingerprint(), []
+    for row in _rows(connection, "points", "key"):
+        if row_digest(row[:-1]) != row[-1]:
+            damaged.append(str(row[0])[:8])
+        else:
+            found = found.add(row[-1])
+    expected = Fingerprint.of_text(about.get("points", ""))
+    if damaged:
+        keys = ", ".join(damaged[:3]) + (", ..." if len(damaged) > 3 else "")
+        raise _Damaged(f"{len(damaged)} of {expected.rows} answers do not match their digests, key {keys}")
+    if found != expected:
+        raise _Damaged(f"{found.rows} of {expected.rows} answers are left, or others than were written")
+    for table in PLAN_TABLES:
+        if digest_of(connection, table) != about.get(table, digest_of_nothing()):
+            raise _Damaged("the points of the study in it do not match their digest")
+
+
+def digest_of(connection: sqlite3.Connection, table: str) -> str:
+    """Return the digest of a table that a plan determines."""
+    return table_digest(_rows(connection, table, PLAN_TABLES[table]))
+
+
+@functools.cache
+def digest_of_nothing() -> str:
+    """Return the digest of a table without rows."""
+    return table_digest([])
+
+
+def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tuple]:
+    # In the order of the rows as they lie, where the digests do not depend on it.
+    tail = "NOT INDEXED" if table == "points" else f"ORDER BY {order}"
+    return connection.execute(f"SELECT * FROM {table} {tail}")

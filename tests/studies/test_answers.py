@@ -203,6 +203,20 @@ def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(names, done
     assert [name for name, miss in json.loads(outcome.record)["closure"].items() if miss is None] == names
 
 
+def test_a_record_that_no_json_holds_is_told_beside_its_point(done, monkeypatch):
+    points = list(done.plan.points())[:2]
+    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
+    monkeypatch.setattr(work, "find_helped", lambda *given: found)
+    record = work.orbit_record
+    odd = iter([{"mean_power": np.inf}, {}])
+    monkeypatch.setattr(work, "orbit_record", lambda solution: record(solution) | next(odd))
+    tasks = tuple(Task(point.key, point.changes) for point in points)
+    one, other = work.solve_unit(Unit(json.dumps(done.plan.bases[0].recipe.inputs()), tasks))
+    assert (one.key, one.status, one.record) == (points[0].key, "error", None)
+    assert "JSON" in one.text
+    assert (other.key, other.status) == (points[1].key, "converged")
+
+
 @pytest.mark.parametrize("least", ["frequency", "mean_power", "peak_power"])
 def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_path, monkeypatch):
     asked = []

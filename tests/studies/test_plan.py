@@ -142,6 +142,7 @@ FAULTS = [
     ({"species": "pigeon", "speed": 9.0, "minimise": "powr"}, "is not one that wingbeat knows"),
     ({"species": "pigeon", "speed": 9.0, "minimise": "no.py:f"}, "cannot read"),
     ({"species": "pigeon", "speed": 9.0, "subject_to": "power<30"}, "power<30"),
+    ({"species": "pigeon", "speed": 9.0, "free": []}, "free = []: must hold at least 1 values"),
     ({"species": "pigeon", "speed": 9.0, "free": ["flap"]}, "is not a wingbeat parameter that can be free"),
     ({"species": "pigeon", "speed": 9.0, "set": {"wing.mas": 1.0}}, "wing.mas = 1.0: is not the path of a number"),
     ({"species": "pigeon", "speed": 9.0, "bounds": {"flap_amplitude": [2.0, 1.0]}}, "lower must be below upper"),
@@ -283,3 +284,24 @@ def test_the_estimate_counts_the_searches_that_will_be_made(tmp_path):
         return wb.study({"species": "bat", "speed": 9.0} | form, store=tmp_path / "x.study.sqlite").estimate()
 
     assert seconds(minimise="peak_power") > seconds(minimise="mean_power") > seconds() == seconds(starts=6)
+
+
+@pytest.mark.parametrize("source", [5, b"wings.toml", ["wings.toml"]])
+def test_what_is_no_study_is_refused(source):
+    with pytest.raises(
+        wb.InvalidInputError, match=r"source = .* is neither a path nor a dictionary; give a study file"
+    ):
+        wb.study(source)
+
+
+def test_a_mistyped_subcommand_is_not_taken_for_a_file(tmp_path, monkeypatch, capsys):
+    (tmp_path / "wings.toml").write_text(STUDIES[0])
+    monkeypatch.chdir(tmp_path)
+    for words in ("statu wings.toml", "statu"):
+        assert main(["study", *words.split()]) == 2
+        told = "error: study = 'statu': is neither a file nor a subcommand; did you mean status?\n"
+        assert capsys.readouterr().err == told
+    # A file may have the name of anything.
+    (tmp_path / "statu").write_text("species = 3")
+    assert main(["study", "statu"]) == 2
+    assert "species = 3: must be a text" in capsys.readouterr().err

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-from cyclopts import App, Parameter
+from cyclopts import App, Parameter, Token
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs
@@ -26,6 +26,22 @@ study = App(
 # Failures that are listed by name.
 _LISTED = 10
 
+# What may follow the word `study` in place of a file.
+_COMMANDS = ("run", "status", "export", "plot", "salvage")
+
+
+def _file(kind: Any, tokens: Sequence[Token]) -> Path:
+    """Return the path that was given, unless it is a mistyped subcommand."""
+    from wingbeat.species_schema import suggest
+
+    word = tokens[0].value
+    if word.isalpha() and not Path(word).exists():
+        faults = FaultList()
+        faults.add("study", word, "is neither a file nor a subcommand", suggest(word, _COMMANDS))
+        faults.raise_if_any()
+    return Path(word)
+
+
 File = Annotated[Path, Parameter(help="The study file, .toml; its store lies beside it.")]
 Output = Annotated[Path | None, Parameter(name=["--output", "-o"], help="The file to write.")]
 
@@ -33,7 +49,7 @@ Output = Annotated[Path | None, Parameter(name=["--output", "-o"], help="The fil
 @study.default
 @study.command(name="run")
 def run(
-    file: File,
+    file: Annotated[File, Parameter(converter=_file)],
     *,
     processes: Annotated[
         Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; as many as there are cores.")

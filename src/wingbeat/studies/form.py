@@ -103,7 +103,7 @@ class StudyForm(BaseModel):
     starts: _Counts | None = None
     seed: _Counts = Field(default=[0])
     most_starts: _Counts | None = None
-    free: list[_Text] | None = None
+    free: Annotated[list[_Text], _Some] | None = None
     bounds: _Bounds = Field(default={})
     settings: dict[str, Any] = Field(default={}, alias="set")
     advise: bool = False

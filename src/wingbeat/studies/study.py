@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.cores import core_count
-from wingbeat.errors import FaultList, FileError
+from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.columns import unit_of
 from wingbeat.results.orbit import Orbit
+from wingbeat.species_schema import shown
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
@@ -331,6 +332,9 @@ def study(
     >>> len(plan)
     2
     """
+    if not isinstance(source, str | PathLike | Mapping | None):
+        fix = "give a study file, or a dictionary of its keys"
+        raise InvalidInputError([Fault("source", shown(source), "is neither a path nor a dictionary", fix)])
     path = None if source is None or isinstance(source, Mapping) else Path(source)
     if path is not None:
         found, faults = read_form(path)

@@ -38,12 +38,12 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
             found, known = _search(unit.recipe, task.changes, before)
             if found.status is Status.CONVERGED:
                 before.append(known)
-            record = orbit_record(found)
+            outcome = _outcome(task.key, orbit_record(found), begun)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
             continue
-        yield _outcome(task.key, record, time.perf_counter() - begun)
+        yield outcome
 
 
 class _Before(NamedTuple):
@@ -75,10 +75,10 @@ def _recipe(inputs: str) -> Recipe:
     return recipe_from(json.loads(inputs))
 
 
-def _outcome(key: str, record: dict[str, Any], seconds: float) -> Outcome:
+def _outcome(key: str, record: dict[str, Any], begun: float) -> Outcome:
     record.pop("solve_seconds")  # of the run, not of the point
     misses = record["closure"].values()
     certificate = None if None in misses else max(map(abs, misses))
     text = "" if record["status"] == Status.CONVERGED.value else record["message"]
     told = json.dumps(record, separators=(",", ":"), allow_nan=False)
-    return Outcome(key, record["status"], told, certificate, text, seconds)
+    return Outcome(key, record["status"], told, certificate, text, time.perf_counter() - begun)

@@ -1,5 +1,6 @@
 """Damaged stores through the real program: a fault is harmless or refused in words, and whole answers are kept."""
 
+import errno
 import json
 import random
 import shutil
@@ -12,11 +13,15 @@ from flipped_bits import HARMLESS, REFUSED, STUDY, Sample, campaign
 
 import wingbeat as wb
 from studies.standin import RAISES
+from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import database, soundness, store
+from wingbeat.studies.digests import about_digest
+from wingbeat.studies.lock import only_one
 from wingbeat.studies.pages import PAGE, log_fault, whole_answers
 from wingbeat.studies.units import Outcome
 
 SPEEDS = [6 + 0.5 * i for i in range(12)]
+GRID = [1 + 0.25 * i for i in range(40)]
 
 
 @pytest.fixture(scope="module")
@@ -153,6 +158,50 @@ def test_a_damaged_log_of_a_killed_driver_is_not_cut_off_in_silence(cheap):
     assert len(study.points()) == 59
 
 
+def spoil(path, how):
+    whole = path.read_bytes()
+    if how == "cut short":
+        path.write_bytes(whole[: len(whole) // 2])
+    elif how == "no database":
+        path.write_bytes(b"speed,power\n1,2\n" * 200)
+    elif how == "overwritten":
+        path.write_bytes(whole[:4096] + b"\xff" * (len(whole) - 4096))
+    elif how == "foreign":
+        path.unlink()
+        connection = sqlite3.connect(path)
+        connection.execute("CREATE TABLE birds (name TEXT)")
+        connection.close()
+    else:
+        connection = sqlite3.connect(path)
+        about = dict(connection.execute("SELECT name, value FROM about")) | {"numerical_version": "0"}
+        about["digest"] = about_digest(about)
+        connection.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", about.items())
+        connection.commit()
+        connection.close()
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ("cut short", ("is damaged or no store", "nothing was deleted; restore a copy")),
+        ("no database", ("is damaged or no store", "nothing was deleted")),
+        ("overwritten", ("is damaged or no store", "nothing was deleted")),
+        ("foreign", ("is a database, but no store of a study",)),
+        ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
+    ],
+)
+def test_a_store_that_is_none_is_refused_and_left_as_it_is(cheap, how, words):
+    study = cheap(GRID)
+    assert study.run()[0] == 0
+    spoil(study.store, how)
+    before = study.store.read_bytes()
+    code, _, err = study.run()
+    assert code == 2, err
+    assert all(word in err for word in words), err
+    assert "Traceback" not in err
+    assert study.store.read_bytes() == before
+
+
 def test_what_holds_no_answer_is_not_salvaged(cheap):
     study = cheap(SPEEDS)
     assert "there is no store" in study.run("salvage", study.file)[2]
@@ -162,6 +211,29 @@ def test_what_holds_no_answer_is_not_salvaged(cheap):
         code, _, err = study.run(*words)
         assert (code, "no answer can be read from it" in err) == (2, True)
     assert study.store.read_bytes() == held
+
+
+def test_a_store_in_use_or_that_cannot_be_read_is_not_taken_for_damaged(cheap, monkeypatch):
+    study = cheap(SPEEDS)
+    assert study.run()[0] == 0
+    held = study.store.read_bytes()
+    with only_one(study.store):
+        assert "another process is running the study" in study.run("salvage", study.file)[2]
+    opened = open
+
+    def refuse(path, *more, **named):  # permissions do not stop everybody
+        if path == study.store:
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return opened(path, *more, **named)
+
+    monkeypatch.setattr("builtins.open", refuse)
+    for what in ("status", "salvage"):
+        code, _, err = study.run(what, study.file)
+        assert code == 2
+        assert "permission denied; check its permissions" in err
+    monkeypatch.undo()
+    assert study.store.read_bytes() == held
+    assert sorted(path.name for path in study.folder.iterdir()) == ["cheap.study.sqlite", "cheap.toml"]
 
 
 def test_a_store_without_digests_is_refused_with_the_cure(cheap, monkeypatch):

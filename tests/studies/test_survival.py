@@ -17,10 +17,8 @@ from terminals import needs_terminal, on_terminal
 
 import wingbeat as wb
 from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
-from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cores import usable_cores
 from wingbeat.species import species_text
-from wingbeat.studies.digests import about_digest
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
 
@@ -286,50 +284,6 @@ def test_a_folder_that_cannot_be_written_is_told(cheap, monkeypatch):
     assert code == 2
     assert "cannot write beside" in err
     assert "permission denied; copy the study to a folder that you can write to" in err
-
-
-def spoil(path, how):
-    whole = path.read_bytes()
-    if how == "cut short":
-        path.write_bytes(whole[: len(whole) // 2])
-    elif how == "no database":
-        path.write_bytes(b"speed,power\n1,2\n" * 200)
-    elif how == "overwritten":
-        path.write_bytes(whole[:4096] + b"\xff" * (len(whole) - 4096))
-    elif how == "foreign":
-        path.unlink()
-        connection = sqlite3.connect(path)
-        connection.execute("CREATE TABLE birds (name TEXT)")
-        connection.close()
-    else:
-        connection = sqlite3.connect(path)
-        about = dict(connection.execute("SELECT name, value FROM about")) | {"numerical_version": "0"}
-        about["digest"] = about_digest(about)
-        connection.executemany("INSERT OR REPLACE INTO about VALUES (?, ?)", about.items())
-        connection.commit()
-        connection.close()
-
-
-@pytest.mark.parametrize(
-    ("how", "words"),
-    [
-        ("cut short", ("is damaged or no store", "nothing was deleted; restore a copy")),
-        ("no database", ("is damaged or no store", "nothing was deleted")),
-        ("overwritten", ("is damaged or no store", "nothing was deleted")),
-        ("foreign", ("is a database, but no store of a study",)),
-        ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
-    ],
-)
-def test_a_store_that_is_none_is_refused_and_left_as_it_is(cheap, how, words):
-    study = cheap(GRID[:40])
-    assert study.run()[0] == 0
-    spoil(study.store, how)
-    before = study.store.read_bytes()
-    code, _, err = study.run()
-    assert code == 2, err
-    assert all(word in err for word in words), err
-    assert "Traceback" not in err
-    assert study.store.read_bytes() == before
 
 
 def test_a_store_whose_maker_was_killed_before_its_tables_is_made_anew(cheap):

@@ -10,7 +10,17 @@ from pathlib import Path
 from wingbeat.errors import FileError
 from wingbeat.studies.pages import whole_answers
 
-__all__ = ["APPLICATION", "FORM", "TABLES", "closing", "connect", "connect_reader", "in_words", "refusal"]
+__all__ = [
+    "APPLICATION",
+    "FORM",
+    "TABLES",
+    "DamagedStoreError",
+    "closing",
+    "connect",
+    "connect_reader",
+    "in_words",
+    "refusal",
+]
 
 # Stands in the file's head, where `file` and we tell a store from another database: "wbst".
 APPLICATION = 0x77627374
@@ -28,6 +38,10 @@ CREATE TABLE points (key TEXT PRIMARY KEY, status TEXT NOT NULL, base TEXT NOT N
     run_worker TEXT NOT NULL, run_attempt INTEGER NOT NULL, run_number INTEGER NOT NULL, digest BLOB NOT NULL);
 CREATE INDEX points_status ON points (key, status, run_number);
 """
+
+
+class DamagedStoreError(FileError):
+    """Something in a store is not what was written there."""
 
 
 def connect(path: Path, mode: str) -> sqlite3.Connection:
@@ -62,17 +76,17 @@ def closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
         connection.close()
 
 
-def refusal(path: Path, reason: str) -> FileError:
+def refusal(path: Path, reason: str) -> DamagedStoreError:
     """Return the refusal of a damaged store, which says how many of its answers can be salvaged."""
     count = 0
     with suppress(OSError):
         count = len(whole_answers(path))
     if not count:
-        return FileError(
+        return DamagedStoreError(
             f"the store {str(path)!r} is damaged or no store ({reason}), and no answer can be read from it; "
             "nothing was deleted; restore a copy, or move it away and run the study again"
         )
-    return FileError(
+    return DamagedStoreError(
         f"the store {str(path)!r} is damaged ({reason}); nothing was deleted; run `wingbeat study salvage`, which "
         f"keeps the {count} answers that are whole in a new store, or restore a copy"
     )

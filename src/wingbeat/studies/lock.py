@@ -27,8 +27,8 @@ def _take(descriptor: int) -> None:
 def is_locked(store: Path) -> bool:
     """Say whether a process holds the lock beside a store, which stays behind where that was killed."""
     try:
-        descriptor = os.open(_beside(store), os.O_RDWR)
-    except OSError:  # there is none, or it lies where only its owner may ask
+        descriptor = os.open(_beside(store), os.O_RDONLY)
+    except OSError:  # there is none
         return False
     try:
         _take(descriptor)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from wingbeat.errors import FileError
+from wingbeat.studies.database import DamagedStoreError
 from wingbeat.studies.pages import whole_answers
 from wingbeat.studies.plan import Plan
 from wingbeat.studies.store import Store
@@ -49,13 +50,13 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
     try:
         with Store.open(path) as store:
             return Salvaged(store.answers(), None)
-    except FileError:
+    except DamagedStoreError:
         rows = whole_answers(path)
-        if not rows:  # another program's file, or one of another wingbeat
+        if not rows:
             raise
     fresh, aside = path.with_name(path.name + ".new"), _free(path)
     try:
-        fresh.unlink(missing_ok=True)
+        _remove(fresh)
         with Store.open(fresh) as store:
             store.set_plan(plan)
             store.restore(rows.values())
@@ -63,14 +64,23 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
         for end in reversed(_ENDS):
             with suppress(FileNotFoundError):
                 os.rename(f"{path}{end}", f"{aside}{end}")
-        with suppress(FileNotFoundError):
-            os.unlink(f"{path}-shm")
+        _remove(path)  # what is left: the index of the log
         os.rename(fresh, path)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         fix = "copy the study to a folder that you can write to"
         raise FileError(f"cannot write beside {str(path)!r}: {reason}; {fix}") from None
+    finally:
+        with suppress(OSError):
+            _remove(fresh)
     return Salvaged(len(rows), aside)
+
+
+def _remove(path: Path) -> None:
+    """Delete a database and what SQLite keeps beside it, as far as they are there."""
+    for end in (*_ENDS, "-shm"):
+        with suppress(FileNotFoundError):
+            os.unlink(f"{path}{end}")
 
 
 def _free(path: Path) -> Path:

@@ -43,13 +43,17 @@ def check_files(path: Path, mine: bool) -> None:
 
     Raises
     ------
-    FileError : the store is damaged.
+    FileError : the store is damaged, or cannot be read.
     """
     fault = log_fault(path)
-    if fault is not None and not mine and is_locked(path):
-        fault = None
-    with open(path, "rb") as file:
-        head = file.read(100)
+    if fault is not None and not mine:  # or a driver was just writing: look again once there is none
+        fault = None if is_locked(path) else log_fault(path)
+    try:
+        with open(path, "rb") as file:
+            head = file.read(100)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise FileError(f"cannot open the store {str(path)!r}: {reason}; check its permissions") from None
     if fault is None and head.startswith(_MAGIC):
         alike = all(head[at : at + len(held)] == held for at, held in _HEAD.items())
         # 1 without a log, 2 with one; SQLite cannot write, or not read, what says anything else.

@@ -7,7 +7,8 @@ first and the world axis last; they describe the left wing, while every total co
 
 `state` is (x, z, body_pitch, u, w, pitch_rate); `phase` counts wingbeats from the top of the stroke;
 `q` is (x, z, psi, phi, theta) and `t` a time in seconds that moves the prescribed span and fold only.
-`coefficients(alpha)` returns (c_l, c_d, x_cp); `force_at_cp` puts the air load at x_cp.
+`coefficients(alpha)` returns (c_l, c_d, x_cp); `force_at_cp` puts the air load at x_cp; with `full_airspeed` its
+size goes with the square of the strip's whole velocity, the spanwise part included.
 """
 
 import math
@@ -183,7 +184,7 @@ class Wing:
         """Velocity of points as the body sees them (world components)."""
         return v - self.v_body - np.cross(self.w_body, r - self.body)
 
-    def air_loads(self, air, coefficients, force_at_cp):
+    def air_loads(self, air, coefficients, force_at_cp, full_airspeed):
         """(place, velocity, force, alpha, lift, drag) per strip of one wing."""
         _, v, _ = self.point(0.0)
         xi, alpha, lift, drag = np.zeros((4, len(v)))
@@ -195,7 +196,8 @@ class Wing:
                 continue
             alpha[i] = math.atan2(-vn, vc)
             c_l, c_d, x_cp = coefficients(alpha[i])
-            pressure_area = 0.5 * air["density"] * speed**2 * self.chord[i] * self.width
+            squared = v[i] @ v[i] if full_airspeed else speed**2
+            pressure_area = 0.5 * air["density"] * squared * self.chord[i] * self.width
             lift[i], drag[i] = pressure_area * c_l, pressure_area * c_d
             along = (vc * self.e_c[i] + vn * self.e_n[i]) / speed
             across = (-vn * self.e_c[i] + vc * self.e_n[i]) / speed
@@ -229,7 +231,9 @@ def _prescribed(vehicle, wingbeat, state, phase, strips, acceleration=(0.0, 0.0,
     return Wing(vehicle, wingbeat, q, q_dot, q_ddot, phase / wingbeat["frequency"], strips)
 
 
-def accelerations(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False):
+def accelerations(
+    vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False
+):
     """Body accelerations (ax, az, psi_dd), m/s2 and rad/s2: Newton and Euler about the reference point."""
     wing, body = _prescribed(vehicle, wingbeat, state, phase, strips), vehicle["body"]
     matrix = np.diag([body["mass"], body["mass"], body["pitch_inertia"]])
@@ -240,7 +244,7 @@ def accelerations(vehicle, wingbeat, air, state, phase, coefficients, strips, fo
         """Both wings' force along x and z and nose-up moment."""
         return 2.0 * np.array([force[:, 0].sum(), force[:, 2].sum(), -np.cross(arm, force)[:, 1].sum()])
 
-    place, _, force, *_ = wing.air_loads(air, coefficients, force_at_cp)
+    place, _, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     right += resultant(force, place - wing.body)
     for m, r, _, a in wing.mass_points():
         m, arm = m[:, None], r - wing.body
@@ -250,36 +254,38 @@ def accelerations(vehicle, wingbeat, air, state, phase, coefficients, strips, fo
     return np.linalg.solve(matrix, right)
 
 
-def _needed(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp):
+def _needed(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp, full_airspeed):
     """The wing in flight and groups of (force the flier supplies to one wing's points, place, velocity)."""
-    args = (coefficients, strips, force_at_cp)
+    args = (coefficients, strips, force_at_cp, full_airspeed)
     acceleration = accelerations(vehicle, wingbeat, air, state, phase, *args)
     wing = _prescribed(vehicle, wingbeat, state, phase, strips, acceleration)
-    place, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp)
+    place, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     groups = [(m[:, None] * (a + air["gravity"] * Z), r, v) for m, r, v, a in wing.mass_points()]
     return wing, [*groups, (-force, place, velocity)]
 
 
-def hinge_torques(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False):
+def hinge_torques(
+    vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False
+):
     """Generalised (tau_flap, tau_pitch) in N m, both wings; tau_pitch is conjugate to the root pitch."""
-    wing, groups = _needed(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp)
+    wing, groups = _needed(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp, full_airspeed)
     tau = sum(2.0 * np.einsum("nk,nkj->j", force, wing.jacobian(r)) for force, r, _ in groups)
     return tau[3:]
 
 
-def powers(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False):
+def powers(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False):
     """(hinge power, actuator power) in W, both wings."""
-    args = (vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp)
+    args = (vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp, full_airspeed)
     wing, groups = _needed(*args)
     flap, pitch = wing_angles(wingbeat, phase)
     hinge = hinge_torques(*args) @ np.array([flap[1], pitch[1]])
     return hinge, sum(2.0 * np.sum(force * wing.in_body_axes(r, v)) for force, r, v in groups)
 
 
-def air_power(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False):
+def air_power(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False):
     """Power (W) that the air loads on both wings and the body deliver."""
     wing = _prescribed(vehicle, wingbeat, state, phase, strips)
-    _, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp)
+    _, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     return 2.0 * np.sum(force * velocity) + _body_drag(vehicle, air, wing.v_body) @ wing.v_body
 
 
@@ -314,10 +320,10 @@ def five_coordinate(vehicle, wingbeat, air, q, q_dot, t, strips):
     return {"D": d, "C": c, "h": h, "g": g}
 
 
-def aero_forces(vehicle, wingbeat, air, q, q_dot, t, coefficients, strips, force_at_cp=False):
+def aero_forces(vehicle, wingbeat, air, q, q_dot, t, coefficients, strips, force_at_cp=False, full_airspeed=False):
     """Generalised air loads (5) of wings and body; {alpha (rad), lift, drag (N)} of one wing's strips."""
     wing = Wing(vehicle, wingbeat, q, q_dot, np.zeros(5), t, strips)
-    place, _, force, alpha, lift, drag = wing.air_loads(air, coefficients, force_at_cp)
+    place, _, force, alpha, lift, drag = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     f_aero = 2.0 * np.einsum("nk,nkj->j", force, wing.jacobian(place))
     f_aero[:2] += _body_drag(vehicle, air, wing.v_body)[[0, 2]]
     return f_aero, {"alpha": alpha, "lift": lift, "drag": drag}

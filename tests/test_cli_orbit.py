@@ -28,7 +28,7 @@ NAMES = {
     "vehicle": "body wing",
     "vehicle.body": "mass pitch_inertia drag_area",
     "vehicle.wing": "semi_span chord mass mass_exponent shoulder stroke_plane_angle",
-    "aero": "coefficients extension blend_width_deg strips force_point",
+    "aero": "coefficients extension blend_width_deg strips force_point airspeed",
     "air": "density viscosity gravity",
     "wingbeat": "frequency flap_mean flap_amplitude pitch_mean pitch_amplitude span_retraction twist_ratio "
     "fold_amplitude wrist pitch_phase downstroke_fraction sweep_mean sweep_amplitude sweep_phase stroke_plane_tilt "
@@ -238,6 +238,9 @@ def test_every_option_reaches_the_problem(asked: list[Any], capsys: Any) -> None
     asked.clear()
     assert main(["orbit", "pigeon", "--speed", "0", "--force-point", "centre-of-pressure"]) == 0
     assert (asked[0].aero.force_point, *asked[1:]) == ("centre-of-pressure", None, 0, None)
+    asked.clear()
+    assert main(["orbit", "pigeon", "--speed", "0", "--airspeed", "full"]) == 0
+    assert asked[0].aero.airspeed == "full"
     capsys.readouterr()
 
 

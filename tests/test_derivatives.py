@@ -61,16 +61,17 @@ FREE = tuple(field.name for field in dataclasses.fields(wb.Wingbeat)[:8])
 FREE_VALUES = np.array([getattr(ODD_BEAT, name) for name in FREE])
 
 
-def odd_model():
+def odd_model(airspeed="planar"):
     """Return a bat with nothing at zero."""
     bat = wb.load_species("bat").with_values(
         {"wing.shoulder": [0.02, 0.01, 0.01], "wing.stroke_plane_angle_deg": 75.0, "body.drag_area": 1e-3}
     )
-    return wb.flight_model(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    return wb.flight_model(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
 
 
-def test_accelerations_by_state_and_wingbeat():
-    model, size = odd_model(), FREE_VALUES.size
+@pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
+def test_accelerations_by_state_and_wingbeat(airspeed):
+    model, size = odd_model(airspeed), FREE_VALUES.size
     for state, phase in random_states(20):
         exact = np.concatenate(by_motion(model, ODD_BEAT, FREE_VALUES, phase, state), axis=1)
 
@@ -82,8 +83,9 @@ def test_accelerations_by_state_and_wingbeat():
         assert miss(exact, found) <= TOLERANCE
 
 
-def test_accelerations_by_every_number_of_vehicle_air_and_coefficients():
-    model = odd_model()
+@pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
+def test_accelerations_by_every_number_of_vehicle_air_and_coefficients(airspeed):
+    model = odd_model(airspeed)
     leaves, shape = jax.tree.flatten(model)
     sizes = np.array([np.size(leaf) for leaf in leaves])
     point = np.concatenate([np.ravel(leaf) for leaf in leaves]).astype(float)

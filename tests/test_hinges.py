@@ -21,16 +21,17 @@ def of_flight(model, wingbeat, pitch_state, phase):
     return hinge_loads(model, motion, moved, pitch_state, body), moved, body
 
 
-def animal(name: str, force_point: str) -> tuple[Species, wb.FlightModel]:
+def animal(name: str, force_point: str, airspeed: str = "planar") -> tuple[Species, wb.FlightModel]:
     species = wb.load_species(name).with_values(SHOULDER)
-    aero = wb.aero.BladeElement(wb.aero.SuFan(), 7, force_point)
+    aero = wb.aero.BladeElement(wb.aero.SuFan(), 7, force_point, airspeed)
     return species, wb.flight_model(species.vehicle, aero, species.air)
 
 
-@pytest.mark.parametrize("force_point", ["quarter-chord", "centre-of-pressure"])
+@pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
+@pytest.mark.parametrize("force_point", wb.aero.FORCE_POINTS)
 @pytest.mark.parametrize("name", ["pigeon", "bat"])
-def test_torques_are_those_of_the_five_coordinates(name, force_point):
-    species, model = animal(name, force_point)
+def test_torques_are_those_of_the_five_coordinates(name, force_point, airspeed):
+    species, model = animal(name, force_point, airspeed)
     beat = species.wingbeat
     state = np.random.default_rng(3).normal([[0.2], [9.0], [0.5], [1.0]], [[0.2], [2.0], [1.0], [3.0]], (4, 8))
     found, moved, body = jax.jit(of_flight)(model, beat, state, PHASE)

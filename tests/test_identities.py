@@ -18,8 +18,8 @@ ODD_BEAT = wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, 0.3, 1.6, 0.4, 0.45)
 PHASES = np.linspace(0.0, 1.0, 257)  # as many as the certifier samples, so that JAX compiles once
 
 
-def odd_model(vehicle=ODD, air=None):
-    return wb.flight_model(vehicle, wb.aero.BladeElement(wb.aero.SuFan()), air or wb.Air())
+def odd_model(vehicle=ODD, air=None, airspeed="planar"):
+    return wb.flight_model(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed), air or wb.Air())
 
 
 def odd_states(seed=0):
@@ -57,16 +57,16 @@ def along_orbit(solved):
     return solved.model, solved.wingbeat, *solved.samples
 
 
-def along_nothing():
+def along_nothing(airspeed="planar"):
     """States that no orbit ever has, with body drag, an offset shoulder and a tilted stroke plane."""
-    return odd_model(), ODD_BEAT, odd_states(), PHASES
+    return odd_model(airspeed=airspeed), ODD_BEAT, odd_states(), PHASES
 
 
-@pytest.fixture(scope="module", params=["pigeon", "bat", "random states"])
+@pytest.fixture(scope="module", params=["pigeon", "bat", "random states", "full airspeed"])
 def flown(request):
     """Model, loads, and rates of change along both orbits and at random states."""
-    if request.param == "random states":
-        model, *flight = along_nothing()
+    if request.param in ("random states", "full airspeed"):
+        model, *flight = along_nothing("full" if request.param == "full airspeed" else "planar")
     else:
         model, *flight = along_orbit(request.getfixturevalue(f"{request.param}_orbit"))
     now, rates = jax.tree.map(np.asarray, rates_of_change(model, *flight))
@@ -156,6 +156,51 @@ def alike(one, other, names=SEEN_ALIKE):
     """Return the largest difference of two loads, each quantity over its largest value."""
     pairs = [(getattr(one, name), getattr(other, name)) for name in names]
     return max(np.abs(a - b).max() / np.abs(a).max() for a, b in pairs)
+
+
+def test_the_whole_airspeed_multiplies_the_loads_of_a_strip_and_turns_none():
+    planar, full = (loads(odd_model(airspeed=one), ODD_BEAT, odd_states()) for one in wb.aero.AIRSPEEDS)
+    whole = np.linalg.norm(full.strip_velocity, axis=-1)
+    np.testing.assert_allclose(full.strip_speed, whole, rtol=1e-12)
+    np.testing.assert_allclose(full.strip_reynolds / planar.strip_reynolds, whole / planar.strip_speed, rtol=1e-12)
+    np.testing.assert_allclose(full.alpha, planar.alpha, rtol=1e-12)
+    more = (whole / planar.strip_speed) ** 2
+    assert more.min() >= 1.0
+    assert more.max() > 1.5
+    for name in ("lift", "drag"):
+        np.testing.assert_allclose(getattr(full, name), more * getattr(planar, name), rtol=1e-11, atol=1e-15)
+    np.testing.assert_allclose(full.strip_force, more[..., None] * planar.strip_force, rtol=1e-9, atol=1e-13)
+
+
+def test_an_orbit_of_the_planar_airspeed_does_not_close_with_the_whole(bat_orbit):
+    whole = dataclasses.replace(bat_orbit.model, full_airspeed=True)
+    miss = np.abs(refly(whole, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])
+    assert 0.01 < miss < 1.0
+    same = np.abs(refly(bat_orbit.model, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])
+    assert same < 1e-6
+
+
+def test_a_wing_with_no_speed_along_its_span_feels_no_difference():
+    """Wings held out level in symmetric flight: the velocity has no part along them."""
+    beat = wb.Wingbeat(5.0, 0.0, 0.0, 0.1, 0.4)
+    wing = dataclasses.replace(ODD_WING, shoulder=(0.0, 0.0, 0.0))
+    both = [
+        loads(odd_model(wb.Vehicle(ODD.body, wing), airspeed=one), beat, odd_states()) for one in wb.aero.AIRSPEEDS
+    ]
+    assert alike(*both) <= EXACT
+
+
+def test_a_strip_that_moves_along_its_span_alone_has_no_load():
+    from wingbeat.aero.blade_element import strip_forces
+
+    kernel = wb.aero.SuFan().kernel()
+
+    def force(chord_speed):
+        none = jnp.zeros(())
+        return strip_forces(kernel, 1.2, jnp.asarray(0.01), chord_speed, none, none + 0.3, none + 4.0).normal
+
+    value, slope = jax.value_and_grad(force)(jnp.zeros(()))
+    assert (float(value), float(slope)) == (0.0, 0.0)
 
 
 def test_place_does_not_matter():

@@ -15,12 +15,15 @@ from wingbeat.model import body_rates, motion_table
 TOLERANCE = 1e-9
 STATES = 100
 STRIPS = 10
-# Coefficient model, oracle's formula, force point, laws beyond the paper's; Dickinson has no centre of pressure.
+# Coefficient model, oracle's formula, force point, airspeed, laws beyond the paper's; Dickinson has no centre of
+# pressure.
 KINDS = [
-    (wb.aero.SuFan(), oracle.su_fan, "quarter-chord", False),
-    (wb.aero.SuFan(), oracle.su_fan, "centre-of-pressure", False),
-    (wb.aero.Dickinson(), oracle.dickinson, "quarter-chord", False),
-    (wb.aero.SuFan(), oracle.su_fan, "centre-of-pressure", True),
+    (wb.aero.SuFan(), oracle.su_fan, "quarter-chord", "planar", False),
+    (wb.aero.SuFan(), oracle.su_fan, "centre-of-pressure", "planar", False),
+    (wb.aero.Dickinson(), oracle.dickinson, "quarter-chord", "planar", False),
+    (wb.aero.SuFan(), oracle.su_fan, "centre-of-pressure", "planar", True),
+    (wb.aero.Dickinson(), oracle.dickinson, "quarter-chord", "full", False),
+    (wb.aero.SuFan(), oracle.su_fan, "centre-of-pressure", "full", True),
 ]
 
 
@@ -45,7 +48,7 @@ class Case:
     @property
     def air_loads(self):
         """What the oracle takes to make air loads."""
-        return self.coefficients, STRIPS, self.model.at_centre_of_pressure
+        return self.coefficients, STRIPS, self.model.at_centre_of_pressure, self.model.full_airspeed
 
     @property
     def time(self):
@@ -70,7 +73,7 @@ def richer(uniform):
 def draw(species, case, random):
     """Draw a case: folds, twist, retraction, offset shoulder, tilted stroke plane, body drag."""
     uniform = random.uniform
-    coefficients, formula, force_point, rich = KINDS[case % len(KINDS)]
+    coefficients, formula, force_point, airspeed, rich = KINDS[case % len(KINDS)]
     wing = dataclasses.replace(
         species.vehicle.wing,
         shoulder=tuple(uniform(-0.04, 0.04, 3).tolist()),
@@ -80,7 +83,7 @@ def draw(species, case, random):
     )
     body = dataclasses.replace(species.vehicle.body, drag_area=uniform(1e-4, 2e-3))
     model = wb.flight_model(
-        wb.Vehicle(body, wing), wb.aero.BladeElement(coefficients, STRIPS, force_point), species.air
+        wb.Vehicle(body, wing), wb.aero.BladeElement(coefficients, STRIPS, force_point, airspeed), species.air
     )
     wingbeat = wb.Wingbeat(
         frequency=uniform(3, 12),
@@ -249,6 +252,14 @@ def test_the_blends_change_nothing_but_coefficients():
         wanted = prescribed_by_oracle(case)
         found = {key: by_row(value, wanted[key]) for key, value in prescribed(case).items()}
         assert max(found.values()) <= TOLERANCE, found
+
+
+def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
+    case = cases("bat")[4]
+    planar = dataclasses.replace(case, model=dataclasses.replace(case.model, full_airspeed=False))
+    wanted, without = prescribed_by_oracle(case), prescribed_by_oracle(planar)
+    assert by_row(without["air_power"], wanted["air_power"]) > 1e-3
+    assert by_row(prescribed(planar)["air_power"], without["air_power"]) <= TOLERANCE
 
 
 @pytest.mark.parametrize(

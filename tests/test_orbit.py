@@ -30,7 +30,7 @@ RECORD = {
 }
 PARTS = {
     "vehicle": {"body", "wing"},
-    "aero": {"coefficients", "extension", "blend_width_deg", "strips", "force_point"},
+    "aero": {"coefficients", "extension", "blend_width_deg", "strips", "force_point", "airspeed"},
     "air": {"density", "viscosity", "gravity"},
     "wingbeat": {
         *("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude", "span_retraction"),

@@ -36,7 +36,10 @@ def strip_loads(kernel: Any, density: Any, motion: WingMotion, velocity: Pair, p
     chord_speed = forward_speed
     if motion.level is not None:
         chord_speed = dot(motion.level, (forward_speed, up_speed)) + motion.sweeping_speed
-    return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch)
+    span_speed = None
+    if motion.span is not None:
+        span_speed = dot(motion.span, (forward_speed, up_speed)) + motion.spanning_speed
+    return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch, span_speed)
 
 
 def strip_moments(kernel: Any, motion: WingMotion, strips: StripForces) -> Any:

@@ -72,6 +72,9 @@ def air_forces_on(
     strips = strips_of(model.vehicle.wing, model.strips)
     length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
     points, velocity = motion.place, motion.velocity.quarter_chord
+    span_speed = None
+    if model.full_airspeed:
+        span_speed = jnp.sum(velocity * jnp.cross(points.normal, points.chordwise), axis=-1)
     forces = strip_forces(
         model.kernel,
         model.air.density,
@@ -79,6 +82,7 @@ def air_forces_on(
         jnp.sum(velocity * points.chordwise, axis=-1),
         jnp.sum(velocity * points.normal, axis=-1),
         jnp.zeros_like(strips.chord),
+        span_speed,
     )
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
     lever, sliding = motion.partial.quarter_chord, motion.drift.quarter_chord

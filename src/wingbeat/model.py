@@ -37,13 +37,14 @@ def check_state(state: State) -> None:
     faults.raise_if_any()
 
 
-@register_record(static=("strips", "at_centre_of_pressure"))
+@register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"))
 @dataclass(frozen=True)
 class FlightModel:
     """All numbers of the equations of motion but the wingbeat; a JAX pytree.
 
     Build it with `flight_model`, which checks; the fields are a `Vehicle`, an `Air`, the kernel of a
-    coefficient model, the number of strips and whether the force acts at the centre of pressure.
+    coefficient model, the number of strips, whether the force acts at the centre of pressure, and whether it goes
+    with the whole airspeed of a strip.
     """
 
     vehicle: Vehicle
@@ -51,6 +52,7 @@ class FlightModel:
     kernel: Any
     strips: int
     at_centre_of_pressure: bool
+    full_airspeed: bool = False
 
 
 def flight_model(vehicle: Vehicle, aero: Any, air: Air | None = None) -> FlightModel:
@@ -73,12 +75,13 @@ def flight_model(vehicle: Vehicle, aero: Any, air: Air | None = None) -> FlightM
     """
     loads = blade_element_of(aero)
     at_centre = loads.force_point == "centre-of-pressure"
-    return FlightModel(vehicle, air or Air(), loads.coefficients.kernel(), loads.strips, at_centre)
+    full = loads.airspeed == "full"
+    return FlightModel(vehicle, air or Air(), loads.coefficients.kernel(), loads.strips, at_centre, full)
 
 
 def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int = 1) -> WingMotion:
     """Tabulate the wing's motion at the given phases, strips filled up to a multiple of `vector`."""
-    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector)
+    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed)
 
 
 @by_slopes

@@ -43,7 +43,7 @@ NOMENCLATURE: dict[str, Term] = {
     "strip_position": Term("r", "m", "quarter-chord point of the left wing's strip, world", _VECTOR),
     "strip_corner": Term("r", "m", "corner of the left wing's strip, world", _CORNERS),
     "strip_velocity": Term("v", "m s-1", "velocity of the strip's quarter-chord point, world", _VECTOR),
-    "strip_speed": Term("V", "m s-1", "speed of the strip across the span", _STRIP),
+    "strip_speed": Term("V", "m s-1", "airspeed of the strip that makes its loads", _STRIP),
     "strip_reynolds": Term("Re", "1", "Reynolds number of the strip, from its speed and chord", _STRIP),
     "alpha": Term("α", "rad", "effective angle of attack", _STRIP),
     "lift": Term("dL", "N", "lift of one strip of one wing", _STRIP),

@@ -62,6 +62,13 @@ class WingShape(NamedTuple):
         return self.sweep_cosine, inward * self.flap_cosine, inward * self.flap_sine
 
     @property
+    def spanwise(self) -> Triple:
+        """Unit vector towards the tip."""
+        if self.sweep_sine is None:
+            return jnp.zeros_like(self.flap_sine), self.flap_cosine, self.flap_sine
+        return self.sweep_sine, self.sweep_cosine * self.flap_cosine, self.sweep_cosine * self.flap_sine
+
+    @property
     def chordwise(self) -> Triple:
         """Unit vector to the leading edge."""
         if self.sweep_sine is not None:
@@ -90,7 +97,8 @@ class WingMotion(NamedTuple):
     so changes no speed.
     Where the wing sweeps, ``ahead`` is by strip, and the unpitched chord is no longer the first axis: ``level`` is
     what it is in the plane of symmetry, ``sweeping_speed`` the quarter chord's speed along it. ``tilt`` is that of
-    the stroke plane. All three are None where there is none.
+    the stroke plane. Where loads go with the whole airspeed, ``span`` is the unit vector along the span in the
+    plane of symmetry, ``spanning_speed`` the quarter chord's speed along it. All five are None where there is none.
     For the balance, sums over the mass of both wings: ``first_moment`` and ``inertia`` of mass times place and
     mass times place squared, ``swirl`` of mass times (place turned by a right angle) . acceleration.
     """
@@ -111,6 +119,8 @@ class WingMotion(NamedTuple):
     level: Pair | None = None
     sweeping_speed: Any = None
     tilt: Any = None
+    span: Pair | None = None
+    spanning_speed: Any = None
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
@@ -257,8 +267,13 @@ def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
     return sum(products[1:], products[0])
 
 
-def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, vector: int = 1) -> WingMotion:
-    """Tabulate what body and air feel of the wing at the given phases, in one pass, strips `filled_up`."""
+def wing_motion(
+    vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, vector: int = 1, along_span: bool = False
+) -> WingMotion:
+    """Tabulate what body and air feel of the wing at the given phases, in one pass, strips `filled_up`.
+
+    The motion along the span is in the table only if it is asked for.
+    """
     phase = jnp.asarray(phase, dtype=float)
     strips = beside(filled_up(strips_of(vehicle.wing, count), vector), phase)
 
@@ -283,6 +298,7 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, ve
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     swept = shape.sweep_sine is not None
     steady = at_default(wingbeat, "stroke_plane_tilt")
+    span = tuple(jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise) if along_span else None
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
@@ -300,4 +316,6 @@ def wing_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, ve
         level=(jnp.broadcast_to(shape.level[0], shape.pitch.shape), shape.level[2]) if swept else None,
         sweeping_speed=dot(shape_rate.place, shape.level) if swept else None,
         tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),
+        span=None if span is None else (span[0], span[2]),
+        spanning_speed=None if span is None else dot(shape_rate.place, span),
     )

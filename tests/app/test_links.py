@@ -138,6 +138,7 @@ def test_faults_of_the_problem_name_the_choice():
     scenario = Scenario(
         values={"vehicle.wing.mass": -1.0, "vehicle.wing.semi_span": 0.0},
         force_point="centre-of-pressure",
+        airspeed="full",
         aero="byl",
     )
     with pytest.raises(InvalidInputError) as refused:

@@ -42,6 +42,7 @@ NAMES = {
     "--extension sideways": "extension = 'sideways'|use one of mirrored, signed-drag, signed, clipped-drag",
     "--aero sufan": "coefficients = 'sufan': is not a known coefficient model; did you mean su-fan?",
     "--aero foo": "coefficients = 'foo'|su-fan, dickinson|a table's path ends in .csv",
+    "--airspeed fast": "aero.airspeed = 'fast'|use one of planar, full",
     "--force-point nose": "aero.force_point = 'nose'|use one of quarter-chord, centre-of-pressure",
     "--force-point centre-of-pressure --aero dickinson": "aero.force_point|which dickinson has none of; use quar",
     "--frequency 3": "--frequency",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from wingbeat.aero.blade_element import AIRSPEEDS as AIRSPEEDS
+from wingbeat.aero.blade_element import FORCE_POINTS as FORCE_POINTS
 from wingbeat.aero.blade_element import BladeElement as BladeElement
 from wingbeat.aero.choosing import coefficients_of as coefficients_of
 from wingbeat.aero.choosing import load_coefficients as load_coefficients

@@ -1,7 +1,8 @@
 """Blade elements: from the velocity of each strip to its lift and drag.
 
 Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of
-the strip, ``dD`` against it; the spanwise part of the velocity is dropped.
+the strip, ``dD`` against it. Angle of attack and directions are those in the plane of chord and normal. V is the
+speed in that plane, or the whole airspeed of the segment as the paper words it, its part along the span included.
 """
 
 from __future__ import annotations
@@ -17,11 +18,12 @@ from wingbeat.jax64 import jnp
 from wingbeat.slopes import by_slopes
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
+AIRSPEEDS = ("planar", "full")
 
 
 @dataclass(frozen=True)
 class BladeElement:
-    """How air loads are found: coefficients, number of strips, and where the force acts.
+    """How air loads are found: coefficients, number of strips, where the force acts, and which airspeed makes it.
 
     Parameters
     ----------
@@ -29,17 +31,24 @@ class BladeElement:
         of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
     force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
+    airspeed : the speed V whose square makes lift and drag: "planar", that across the span, or "full", that of the
+        whole velocity of the strip, as the paper words it. Reynolds numbers of strips are of the same speed.
 
     Raises
     ------
-    InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, or a centre of
+    InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point or airspeed, or a centre of
         pressure asked of a model that has none; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
+
+    >>> from wingbeat.aero import SuFan
+    >>> BladeElement(SuFan(), airspeed="full").airspeed
+    'full'
     """
 
     coefficients: Any
     strips: int = 10
     force_point: str = "quarter-chord"
+    airspeed: str = "planar"
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -50,6 +59,7 @@ class BladeElement:
         if isinstance(self.strips, bool) or not isinstance(self.strips, int) or not 1 <= self.strips <= 1000:
             faults.add("aero.strips", self.strips, "must be a whole number from 1 to 1000", "the paper has 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
+        faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
         faults.raise_if_any()
         if self.force_point == "centre-of-pressure" and not self.coefficients.has_centre_of_pressure:
             faults.add(
@@ -74,7 +84,7 @@ class StripForces(NamedTuple):
     """Air load of each strip of one wing, arrays of the strips' shape: forces [N] and what made them.
 
     `chordwise` and `normal` are the two axes in which the speeds were given: those of the chord, or those that the
-    strip has without pitch.
+    strip has without pitch. `speed` is the V of the loads.
     """
 
     chordwise: Any
@@ -86,15 +96,18 @@ class StripForces(NamedTuple):
 
 
 def strip_forces(
-    kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any, pitch: Any
+    kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any, pitch: Any, span_speed: Any = None
 ) -> StripForces:
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
     The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` with
     ``gamma = atan2(v_n, v_c)`` the direction of the motion; the loads are ``F_c = -L sin(gamma) - D cos(gamma)``
     and ``F_n = L cos(gamma) - D sin(gamma)``, written with the speeds in place of that angle's sine and cosine.
+    Given a speed along the span [m/s], V is that of all three; a strip that moves along its span alone has no
+    angle of attack, and no load.
     """
-    unit = _unit_forces(kernel, chord_speed, normal_speed, pitch)
+    along_span = () if span_speed is None else (span_speed,)
+    unit = _unit_forces(kernel, chord_speed, normal_speed, pitch, *along_span)
     pressure_area = 0.5 * density * area
     return StripForces(
         chordwise=pressure_area * unit.chordwise,
@@ -112,7 +125,7 @@ def _coefficients(kernel: Any, alpha: Any) -> tuple[Any, Any]:
 
 
 @by_slopes
-def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any) -> StripForces:
+def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any, *span_speed: Any) -> StripForces:
     """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
@@ -120,14 +133,19 @@ def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any) -
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
     alpha = _wrapped(pitch - atan2(normal_speed, chord_speed))
     c_l, c_d = _coefficients(kernel, alpha)
-    lift, drag = speed * c_l, speed * c_d
+    planar, share = speed, speed  # V^2 over the planar speed: what times a velocity in the plane is a force
+    if span_speed:
+        whole = squared + span_speed[0] * span_speed[0]
+        share = jnp.where(moving, whole / jnp.where(moving, planar, 1.0), 0.0)
+        speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, whole, 1.0)), 0.0)
+    lift, drag = share * c_l, share * c_d
     return StripForces(
         chordwise=-lift * normal_speed - drag * chord_speed,
         normal=lift * chord_speed - drag * normal_speed,
         alpha=alpha,
         speed=speed,
-        lift=lift * speed,
-        drag=drag * speed,
+        lift=lift * planar,
+        drag=drag * planar,
     )
 
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.aero import EXTENSIONS, LIBRARY
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY
 from wingbeat.app.numbers import Numbers
-from wingbeat.app.scenario import FORCE_POINTS, Scenario, species_in
+from wingbeat.app.scenario import Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
 from wingbeat.app.words import from_shown, sentence
 from wingbeat.orbits.quantities import QUANTITIES
@@ -65,6 +65,8 @@ class Controls:
             self._fields["force_point"] = choice_field(
                 "Force acts at", points, now.force_point, self._word("force_point")
             )
+            speeds = [(name, name) for name in AIRSPEEDS]
+            self._fields["airspeed"] = choice_field("Airspeed", speeds, now.airspeed, self._word("airspeed"))
             width, strips = f"{now.blend_width_deg:g}", str(now.strips)
             self._fields["blend_width_deg"] = number_field(
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
@@ -100,7 +102,7 @@ class Controls:
             self._numbers.show(scenario)
         for name in ("speed", "climb", "blend_width_deg"):
             self._fields[name].show(f"{getattr(scenario, name):g}")
-        for name in ("aero", "extension", "force_point", "minimise"):
+        for name in ("aero", "extension", "force_point", "airspeed", "minimise"):
             self._fields[name].show(getattr(scenario, name))
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)

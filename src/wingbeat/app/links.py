@@ -24,7 +24,7 @@ _VERSION = 1
 _PAIRS = "bounds"
 _NUMBERS = ("speed", "climb", "blend_width_deg")
 _WHOLE = ("strips", "starts", "seed")
-_WORDS = ("species", "aero", "extension", "force_point", "minimise")
+_WORDS = ("species", "aero", "extension", "force_point", "airspeed", "minimise")
 _LONGEST_WORD = 200
 
 

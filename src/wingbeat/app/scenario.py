@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from wingbeat.aero import EXTENSIONS, LIBRARY, BladeElement, load_coefficients
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY, BladeElement, load_coefficients
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import QUANTITIES
@@ -17,9 +17,8 @@ from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text
 
-__all__ = ["FORCE_POINTS", "MOST_STARTS", "Scenario", "problem_of", "species_from_text", "species_in"]
+__all__ = ["MOST_STARTS", "Scenario", "problem_of", "species_from_text", "species_in"]
 
-FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 # What one visitor may ask of a machine that others use, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
@@ -34,7 +33,7 @@ class Scenario:
     species : name of a species in the box, or the one in `species_file`.
     species_file : TOML text of a species of the visitor's own, empty if it is one in the box.
     speed, climb : mean velocity [m/s].
-    aero, extension, blend_width_deg, strips, force_point : the air loads, as on the command line.
+    aero, extension, blend_width_deg, strips, force_point, airspeed : the air loads, as on the command line.
     minimise : name of the quantity made least.
     limits : what is kept within limits, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own.
@@ -53,6 +52,7 @@ class Scenario:
     blend_width_deg: float = 1.0
     strips: int = 10
     force_point: str = "quarter-chord"
+    airspeed: str = "planar"
     minimise: str = "frequency"
     limits: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -74,6 +74,7 @@ class Scenario:
         faults.choice("extension", self.extension, EXTENSIONS)
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
         faults.choice("force_point", self.force_point, FORCE_POINTS)
+        faults.choice("airspeed", self.airspeed, AIRSPEEDS)
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
         _whole(faults, "strips", self.strips, 1, MOST_STRIPS)
         _whole(faults, "seed", self.seed, 0, 100_000)
@@ -162,7 +163,7 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         faults.add("species_file", scenario.species, str(error))
     try:
         coefficients = load_coefficients(scenario.aero, scenario.extension, scenario.blend_width_deg)
-        loads = BladeElement(coefficients, scenario.strips, scenario.force_point)
+        loads = BladeElement(coefficients, scenario.strips, scenario.force_point, scenario.airspeed)
     except InvalidInputError as error:
         faults.faults += error.faults
     faults.raise_if_any()

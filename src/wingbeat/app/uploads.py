@@ -191,6 +191,7 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         blend_width_deg=aero.coefficients.blend_width_deg,
         strips=aero.strips,
         force_point=aero.force_point,
+        airspeed=aero.airspeed,
         minimise=problem.minimise.name,
         limits=tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to),
         bounds={n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)},

@@ -12,6 +12,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
 from wingbeat.cli.options import (
     AeroName,
+    Airspeed,
     BlendWidth,
     Extension,
     ForcePoint,
@@ -47,6 +48,7 @@ def curve(
     blend_width_deg: BlendWidth = 1.0,
     force_point: ForcePoint = "quarter-chord",
     within_plausible: WithinPlausible = False,
+    airspeed: Airspeed = "planar",
     strips: Strips = 10,
     minimise: Annotated[
         str, Parameter(help="What to make least at each speed: frequency, positive-power, power, peak-power, ...")
@@ -82,7 +84,7 @@ def curve(
         species_with(species, set_),
         speed=row[-1] if row else 0.0,
         climb=climb,
-        aero=aero_with(aero, extension, blend_width_deg, strips, force_point),
+        aero=aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed),
         bounds="plausible" if within_plausible else {},
         minimise=minimise,
         subject_to=subject_to or (),

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import (
     AeroName,
+    Airspeed,
     BlendWidth,
     Extension,
     ForcePoint,
@@ -49,6 +50,7 @@ def glide(
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
     force_point: ForcePoint = "quarter-chord",
+    airspeed: Airspeed = "planar",
     strips: Strips = 10,
     set_: Settings = None,
     payload: Payload = 0.0,
@@ -74,7 +76,7 @@ def glide(
         faults.add("--flap-deg", flap_deg, "must be between -90 and 90 degrees")
     faults.raise_if_any()
     animal = species_with(species, set_, payload)
-    loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+    loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
     check_outputs(output, plot)
     polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
     if output:

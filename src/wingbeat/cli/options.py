@@ -58,6 +58,9 @@ WingsMayCross = Annotated[
     Parameter(negative="", help="Let the wings pass through the plane of symmetry, through each other."),
 ]
 ForcePoint = Annotated[str, Parameter(help="Where the force acts: quarter-chord or centre-of-pressure.")]
+Airspeed = Annotated[
+    str, Parameter(help="Speed of a strip that makes its loads: planar (across the span) or full (along it, too).")
+]
 
 
 def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
@@ -79,9 +82,11 @@ def species_with(name: str, settings: list[str] | None, payload: float = 0.0) ->
     return (species.with_values(values) if values else species).with_payload(payload)
 
 
-def aero_with(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
+def aero_with(
+    name: str, extension: str, blend_width_deg: float, strips: int, force_point: str, airspeed: str
+) -> BladeElement:
     """Return the air loads that the options ask for."""
-    return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point)
+    return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point, airspeed)
 
 
 def fit_of(aero: str) -> FittedModel | None:

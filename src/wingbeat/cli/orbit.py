@@ -22,6 +22,7 @@ from wingbeat.cli.filmed import (
 from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
     AeroName,
+    Airspeed,
     BlendWidth,
     Extension,
     ForcePoint,
@@ -67,6 +68,7 @@ def orbit(
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
     force_point: ForcePoint = "quarter-chord",
+    airspeed: Airspeed = "planar",
     flap_amplitude_max: Annotated[
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
@@ -151,7 +153,7 @@ def orbit(
         bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), list(subject_to or ())
         if within_plausible and bounds:
             limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
-        loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+        loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
         asked: dict[str, Any] = {"climb": climb, "aero": loads, "subject_to": limits}
         asked["bounds"] = "plausible" if within_plausible else bounds
         if wings_may_cross:

@@ -16,6 +16,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
 from wingbeat.cli.options import (
     AeroName,
+    Airspeed,
     BlendWidth,
     Extension,
     ForcePoint,
@@ -56,6 +57,7 @@ def simulate(
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
     force_point: ForcePoint = "quarter-chord",
+    airspeed: Airspeed = "planar",
     strips: Strips = 10,
     set_: Settings = None,
     kinematics: Kinematics = None,
@@ -99,7 +101,7 @@ def simulate(
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = beat.on(animal)
-        loads = aero_with(aero, extension, blend_width_deg, strips, force_point)
+        loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
         model, wingbeat = flight_model(animal.vehicle, loads, animal.air), animal.wingbeat
         start = State(u=10.0)
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}

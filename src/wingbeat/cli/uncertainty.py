@@ -47,7 +47,7 @@ def uncertainty(
         species_with(species, set_),
         speed=speed,
         climb=climb,
-        aero=aero_with(aero, extension, blend_width_deg, 10, "quarter-chord"),
+        aero=aero_with(aero, extension, blend_width_deg, 10, "quarter-chord", "planar"),
         minimise=minimise,
     )
     orbit = solve_orbit(problem, seed=seed)

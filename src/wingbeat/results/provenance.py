@@ -146,7 +146,7 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
     """
-    return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"])
+    return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"], aero["airspeed"])
 
 
 def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:

@@ -41,6 +41,7 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
         "blend_width_deg": aero.coefficients.blend_width_deg,
         "strips": aero.strips,
         "force_point": aero.force_point,
+        "airspeed": aero.airspeed,
         **({"function": f"the user's own, {aero.coefficients.program.digest[:16]}"} if own else {}),
     }
 

@@ -24,7 +24,8 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     place = f"{record.get('species')} at {_of(record, 'speed', 'm/s')}"
     if record.get("climb"):
         place += f", climbing {_of(record, 'climb', 'm/s')}"
-    loads = ", ".join(str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero)
+    named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
+    loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else [])])
     return {
         "flight": [("species, mean speed", place), ("air loads", loads), *flight_rows(record)],
         "short of an orbit, at the closest beat": shortage_rows(record.get("failed_balance") or []),

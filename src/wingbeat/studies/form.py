@@ -95,6 +95,7 @@ class StudyForm(BaseModel):
     blend_width_deg: _Numbers = Field(default=[1.0])
     strips: _Counts = Field(default=[10])
     force_point: _Texts = Field(default=["quarter-chord"])
+    airspeed: _Texts = Field(default=["planar"])
     speed: _Numbers | None = None
     climb: _Numbers = Field(default=[0.0])
     payload: _Numbers = Field(default=[0.0])
@@ -251,7 +252,8 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
         listed = isinstance(values, list) and name != "free"
         if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
-    for name in ("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point"):
+    both = ("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed")
+    for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is varied, too", "keep one of the two")
     if form.speed is None and "speed" not in form.vary:

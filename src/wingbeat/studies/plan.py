@@ -34,8 +34,8 @@ MOST_POINTS = 10_000_000
 _ENOUGH = 100
 # What multiplies, in the order of its loops.
 _TOP = (
-    *("species", "aero", "extension", "blend_width_deg", "strips", "force_point", "minimise", "subject_to"),
-    *("speed", "climb", "payload", "starts", "seed", "most_starts"),
+    *("species", "aero", "extension", "blend_width_deg", "strips", "force_point", "airspeed", "minimise"),
+    *("subject_to", "speed", "climb", "payload", "starts", "seed", "most_starts"),
 )
 
 
@@ -216,13 +216,13 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
 def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
     """Return how the parts of a base are made, of which keys of the top level; each of the same keys but once."""
 
-    def loads(name: str, extension: str, blend_width_deg: float, strips: int, force_point: str) -> BladeElement:
+    def loads(name: str, extension: str, blend_width_deg: float, *elements: Any) -> BladeElement:
         named = _beside(name, folder, (".csv", ".toml"))
-        return BladeElement(load_coefficients(named, extension, blend_width_deg), strips, force_point)
+        return BladeElement(load_coefficients(named, extension, blend_width_deg), *elements)
 
     makers = {
         "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
-        "aero": (("aero", "extension", "blend_width_deg", "strips", "force_point"), loads),
+        "aero": (("aero", "extension", "blend_width_deg", "strips", "force_point", "airspeed"), loads),
         "minimise": (("minimise",), lambda name: as_inputs(name, folder)),
         "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }

@@ -29,7 +29,7 @@ MOTION = {
     "payload": {"at_least": 0.0, "unit": "kg"},
 }
 _OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
-_OF_ELEMENTS = ("aero.strips", "aero.force_point")
+_OF_ELEMENTS = ("aero.strips", "aero.force_point", "aero.airspeed")
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)
 _AT_REST = {"speed": 10.0, "climb": 0.0, "payload": 0.0}
 

@@ -30,8 +30,15 @@ def paper(
     ] = "claims",
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="Folder to write to.")] = Path("paper"),
-    figures: Annotated[str | None, Parameter(help="Which figures to draw: 2-8, or 3,5 and the like.")] = None,
-    quick: Annotated[bool, Parameter(negative="", help="Fewer speeds and searches.")] = False,
+    figures: Annotated[str | None, Parameter(help="Which figures to draw: 1-8, or 3,5 and the like.")] = None,
+    quick: Annotated[
+        bool,
+        Parameter(negative="", help="Figures of fewer speeds and searches; no claims about flights."),
+    ] = False,
+    before: Annotated[
+        Path | None,
+        Parameter(help="claims.json of an earlier run: the page tells what changed, and why."),
+    ] = None,
     sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; {_SETS} if not given.")] = None,
     seed: Annotated[int | None, Parameter(help="Of the sample of assumptions; 0 if not given.")] = None,
     piece: Annotated[
@@ -42,7 +49,7 @@ def paper(
     ] = None,
     processes: Annotated[int | None, Parameter(help="Python processes; as many as cores if not given.")] = None,
 ) -> int:
-    """Put Su et al. (arXiv 2302.09602) to the test: figures 2 to 8, every claim with a verdict, the orbits behind.
+    """Put Su et al. (arXiv 2302.09602) to the test: figures 1 to 8, every claim with a verdict, the orbits behind.
 
     `wingbeat paper assumptions` samples what the paper leaves open and counts under which sets each claim holds.
     It goes on from where it was stopped. Finished pieces lie in the folder's `pieces`, to which those that another
@@ -54,7 +61,7 @@ def paper(
     from wingbeat.paper.pieces import Sample
 
     faults = FaultList()
-    numbers = _numbers(faults, "--figures", figures or "2-8", set(FIGURES), "figures")
+    numbers = _numbers(faults, "--figures", figures or "1-8", set(FIGURES), "figures")
     sample = Sample(_SETS if sets is None else sets, seed or 0, _PIECE if piece is None else piece)
     share = processes if processes is not None else core_count()
     for name, count in (("--sets", sample.sets), ("--piece", sample.piece)):
@@ -64,15 +71,15 @@ def paper(
         faults.add("--processes", share, "must be a whole number from 1 to 1024")
     if seed is not None and seed < 0:
         faults.add("--seed", seed, "must not be negative")
-    other = (("--figures", figures), ("--quick", quick or None))
+    other = (("--figures", figures), ("--quick", quick or None), ("--before", before))
     if part == "claims":
         other = (("--sets", sets), ("--seed", seed), ("--piece", piece), ("--only", only))
     for name, value in other:
         if value is not None:
-            faults.add(name, value, f"has no part in 'paper {part}'")
+            faults.add(name, str(value), f"has no part in 'paper {part}'")
     faults.raise_if_any()
     if part == "claims":
-        _claims(numbers, output, quick, share)
+        _claims(numbers, output, quick, share, before)
         return EXIT_GOOD
     every = f"1-{len(sample)}"
     pieces = _numbers(faults, "--only", only or every, set(range(1, len(sample) + 1)), "pieces")
@@ -86,7 +93,7 @@ def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: 
     for word in words.split(","):
         first, _, last = word.strip().partition("-")
         if not first.isdigit() or not (last or first).isdigit():
-            faults.add(option, words, f"must name {what}", "as in 2-8 or 3,5")
+            faults.add(option, words, f"must name {what}", "as in 1-8 or 3,5")
             return []
         ends = int(first), int(last or first)
         for number in ends:
@@ -96,20 +103,22 @@ def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: 
     return sorted(known & set(numbers))
 
 
-def _claims(numbers: list[int], folder: Path, quick: bool, processes: int) -> None:
+def _claims(numbers: list[int], folder: Path, quick: bool, processes: int, before: Path | None) -> None:
     from wingbeat.paper.claims import judge_claims, write_claims
     from wingbeat.paper.figures import draw_figures
-    from wingbeat.paper.treatments import QUICK_SPEEDS, SPEEDS, all_cases, solve_cases
+    from wingbeat.paper.treatments import DRAWN, QUICK_SPEEDS, SPEEDS, TREATMENTS, all_cases, solve_cases
+    from wingbeat.paper.verdict_changes import read_verdicts
 
     begun = time.perf_counter()
-    cases = all_cases(QUICK_SPEEDS if quick else SPEEDS)
+    earlier = None if before is None else read_verdicts(before)
+    cases = all_cases(QUICK_SPEEDS, DRAWN) if quick else all_cases(SPEEDS, TREATMENTS)
     with progress_bar("rows of orbits") as progress:
         orbits = solve_cases(cases, 3 if quick else 6, processes, progress)
     certified = sum(orbit.status.value == "converged" for orbit in orbits.values())
     print(f"{certified} of {len(cases)} orbits certified", file=sys.stderr)
     written = draw_figures(orbits, numbers, folder)
-    claims = judge_claims(orbits)
-    written += write_claims(claims, orbits, folder)
+    claims = judge_claims(orbits, quick)
+    written += write_claims(claims, orbits, folder, earlier)
     for claim in claims:
         print(f"{claim.id}: {claim.verdict}")
     print(f"wrote {len(written)} files to {folder} in {time.perf_counter() - begun:.0f} s", file=sys.stderr)

@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat.paper.assumptions import TRIMS, Values, changes_under, free_under
 from wingbeat.paper.claim import FlightClaim
-from wingbeat.paper.claims import flight_claim_list
+from wingbeat.paper.flight_claim_list import flight_claim_list
 from wingbeat.paper.treatments import MODELS, Case
 from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species

@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.aero import EXTENSIONS
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS
 from wingbeat.species import Species
 
 # What the paper says is free, and the mean angles of which it does not tell.
 _FREE = ("frequency", "flap_amplitude", "pitch_amplitude")
 _MEANS = ("flap-mean", "pitch-mean")
 TRIMS = ("both", "pitch-mean", "flap-mean", "none")
-FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 
 
 @dataclass(frozen=True)
@@ -45,6 +44,7 @@ class Assumption:
         return self.low + share * (self.high - self.low)
 
 
+_UNSAID = "the paper does not say, and the two sets of coefficients need not have been treated alike"
 # What only one of the animals does in its upstroke or along its wing.
 _OWN = {"pigeon": "span_retraction", "bat": "twist_ratio"}
 
@@ -82,6 +82,13 @@ ASSUMPTIONS = (
         "shoulder_above", "shoulder above it over semi-span", "0 by default; .03 in the same pigeon", 0.0, 0.04
     ),
     Assumption(
+        "shoulder_aside",
+        "shoulder beside the plane of symmetry over semi-span",
+        "0 by default; .10 in the same pigeon, half of what its span of .613 m exceeds twice the wing's .278 m by",
+        0.0,
+        0.10,
+    ),
+    Assumption(
         "span_retraction", "share of span drawn in at mid-upstroke, pigeon", "the paper gives no number", 0.0, 0.5
     ),
     Assumption("twist_ratio", "pitch at the tip over that at the root, bat", "1.6 in the paper", 1.3, 1.9),
@@ -93,7 +100,28 @@ ASSUMPTIONS = (
         70.0,
     ),
     Assumption("trims", "mean angles that are free", "the paper names neither", choices=TRIMS),
-    Assumption("extension", "coefficients at negative angles", "the paper does not say", choices=EXTENSIONS),
+    Assumption(
+        "flap_mean_deg",
+        "largest mean flap angle allowed up and down, where it is free [deg]",
+        "the paper gives no bound; 0 is a beat even about the shoulder, 30 the bound of the species files",
+        0.0,
+        30.0,
+    ),
+    Assumption(
+        "pitch_phase_deg",
+        "by how much of a turn pitch runs ahead of flap [deg]",
+        "the paper gives no phase; 0 is pitch fastest where flap turns, a twelfth of a beat either way is a guess",
+        -30.0,
+        30.0,
+    ),
+    Assumption("extension_su_fan", "Su-Fan's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
+    Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
+    Assumption(
+        "airspeed",
+        "speed of a segment that makes its loads: across its span, or its part along the span, too",
+        "the paper says airspeed at each segment; strip theory takes the planar one",
+        choices=AIRSPEEDS,
+    ),
     Assumption(
         "force_point",
         "where the force acts, Su-Fan (Dickinson's has no centre of pressure)",
@@ -143,6 +171,9 @@ def changes_under(values: Values, species: Species, model: str) -> dict[str, Any
     root = 2.0 * vehicle.wing.mean_chord / (1.0 + number["taper"])
     wing_mass = number["wing_mass_share"] * mass
     own, widest = _OWN[species.name], species.bounds["flap_amplitude"][1]
+    flap_mean = math.radians(number["flap_mean_deg"])
+    low, high = species.bounds["flap_mean"]
+    bounds = {"bounds.flap_mean.lower": max(low, -flap_mean), "bounds.flap_mean.upper": min(high, flap_mean)}
     held = [f"wingbeat.{trim.replace('-', '_')}" for trim in _MEANS if values["trims"] not in (trim, "both")]
     return {
         "wing.mass": wing_mass,
@@ -150,12 +181,15 @@ def changes_under(values: Values, species: Species, model: str) -> dict[str, Any
         "wing.mass_exponent": number["mass_exponent"],
         "wing.chord": [root, number["taper"] * root],
         "body.pitch_inertia": number["body_inertia_factor"] * vehicle.body.pitch_inertia,
-        "wing.shoulder": [number["shoulder_ahead"] * span, 0.0, number["shoulder_above"] * span],
+        "wing.shoulder": [number[f"shoulder_{way}"] * span for way in ("ahead", "aside", "above")],
         # Frontal area .00813 m^.666 (Pennycuick et al. 1988), drag coefficient .2.
         "body.drag_area": number["body_drag_factor"] * 0.2 * 0.00813 * mass**0.666,
         f"wingbeat.{own}": number[own],
         **dict.fromkeys(held, 0.0),
+        "wingbeat.pitch_phase": math.radians(number["pitch_phase_deg"]),
         "bounds.flap_amplitude.upper": min(widest, math.radians(number["flap_amplitude_deg"])),
-        "aero.extension": values["extension"],
+        **(bounds if values["trims"] in ("flap-mean", "both") else {}),
+        "aero.extension": values[f"extension_{model.replace('-', '_')}"],
+        "aero.airspeed": values["airspeed"],
         **({"aero.force_point": values["force_point"]} if model == "su-fan" else {}),
     }

@@ -14,6 +14,7 @@ from wingbeat.results.orbit import Orbit
 # Our number, and whether the claim holds.
 TestResult = tuple[float, bool]
 HOLDS, HOLDS_UNDER, FAILS, UNTESTABLE = "holds", "holds under", "fails", "cannot be tested"
+NOT_ASKED = "not asked with --quick"
 
 
 @dataclass(frozen=True)
@@ -39,10 +40,13 @@ class Claim:
     paper: float | str
     unit: str
     findings: tuple[Finding, ...]
+    asked: bool = True
 
     @property
     def verdict(self) -> str:
-        """Holds (under all assumptions tried), holds under (some), fails (under all), or cannot be tested."""
+        """Holds under all assumptions tried, under some, or under none (fails); cannot be tested; not asked."""
+        if not self.asked:
+            return NOT_ASKED
         told = [finding.holds for finding in self.findings if finding.holds is not None]
         if not told:
             return UNTESTABLE
@@ -151,6 +155,11 @@ class FlightClaim:
     paper: float | str
     unit: str
     test: Callable[[Evidence], TestResult]
+
+    def unasked(self) -> Claim:
+        """Return the claim without a verdict, where too few flights were solved to ask it."""
+        finding = Finding(NOT_ASKED, None, None)
+        return Claim(self.id, self.where, self.claim, self.paper, self.unit, (finding,), asked=False)
 
     def judge(self, orbits: Orbits, treatments: Sequence[str]) -> Claim:
         """Test the claim under each treatment."""

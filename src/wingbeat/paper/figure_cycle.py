@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.paper.contradictions import NEAR_PEAK, Printed, near, told
 from wingbeat.paper.figure_style import (
     COLUMN,
     FONT_SMALL,
@@ -19,7 +20,7 @@ from wingbeat.paper.figure_style import (
     say,
     sheet,
 )
-from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
+from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
 from wingbeat.paper.treatments import DEFAULT, MODELS, SAMPLE_SPEED, TREATMENTS, Case, Orbits, certified
 from wingbeat.results.record import at_station
 
@@ -105,15 +106,21 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
     note = (
         f"{_about(shown, sample)} Downstroke shaded. Forces are those of one of "
         f"{', '.join(map(str, strips))} equal strips, both wings together, over the animal's weight, forward and "
-        "up positive; between strip centres linear."
+        f"up positive; between strip centres linear. Hatched: {PAPER_SMALL_ALPHA_DEG[0]:g} to "
+        f"{PAPER_SMALL_ALPHA_DEG[1]:g} deg, which the paper calls small."
     )
     series = {(m, name): strip_series(o, s) for m, o in shown.items() for name, s in STATIONS.items()}
+    note = f"{note} {told(6, _printed_of_forces(series))}"
     with rc_context(STYLE):  # type: ignore[arg-type]
         figure = sheet(PAGE, 125.0, note, absence(orbits, sample, "bat"))
         panels = figure.subplots(3, 2, sharex=True, sharey="row")
         for row, (quantity, label) in zip(panels, _FORCES, strict=True):
             for axes, station in zip(row, STATIONS, strict=True):
                 dress_cycle(axes, label if station == "1/4" else "")
+                if quantity == "alpha_deg":
+                    axes.axhspan(
+                        *PAPER_SMALL_ALPHA_DEG, hatch="////", facecolor="none", edgecolor="0.75", gid="paper"
+                    )
                 for model, orbit in shown.items():
                     values = series[model, station][quantity]
                     axes.plot(orbit.dataset["phase"], values, label=LOOKS[model].name, **LOOKS[model].line)
@@ -148,8 +155,8 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     note = (
         f"{_about(shown, sample)} Power at the hinges, both wings. Downstroke shaded. "
         f"Peaks: {', '.join(peaks) or 'none to tell'}; dotted: the peaks that the paper prints for the same two "
-        "models."
-    )
+        "models. "
+    ) + told(7, _printed_of_power(series))
     with rc_context(STYLE):  # type: ignore[arg-type]
         figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
         axes = figure.subplots()
@@ -178,12 +185,67 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     printed = [f"{LOOKS[m].name} {value:g} deg" for m, value in PAPER_PITCH_RANGE_DEG.items()]
     note = (
         f"{_about(shown, sample)} Nose up is positive; downstroke shaded. "
-        f"Range over the beat: {', '.join(ranges) or 'none to tell'}; the paper says at most {', '.join(printed)}."
-    )
+        f"Range over the beat: {', '.join(ranges) or 'none to tell'}; bars at the right: the ranges that the paper "
+        f"prints, {', '.join(printed)}. "
+    ) + told(8, _printed_of_pitch(series))
     with rc_context(STYLE):  # type: ignore[arg-type]
         figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
-        _draw_cycle(figure.subplots(), shown, series, "body_pitch_deg", "body pitch ψ [deg]")
+        axes = figure.subplots()
+        _draw_cycle(axes, shown, series, "body_pitch_deg", "body pitch ψ [deg]")
+        for i, (model, extent) in enumerate(PAPER_PITCH_RANGE_DEG.items()):
+            drawn = series.get(model, {"body_pitch_deg": np.zeros(1)})["body_pitch_deg"]
+            middle, at = 0.5 * (drawn.min() + drawn.max()), 1.03 + 0.17 * i
+            bar: dict[str, Any] = {"color": LOOKS[model].color, "clip_on": False, "linewidth": 1.2, "marker": "_"}
+            axes.plot([at, at], [middle - 0.5 * extent, middle + 0.5 * extent], gid="paper", **bar)
+            place: dict[str, Any] = {"xytext": (3, 0), "textcoords": "offset points", "va": "center"}
+            axes.annotate(
+                f"paper:\n{extent:g}°", (at, middle), color=LOOKS[model].color, fontsize=FONT_SMALL, **place
+            )
     return figure, _rows(shown, sample, series)
+
+
+def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> list[Printed]:
+    """Return what the paper prints of the bat's angles and forces beside ours."""
+    found = []
+    if ("su-fan", "1/4") in series:
+        low, high = PAPER_SMALL_ALPHA_DEG
+        arm = series["su-fan", "1/4"]["alpha_deg"][:-1]
+        share = float(np.mean((arm > low) & (arm <= high)))
+        statement = "a small nose-up angle of the arm throughout the beat with Su-Fan"
+        found.append(Printed(statement, f"from {arm.min():.3g} to {arm.max():.3g} deg", share == 1.0))
+    if {model for model, _ in series} == set(MODELS):
+        for name, words in (
+            ("horizontal_force_over_weight", "horizontal"),
+            ("vertical_force_over_weight", "vertical"),
+        ):
+            swings = [[float(np.ptp(series[model, station][name])) for station in STATIONS] for model in MODELS]
+            ratios = [fit / fly for fit, fly in zip(*swings, strict=True)]
+            told_ratios = " and ".join(f"{ratio:.2f}" for ratio in ratios)
+            ours = f"their swings are {told_ratios} times Dickinson's at 1/4 and 3/4 span"
+            found.append(Printed(f"smaller {words} forces with Su-Fan", ours, max(ratios) < 1))
+    return found
+
+
+def _printed_of_power(series: dict[str, dict[str, np.ndarray]]) -> list[Printed]:
+    """Return what the paper prints of the bat's peak power beside ours."""
+    found = []
+    for model, columns in series.items():
+        peak, printed = float(columns["hinge_power_W"].max()), PAPER_PEAK_POWER[model]
+        agrees = near(peak, printed, NEAR_PEAK)
+        found.append(Printed(f"a peak of {printed:g} W with {LOOKS[model].name}", f"{peak:.3g} W", agrees))
+    return found
+
+
+def _printed_of_pitch(series: dict[str, dict[str, np.ndarray]]) -> list[Printed]:
+    """Return what the paper prints of the bat's range of body pitch beside ours."""
+    found = []
+    for model, columns in series.items():
+        extent, printed = float(np.ptp(columns["body_pitch_deg"])), PAPER_PITCH_RANGE_DEG[model]
+        within = extent <= printed if model == "su-fan" else near(extent, printed, NEAR_PEAK)
+        words = "at most" if model == "su-fan" else "as much as"
+        statement = f"{words} {printed:g} deg of body pitch with {LOOKS[model].name}"
+        found.append(Printed(statement, f"{extent:.3g} deg", within))
+    return found
 
 
 def _draw_cycle(axes: Axes, shown: dict[str, Orbit], series: dict, quantity: str, label: str) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.paper.contradictions import CLOSE, TWICE, Printed, told
 from wingbeat.paper.figure_style import (
     FONT_SMALL,
     LOOKS,
@@ -20,8 +21,14 @@ from wingbeat.paper.figure_style import (
     letter_panels,
     sheet,
 )
-from wingbeat.paper.measured_bands import MEASURED_FREQUENCIES, Measured
-from wingbeat.paper.treatments import ANIMALS, MODELS, SPEEDS, Orbits, certified
+from wingbeat.paper.measured_bands import (
+    MEASURED_FREQUENCIES,
+    PAPER_BAT_FREQUENCY,
+    PAPER_BAT_RATIO,
+    PAPER_BAT_SPEEDS,
+    Measured,
+)
+from wingbeat.paper.treatments import ANIMALS, DEFAULT, DRAWN, MODELS, SPEEDS, Orbits, certified
 from wingbeat.species import load_species
 
 if TYPE_CHECKING:
@@ -30,14 +37,15 @@ if TYPE_CHECKING:
 
     from wingbeat.results.orbit import Orbit
 
-# The treatments drawn, and how much of the marker is filled.
-FILLS = {"mirrored": True, "signed": False}
+# The treatments drawn, and whether the marker is filled.
+FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
     "Ours: certified orbits of least frequency; filled, thick line: coefficients mirrored at negative angles of "
     "attack; open, thin line: formulas as they stand at negative angles. Neighbouring points may be of different "
     "families of orbits; the flap amplitude rests on its bound in {leaning} of {all}. Crosses at the foot: no "
-    "certified orbit at that speed. Green: measured on animals, or a law of such measurements for a vehicle of "
+    "certified orbit at that speed. Stars: what the paper prints of the bat. Green: measured on animals, or a law "
+    "of such measurements for a vehicle of "
     "this mass and span; A: as in the source, D: computed by us from it; full sources stand in the table beside "
     "this figure. The frequencies of Tobalske and Dial (1996) that the paper draws could not be had; they were "
     "flat in speed."
@@ -62,7 +70,8 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
     # Room for the legends above the measured frequencies, and for every orbit.
     top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
     with rc_context(STYLE):  # type: ignore[arg-type]
-        figure = sheet(PAGE, 82.0, _NOTE.format(**_leaning(drawn)))
+        note = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"
+        figure = sheet(PAGE, 82.0, note)
         panels = figure.subplots(1, 2)
         for axes, animal in zip(panels, ANIMALS, strict=True):
             dress(axes, "flight speed U [m/s]", "wingbeat frequency f [Hz]")
@@ -77,6 +86,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
                 handlelength=2.4,
                 labelspacing=0.3,
             )
+        _mark_printed(panels[ANIMALS.index("bat")])
         letter_panels(panels)
     return figure, [*_orbit_rows(orbits), *_measured_rows()]
 
@@ -107,6 +117,37 @@ def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
         place = {"transform": axes.get_xaxis_transform(), "color": look.color, "gid": f"absent-{treatment}-{model}"}
         axes.plot(absent, [height] * len(absent), **cross, **place)
     return handles
+
+
+def _mark_printed(axes: Axes) -> None:
+    """Mark what the paper prints of the bat: Su-Fan's frequency, and Dickinson's at the highest speed it names."""
+    slow, fast = PAPER_BAT_SPEEDS
+    marks = {
+        "su-fan": ([slow, fast], [PAPER_BAT_FREQUENCY] * 2),
+        "dickinson": ([fast], [PAPER_BAT_RATIO * PAPER_BAT_FREQUENCY]),
+    }
+    for model, (speeds, frequencies) in marks.items():
+        look: dict[str, Any] = {"marker": "*", "markersize": 8, "markeredgecolor": "k", "markeredgewidth": 0.5}
+        look |= {"color": LOOKS[model].color, "linestyle": "-" if len(speeds) > 1 else "", "linewidth": 2.0}
+        axes.plot(speeds, frequencies, zorder=4, gid=f"paper-{model}", **look)
+
+
+def _printed(orbits: Orbits) -> list[Printed]:
+    """Return what the paper prints of the bat's frequency beside ours, treatment by treatment."""
+    (slow, fast), found = PAPER_BAT_SPEEDS, []
+    for treatment in FILLS:
+        fit, fly = (certified(orbits, treatment, "bat", model) for model in MODELS)
+        between = [orbit.wingbeat.frequency for speed, orbit in fit.items() if slow <= speed <= fast]
+        if between:
+            off = float(np.mean(np.abs(np.array(between) / PAPER_BAT_FREQUENCY - 1)))
+            statement = f"about {PAPER_BAT_FREQUENCY:g} Hz for the bat from {slow:g} to {fast:g} m/s with Su-Fan"
+            ours = f"{min(between):.3g} to {max(between):.3g} Hz ({treatment})"
+            found.append(Printed(statement, ours, off <= CLOSE))
+        if fast in fit and fast in fly:
+            ratio = fly[fast].wingbeat.frequency / fit[fast].wingbeat.frequency
+            statement = f"almost {PAPER_BAT_RATIO:g} times that near {fast:g} m/s with Dickinson"
+            found.append(Printed(statement, f"{ratio:.2f} times ({treatment})", TWICE[0] <= ratio <= TWICE[1]))
+    return found
 
 
 def _reach(measured: Measured) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Figures 2 to 8 of the paper redrawn from our model: as pictures, as pages, and as tables of what is drawn."""
+"""Figures 1 to 8 of the paper redrawn from our model: as pictures, as pages, and as tables of what is drawn."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from wingbeat.paper.figure_coefficients import coefficients_figure
 from wingbeat.paper.figure_cycle import forces_figure, pitch_figure, power_figure
 from wingbeat.paper.figure_frequency import frequency_figure
 from wingbeat.paper.figure_orbit import phase_figure
+from wingbeat.paper.figure_plate import plate_figure
 from wingbeat.paper.figure_style import Table
 from wingbeat.paper.figure_vehicle import vehicle_figure
 from wingbeat.paper.treatments import DEFAULT, TREATMENTS, Orbits
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Drawing = Callable[[Orbits, str], "tuple[Figure, Table]"]
-# Figure 1 is the paper's water channel, of which we have no model.
 FIGURES: dict[int, Drawing] = {
+    1: lambda orbits, sample: plate_figure(),
     2: vehicle_figure,
     3: lambda orbits, sample: coefficients_figure(),
     4: phase_figure,
@@ -45,7 +46,7 @@ def draw_figures(orbits: Orbits, numbers: Iterable[int], folder: str | Path, sam
     Parameters
     ----------
     orbits : solved orbits by case; what is missing or not certified is said in the figure.
-    numbers : which figures, from 2 to 8.
+    numbers : which figures, from 1 to 8.
     folder : where to; made if it is missing.
     sample : name of the treatment whose orbits at 10 m/s figures 2, 4 and 6 to 8 show.
 

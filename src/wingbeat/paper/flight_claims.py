@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
-from wingbeat.paper.treatments import DEFAULT, SAMPLE_SPEED, Orbits
+from wingbeat.paper.measured_bands import PAPER_BAT_FREQUENCY
+from wingbeat.paper.pigeon_claims import deviation
+from wingbeat.paper.treatments import SAMPLE_SPEED
 from wingbeat.results.record import at_station, beat_mean
 
 # Stations of arm and hand, as fractions of the span.
 ARM, HAND = 0.25, 0.75
-# Middle of the pigeon's measured band, 5.5 to 7 Hz, and the 6 Hz that the paper gives for the bat.
-PIGEON_MEASURED, BAT_MEASURED = 6.25, 6.0
+BAT_MEASURED = PAPER_BAT_FREQUENCY
 
 
 def station_series(evidence: Evidence, model: str, name: str, station: float) -> np.ndarray:
@@ -74,45 +75,6 @@ def least_frequency(evidence: Evidence) -> TestResult:
     return max(counts), max(counts) == 1
 
 
-def _deviation(evidence: Evidence, animal: str, model: str, speeds: np.ndarray, measured: float) -> float:
-    return float(np.mean(np.abs(evidence.frequencies(animal, model, speeds) / measured - 1)))
-
-
-def pigeon_agrees(evidence: Evidence) -> TestResult:
-    """Return the pigeon's mean relative deviation from the measured band's middle above 10 m/s, Su-Fan."""
-    speeds = evidence.speeds("pigeon", "su-fan", above=11.0)
-    ours = _deviation(evidence, "pigeon", "su-fan", speeds, PIGEON_MEASURED)
-    return ours, ours <= 0.15
-
-
-def pigeon_dickinson_off(evidence: Evidence) -> TestResult:
-    """Return the same with Dickinson's coefficients."""
-    speeds = evidence.speeds("pigeon", "su-fan", "dickinson", above=11.0)
-    theirs = _deviation(evidence, "pigeon", "dickinson", speeds, PIGEON_MEASURED)
-    return theirs, theirs > 0.15
-
-
-def closer_at_speed(animal: str, measured: float) -> FlightClaim:
-    """Return the claim that Su-Fan's frequency is nearer to the measured one than Dickinson's above 10 m/s."""
-
-    def test(evidence: Evidence) -> TestResult:
-        speeds = evidence.speeds(animal, "su-fan", "dickinson", above=10.0)
-        ours, theirs = (_deviation(evidence, animal, m, speeds, measured) for m in ("su-fan", "dickinson"))
-        return theirs / ours, ours < theirs
-
-    return FlightClaim(
-        f"{animal}-closer-at-speed",
-        "abstract; discussion, simulations",
-        f"the {animal}'s frequency comes out nearer to the measured one than with Dickinson's coefficients, "
-        "above all "
-        f"fast (tested: mean relative deviation from {measured:g} Hz at 10 m/s and more; ours: Dickinson's over "
-        "Su-Fan's)",
-        "> 1",
-        "1",
-        test,
-    )
-
-
 def bat_slow_alike(evidence: Evidence) -> TestResult:
     """Return the ratio of the bat's frequencies, Dickinson over Su-Fan, at 5 m/s and below, furthest from one."""
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
@@ -132,7 +94,7 @@ def bat_parts(evidence: Evidence) -> TestResult:
 def bat_agrees(evidence: Evidence) -> TestResult:
     """Return the bat's mean relative deviation from 6 Hz from 5 to 10 m/s, Su-Fan."""
     speeds = evidence.speeds("bat", "su-fan", above=5.0, below=10.0)
-    ours = _deviation(evidence, "bat", "su-fan", speeds, BAT_MEASURED)
+    ours = deviation(evidence, "bat", "su-fan", speeds, BAT_MEASURED)
     return ours, ours <= 0.15
 
 
@@ -256,29 +218,3 @@ def differentiable(evidence: Evidence) -> TestResult:
         for model in ("su-fan", "dickinson")
     ]
     return max(residuals), max(residuals) <= 1e-5
-
-
-def planform_matters(orbits: Orbits) -> FlightClaim:
-    """Return the claim that the wing's shape matters little; its test looks at tapered wings beside rectangles."""
-
-    def test(evidence: Evidence) -> TestResult:
-        rectangle = Evidence(orbits, DEFAULT)
-        changes = []
-        for animal in ("pigeon", "bat"):
-            for model in ("su-fan", "dickinson"):
-                speeds = np.intersect1d(evidence.speeds(animal, model), rectangle.speeds(animal, model))
-                ratio = evidence.frequencies(animal, model, speeds) / rectangle.frequencies(animal, model, speeds)
-                changes += list(np.abs(ratio - 1))
-        evidence.used |= rectangle.used
-        return float(np.median(changes)), bool(np.median(changes) <= 0.05)
-
-    return FlightClaim(
-        "wing-shape",
-        "methods, simulation",
-        "the shape of the wing does not change the optimum much (tested: wings tapered 3 to 1 against "
-        "rectangles of the "
-        "same area, median change of frequency over all speeds, animals and models at most 5 %)",
-        "not significant",
-        "1",
-        test,
-    )

@@ -10,8 +10,8 @@ import numpy as np
 from wingbeat.paper.assumptions import ASSUMPTIONS, Values
 
 _FOLDS = 10
-# Fewer outcomes than this cannot carry a surface of so many terms.
-_FEWEST = 300
+# Fewer outcomes than this for each term cannot carry a surface.
+_PER_TERM = 2
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,12 @@ class Importance:
 
     shares: np.ndarray
     quality: float
+
+
+def fewest_outcomes() -> int:
+    """Return how many outcomes a surface of all assumptions needs."""
+    one = [np.zeros((1, max(len(a.choices) - 1, 1))) for a in ASSUMPTIONS]
+    return _PER_TERM * _surface(one).shape[1]
 
 
 def importance(sets: Sequence[Values], numbers: np.ndarray, seed: int = 0) -> Importance | None:
@@ -40,7 +46,7 @@ def importance(sets: Sequence[Values], numbers: np.ndarray, seed: int = 0) -> Im
     from scipy.stats import rankdata
 
     told = np.isfinite(numbers)
-    if told.sum() < _FEWEST or np.ptp(numbers[told]) == 0:
+    if told.sum() < fewest_outcomes() or np.ptp(numbers[told]) == 0:
         return None
     ranks = rankdata(numbers[told])
     target = (ranks - ranks.mean()) / ranks.std()

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from wingbeat.aero import Dickinson, SuFan
+from wingbeat.aero import Dickinson, FormulaCoefficients, SuFan
 from wingbeat.paper.claim import Claim, tested, untestable
 from wingbeat.paper.experiment_claims import CHORD, REYNOLDS_FITTED, SPAN
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift
 
+# "In line with": the lift at the other's angle is within this part of the largest. The paper's own "conforms very
+# well", 1.95 for a formula that reaches 2.04, is a difference of 4.6 %.
+IN_LINE = 0.05
 # Seconds of a record left out, and the kinematic viscosity of water [m2/s].
 _LEFT_OUT, _WATER = 10.0, 1.0e-6
+
+
+def shortfall(model: FormulaCoefficients, alpha_deg: float) -> float:
+    """Return by how much C_L at an angle [deg] is below the model's largest, relative."""
+    lift = printed_lift(model, np.append(np.arange(0.5, 90.01, 0.05), alpha_deg))
+    return float(1.0 - lift[-1] / lift.max())
 
 
 def premise_claims() -> list[Claim]:
@@ -28,16 +37,16 @@ def premise_claims() -> list[Claim]:
     middle = float(np.mean(REYNOLDS_FITTED))
     chords = _LEFT_OUT * REYNOLDS_FITTED[0] * _WATER / CHORD**2
     return [
-        tested(
+        untestable(
             "two-dimensional",
             "methods, experimental setup; discussion",
-            "at aspect ratio 6 the flow is largely two-dimensional (tested: the formula's lift slope "
-            "over 0 to 8 deg "
-            f"nearer to 2 pi than to {finite:.2f} per rad, that of a finite wing, 2 pi A/(A + 2))",
+            "at aspect ratio 6 the flow is largely two-dimensional (ours: the formula's lift slope over 0 to 8 "
+            "deg, "
+            f"beside 2 pi in two dimensions and {finite:.2f} per rad of a finite wing, 2 pi A/(A + 2))",
             2 * np.pi,
             "1/rad",
             slope,
-            abs(slope - 2 * np.pi) < abs(slope - finite),
+            "the flow was not measured, and a thick blunt plate lowers the slope as its tips do",
         ),
         tested(
             "formulas-differentiable",
@@ -53,11 +62,27 @@ def premise_claims() -> list[Claim]:
         tested(
             "same-peak-as-insects",
             "discussion, experiment",
-            "C_L peaks near 40 deg in Dickinson's insect wing, too (within 2 deg)",
-            40.0,
-            "deg",
-            peak,
-            abs(peak - 40) <= 2,
+            "the peak of C_L near 40 deg is in line with that of Dickinson's insect wing (tested: its C_L at 40 "
+            "deg "
+            f"within {100 * IN_LINE:.0f} % of its largest, as near as the paper calls very good elsewhere; ours: "
+            "the "
+            f"shortfall; its peak is at {peak:.0f} deg)",
+            0.0,
+            "1",
+            shortfall(fly, 40.0),
+            shortfall(fly, 40.0) <= IN_LINE,
+        ),
+        tested(
+            "same-peak-as-bird-wing",
+            "discussion, experiment",
+            "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: the plate's C_L at "
+            "the 43 "
+            f"deg that the paper prints for the wing within {100 * IN_LINE:.0f} % of its largest; ours: the "
+            "shortfall)",
+            0.0,
+            "1",
+            shortfall(fit, 43.0),
+            shortfall(fit, 43.0) <= IN_LINE,
         ),
         tested(
             "drag-alike-in-form",

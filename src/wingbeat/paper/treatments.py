@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.orbits.batch import in_processes
 from wingbeat.orbits.continuation import find_series
@@ -37,6 +39,7 @@ class Treatment:
     uniform_wings : whether the wings' mass is spread evenly, rather than as dissected wings have it.
     flap_amplitude_deg : largest flap amplitude allowed [deg]; None for that of the species file.
     taper : tip chord over root chord at the same mean chord; 1 is the paper's rectangle.
+    leaf : whether the wing is a leaf of the rectangle's span, area and second moment of area, `leaf_chord`.
     """
 
     name: str
@@ -45,6 +48,7 @@ class Treatment:
     uniform_wings: bool = False
     flap_amplitude_deg: float | None = None
     taper: float = 1.0
+    leaf: bool = False
 
 
 _HEAVY = "flap amplitude at most 45 deg, wing mass spread evenly"
@@ -58,8 +62,19 @@ TREATMENTS = (
     Treatment("mirrored-heavy", f"mirrored; {_HEAVY}", "mirrored", True, 45.0),
     Treatment("signed-heavy", f"signed; {_HEAVY}", "signed", True, 45.0),
     Treatment("mirrored-tapered", "mirrored; wings tapered 3 to 1, same area", "mirrored", taper=1 / 3),
+    Treatment(
+        "mirrored-leaf",
+        "mirrored; wings like a leaf, same area and same second moment of area about the shoulder",
+        "mirrored",
+        leaf=True,
+    ),
 )
-DEFAULT, TAPERED = TREATMENTS[0].name, TREATMENTS[-1].name
+DEFAULT = TREATMENTS[0].name
+# Those that figures show.
+DRAWN = TREATMENTS[:2]
+PLANFORMS = tuple(treatment.name for treatment in TREATMENTS if treatment.leaf or treatment.taper != 1.0)
+# Where the chord of the leaf is given along the span, and that at the root over that of the rectangle.
+_STATIONS, _ROOT = 11, 0.25
 
 
 @dataclass(frozen=True, order=True)
@@ -91,6 +106,23 @@ def all_cases(speeds: Iterable[float], treatments: Iterable[Treatment] = TREATME
     ]
 
 
+def leaf_chord(chord: float) -> tuple[float, ...]:
+    """Return the chords of a leaf at stations from root to tip [m]: widest past mid-span, narrow at root and tip.
+
+    To a rectangle of this chord a parabola is added that changes neither the area nor the second moment of area
+    about the shoulder, ``int s^2 c ds``, of the chord that is linear between the stations.
+    """
+    eta = np.linspace(0.0, 1.0, _STATIONS)
+    # By Simpson's rule, which is exact for cubics, as which a chord that is linear between stations enters.
+    fine = np.linspace(0.0, 1.0, 2 * (_STATIONS - 1) + 1)
+    weight = np.where(np.arange(fine.size) % 2, 4.0, 2.0)
+    weight[[0, -1]] = 1.0
+    basis = np.array([np.interp(fine, eta, power) for power in (np.ones_like(eta), eta, eta**2)])
+    area, second = basis @ weight, basis @ (weight * fine**2)
+    parabola = np.linalg.svd(np.stack([area, second]))[2][-1] @ np.array([np.ones_like(eta), eta, eta**2])
+    return tuple((chord * (1.0 + (_ROOT - 1.0) * parabola / parabola[0])).tolist())
+
+
 def problem_of(case: Case) -> OrbitProblem:
     """Return the orbit problem of a case: level flight at least frequency."""
     treatment = next(t for t in TREATMENTS if t.name == case.treatment)
@@ -100,6 +132,8 @@ def problem_of(case: Case) -> OrbitProblem:
     if treatment.taper != 1:
         root = 2.0 * species.vehicle.wing.mean_chord / (1.0 + treatment.taper)
         species = species.with_values({"wing.chord": (root, treatment.taper * root)})
+    if treatment.leaf:
+        species = species.with_values({"wing.chord": leaf_chord(species.vehicle.wing.mean_chord)})
     aero = BladeElement(load_coefficients(case.model, treatment.extension))
     problem = OrbitProblem(species, speed=case.speed, aero=aero)
     if treatment.flap_amplitude_deg is None:

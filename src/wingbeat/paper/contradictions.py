@@ -1,0 +1,46 @@
+"""What the paper prints about its figures 5 to 8, whether our orbits agree, and why they need not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+# The same tests as those of the claims: see their texts.
+CLOSE, TWICE, NEAR_PEAK = 0.15, (1.7, 2.3), 0.25
+_OPEN = (
+    "The paper leaves open which mean angles are free, how far the wing may flap and what the coefficients are at "
+    "negative angles of attack, and the answer depends on each of them"
+)
+WHY = {
+    5: f"{_OPEN}.",
+    6: f"{_OPEN}; another family of beats has other angles.",
+    7: f"{_OPEN}. It gives no wing mass either, and a beat of least frequency is not one of least power.",
+    8: f"{_OPEN}. It gives neither the body's pitch inertia nor the place of the shoulder.",
+}
+
+
+class Printed(NamedTuple):
+    """A statement that the paper prints, our number in words, and whether it agrees."""
+
+    statement: str
+    ours: str
+    agrees: bool
+
+
+def near(value: float, printed: float, share: float) -> bool:
+    """Return whether a number is within a share of a printed one."""
+    return abs(value / printed - 1.0) <= share
+
+
+def told(figure: int, printed: Sequence[Printed]) -> str:
+    """Return the sentences of a caption: what is printed, what ours is, and why where they differ.
+
+    >>> told(7, [Printed("a peak of 30 W", "31 W", True)])
+    'The paper prints a peak of 30 W; ours: 31 W, which agrees.'
+    """
+    words = [
+        f"The paper prints {one.statement}; ours: {one.ours}, which {'agrees' if one.agrees else 'contradicts it'}."
+        for one in printed
+    ]
+    differing = [WHY[figure]] if any(not one.agrees for one in printed) else []
+    return " ".join([*words, *differing])

@@ -1,0 +1,126 @@
+"""What changed in each verdict since an earlier run, and why: one table beside the claims."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from wingbeat.errors import FileError
+from wingbeat.files import read_text
+from wingbeat.paper.claim import Claim
+
+_LIMIT = 1 << 26
+_NONE = "-"
+# A claim of before, and those that are asked in its place.
+REPLACED = {
+    "pigeon-agrees": ("pigeon-agrees", "pigeon-agrees-usherwood", "pigeon-agrees-pennycuick"),
+    "pigeon-dickinson-off": ("pigeon-dickinson-off-usherwood", "pigeon-dickinson-off-pennycuick"),
+    "pigeon-closer-at-speed": ("pigeon-closer-at-speed-usherwood", "pigeon-closer-at-speed-pennycuick"),
+    "less-pitching": ("less-pitching-pigeon", "less-pitching-bat"),
+}
+_REFERENCE = "judged by each reference drawn in figure 5, no longer by 6.25 Hz, which was our own guess"
+_SMALL = "'small' is now small beside the coefficient's own largest, as the paper uses the word of its own drag"
+_IN_LINE = (
+    "'in line with' is now the lift at the other's angle; the curves are flat there, and 2 degrees was too strict"
+)
+# Why a claim is asked otherwise than before, by its name now.
+ASKED_OTHERWISE = {
+    "pigeon-agrees": "the data that the paper draws could not be had, and 6.25 Hz was our own guess",
+    **{
+        f"pigeon-{what}-{by}": _REFERENCE
+        for what in ("agrees", "dickinson-off", "closer-at-speed")
+        for by in ("usherwood", "pennycuick")
+    },
+    "gains-at-speed": _REFERENCE,
+    "bat-closer-at-speed": "the same test; its words now say whose 6 Hz it is",
+    "less-pitching-pigeon": "each animal by itself: the worse of the two hid the other",
+    "less-pitching-bat": "each animal by itself: the worse of the two hid the other",
+    "animals-reynolds": "asked at each speed, no longer at 10 m/s alone",
+    "two-dimensional": "the flow was not measured, and the lift slope of a thick plate does not tell",
+    "same-peak-as-insects": _IN_LINE,
+    "same-peak-as-bird-wing": f"new: the paper's own second example; {_IN_LINE}",
+    "dickinson-drag-small": _SMALL,
+    "dickinson-lift-small": f"new: the paper says it of lift, too; {_SMALL}",
+    "drag-penalty-small": f"new: the drag that the paper calls small; {_SMALL}",
+    "arm-nose-up": "'a small nose-up pitch' is now positive and at most 13 degrees, no longer positive alone",
+    "closer-power": "'much closer' is now at most half as far, no longer closer by any amount",
+    "wing-shape": "judged at equal second moment of area, too, no longer at equal area alone",
+}
+
+
+class Change(NamedTuple):
+    """A claim, its verdict before and now, and why they differ; `same` where they do not."""
+
+    id: str
+    before: str
+    now: str
+    why: str
+
+    @property
+    def same(self) -> bool:
+        """Whether the verdict is the one of before."""
+        return self.before == self.now
+
+
+def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
+    """Return the rows of a claims.json that an earlier run wrote.
+
+    Raises
+    ------
+    FileError : it cannot be read, or is none.
+    """
+    try:
+        rows = json.loads(read_text(path, limit=_LIMIT))
+        for row in rows:
+            if not isinstance(row["claim"], str) or not isinstance(row["verdict"], str):
+                raise TypeError("a verdict is no text")
+        return [{**row, "id": str(row["id"])} for row in rows]
+    except (TypeError, ValueError, KeyError, AttributeError):
+        raise FileError(f"cannot read {str(path)!r} as claims; give the claims.json of another run") from None
+
+
+def verdict_changes(before: Sequence[dict[str, Any]], claims: Sequence[Claim]) -> list[Change]:
+    """Return what became of the claims of an earlier run, and which are new, in the order of now.
+
+    Claims that the run of now does not ask are left out.
+    """
+    old = {row["id"]: row for row in before}
+    origin = {new: name for name in old for new in REPLACED.get(name, (name,))}
+    found = [_change(old.get(origin.get(claim.id, claim.id)), claim) for claim in claims if claim.asked]
+    here = {claim.id for claim in claims}
+    for name, row in old.items():
+        if not here & set(REPLACED.get(name, (name,))):
+            found.append(Change(name, row["verdict"], _NONE, "no longer asked"))
+    return found
+
+
+def _change(row: dict[str, Any] | None, claim: Claim) -> Change:
+    if row is None:
+        return Change(claim.id, _NONE, claim.verdict, ASKED_OTHERWISE.get(claim.id, "new"))
+    if row["id"] != claim.id or row["claim"] != claim.claim.replace("|", "/"):
+        why = ASKED_OTHERWISE.get(claim.id, "asked in other words")
+    else:
+        then, now = (_shown(number) for number in (row.get("ours"), claim.findings[0].number))
+        why = f"asked as before of other flights: {then} then, {now} now" if then != now else "asked as before"
+    return Change(claim.id, row["verdict"], claim.verdict, why)
+
+
+def _shown(number: float | None) -> str:
+    return "no number" if number is None else f"{number:.3g}"
+
+
+def changes_table(changes: Sequence[Change]) -> list[str]:
+    """Return the lines of a section for the page of claims: every verdict that changed, and how many did not."""
+    moved = [change for change in changes if not change.same]
+    return [
+        "## What changed in the verdicts, and why",
+        "",
+        f"{len(moved)} verdicts are not those of before, {len(changes) - len(moved)} are.",
+        "",
+        "| claim | before | now | why |",
+        "| --- | --- | --- | --- |",
+        *(f"| `{change.id}` | {change.before} | {change.now} | {change.why} |" for change in moved),
+        "",
+    ]

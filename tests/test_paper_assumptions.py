@@ -20,7 +20,7 @@ from wingbeat.paper.assumption_study import (
     study_claims,
 )
 from wingbeat.paper.assumptions import ASSUMPTIONS, sample_sets
-from wingbeat.paper.importance import importance
+from wingbeat.paper.importance import fewest_outcomes, importance
 from wingbeat.paper.treatments import Case
 from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Ended
@@ -53,7 +53,12 @@ VALUES = {
     "twist_ratio": 1.4,
     "flap_amplitude_deg": 50.0,
     "trims": "pitch-mean",
-    "extension": "signed-drag",
+    "shoulder_aside": 0.05,
+    "flap_mean_deg": 12.0,
+    "pitch_phase_deg": -20.0,
+    "extension_su_fan": "signed-drag",
+    "extension_dickinson": "clipped-drag",
+    "airspeed": "full",
     "force_point": "centre-of-pressure",
     "body_drag_factor": 1.0,
 }
@@ -62,7 +67,7 @@ VALUES = {
 @pytest.mark.parametrize("animal", ["pigeon", "bat"])
 def test_the_points_of_a_piece_are_the_problems_that_its_sets_mean(animal, tmp_path):
     stock = wb.load_species(animal)
-    other = VALUES | {"taper": 1.0, "force_point": "quarter-chord"}
+    other = VALUES | {"taper": 1.0, "force_point": "quarter-chord", "airspeed": "planar"}
     (group,) = plan_piece([VALUES, other], tmp_path)
     assert (group.places, len(group.studies)) == ([0, 1], 4)
     study = group.studies[animal, "su-fan"]
@@ -77,7 +82,7 @@ def test_the_points_of_a_piece_are_the_problems_that_its_sets_mean(animal, tmp_p
     assert wing.mass == pytest.approx(0.08 * stock.vehicle.mass)
     assert (wing.mass_exponent, wing.chord[1]) == (3.0, pytest.approx(0.5 * wing.chord[0]))
     assert wing.mean_chord == pytest.approx(stock.vehicle.wing.mean_chord)
-    assert wing.shoulder == pytest.approx((0.1 * wing.semi_span, 0.0, 0.02 * wing.semi_span))
+    assert wing.shoulder == pytest.approx((0.1 * wing.semi_span, 0.05 * wing.semi_span, 0.02 * wing.semi_span))
     assert vehicle.body.pitch_inertia == pytest.approx(1.2 * stock.vehicle.body.pitch_inertia)
     assert vehicle.body.drag_area == pytest.approx(0.2 * 0.00813 * stock.vehicle.mass**0.666)
     assert problem.free == ("frequency", "flap_amplitude", "pitch_amplitude", "pitch_mean")
@@ -85,16 +90,18 @@ def test_the_points_of_a_piece_are_the_problems_that_its_sets_mean(animal, tmp_p
     assert problem.bounds["flap_amplitude"] == (stock.bounds["flap_amplitude"][0], pytest.approx(math.radians(50)))
     assert problem.bounds["frequency"] == stock.bounds["frequency"]
     assert problem.aero.coefficients.extension == "signed-drag"
-    assert problem.aero.force_point == "centre-of-pressure"
+    assert (problem.aero.force_point, problem.aero.airspeed) == ("centre-of-pressure", "full")
+    assert problem.species.wingbeat.pitch_phase == pytest.approx(math.radians(-20))
     beat = problem.species.wingbeat
     assert (beat.span_retraction == 0.2) == (animal == "pigeon")
     assert (beat.twist_ratio == 1.4) == (animal == "bat")
     second = recipe.problem(points[-1].changes)
     assert second.vehicle.wing.chord[0] == pytest.approx(second.vehicle.wing.chord[1])
-    assert second.aero.force_point == "quarter-chord"
+    assert (second.aero.force_point, second.aero.airspeed) == ("quarter-chord", "planar")
     dickinson = group.studies[animal, "dickinson"].plan
     theirs = dickinson.bases[0].recipe.problem(next(dickinson.points()).changes)
     assert (theirs.aero.coefficients.name, theirs.aero.force_point) == ("dickinson", "quarter-chord")
+    assert (theirs.aero.coefficients.extension, theirs.aero.airspeed) == ("clipped-drag", "full")
     assert theirs.vehicle == vehicle
 
 
@@ -109,28 +116,45 @@ def test_sets_that_leave_different_angles_free_are_of_different_studies(tmp_path
     ]
 
 
+@pytest.mark.parametrize("trims", ["flap-mean", "both"])
+def test_a_free_flap_mean_is_bounded_as_the_set_says(trims, tmp_path):
+    (group,) = plan_piece([VALUES | {"trims": trims}], tmp_path)
+    plan = group.studies["bat", "su-fan"].plan
+    problem = plan.bases[0].recipe.problem(next(plan.points()).changes)
+    assert problem.bounds["flap_mean"] == (pytest.approx(math.radians(-12)), pytest.approx(math.radians(12)))
+
+
+def test_the_two_models_extensions_are_drawn_independently():
+    sets = sample_sets(400, seed=6)
+    pairs = {(s["extension_su_fan"], s["extension_dickinson"]) for s in sets}
+    assert len(pairs) == 16
+    alike = sum(s["extension_su_fan"] == s["extension_dickinson"] for s in sets)
+    assert 70 <= alike <= 130  # a quarter of them
+
+
 def test_importance_finds_what_a_number_was_made_of():
-    sets = sample_sets(600, seed=1)
+    sets = sample_sets(1200, seed=1)
     taper = np.array([s["taper"] for s in sets])
-    signed = np.array([s["extension"] == "signed" for s in sets])
-    number = 2.0 * taper + 0.5 * signed + 0.01 * np.random.default_rng(0).normal(size=600)
+    signed = np.array([s["extension_dickinson"] == "signed" for s in sets])
+    number = 2.0 * taper + 0.5 * signed + 0.01 * np.random.default_rng(0).normal(size=1200)
     number[:50] = np.nan
     found = importance(sets, number)
     order = [NAMES[i] for i in np.argsort(-found.shares)]
-    assert set(order[:2]) == {"taper", "extension"}
+    assert set(order[:2]) == {"taper", "extension_dickinson"}
     assert found.shares[NAMES.index("wing_mass_share")] < 0.01
     assert found.quality > 0.9
-    noise = importance(sets, np.random.default_rng(2).normal(size=600))
+    noise = importance(sets, np.random.default_rng(2).normal(size=1200))
     assert noise.quality < 0.1
 
 
 def test_importance_says_nothing_of_too_few_numbers_or_of_one_number():
-    sets = sample_sets(400)
-    assert importance(sets, np.full(400, 1.0)) is None
-    assert importance(sets, np.where(np.arange(400) < 50, 1.0 * np.arange(400), np.nan)) is None
+    sets, number = sample_sets(1200), np.arange(1200.0)
+    assert importance(sets, np.full(1200, 1.0)) is None
+    assert importance(sets, np.where(number < fewest_outcomes() - 1, number, np.nan)) is None
+    assert importance(sets, np.where(number < fewest_outcomes(), number, np.nan)) is not None
 
 
-def made_up_study(count=400):
+def made_up_study(count=800):
     """Verdicts by coin and by taper, so that two claims never hold together and one never holds."""
     random = np.random.default_rng(5)
     sets, claims = sample_sets(count, seed=2), study_claims()
@@ -170,6 +194,16 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     assert len(heat.get_xticks()) == len(ASSUMPTIONS)
 
 
+OPEN = {
+    "trims": "both",
+    "flap_mean_deg": 30.0,
+    "extension_su_fan": "mirrored",
+    "extension_dickinson": "mirrored",
+    "airspeed": "planar",
+    "force_point": "quarter-chord",
+}
+
+
 class Here:
     """An engine that works where it is asked to."""
 
@@ -194,7 +228,7 @@ class Here:
 
 
 def test_one_set_is_flown_and_judged(tmp_path):
-    sets = [sample_sets(1)[0] | {"trims": "both", "extension": "mirrored", "force_point": "quarter-chord"}]
+    sets = [sample_sets(1)[0] | OPEN]
     groups, seen = plan_piece(sets, tmp_path), []
     fly_piece(groups, Here, Stop(), seen.append)
     assert (seen[0], seen[-1], len(seen)) == (3, ORBITS, 4)

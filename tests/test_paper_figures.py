@@ -10,10 +10,12 @@ import pytest
 from matplotlib.image import imread
 
 import wingbeat as wb
+from wingbeat.paper.contradictions import WHY, Printed, near, told
 from wingbeat.paper.figure_coefficients import coefficients_figure
 from wingbeat.paper.figure_cycle import absence, forces_figure, pitch_figure, power_figure
 from wingbeat.paper.figure_frequency import frequency_figure
 from wingbeat.paper.figure_orbit import phase_figure
+from wingbeat.paper.figure_plate import plate_figure
 from wingbeat.paper.figure_vehicle import vehicle_figure
 from wingbeat.paper.figures import FIGURES, csv_text, draw_figures
 from wingbeat.paper.measured_bands import MEASURED_FREQUENCIES
@@ -149,6 +151,58 @@ def test_portraits_are_the_orbit_with_marks_where_strokes_begin(orbits):
         np.testing.assert_allclose(dot.get_xydata(), [[table[128][place], table[128][speed]]])
         assert table[128]["phase"] == 0.5
     assert "Our pigeon" in words(figure)
+
+
+def test_the_plate_is_drawn_with_its_forces_at_the_centre_of_pressure():
+    figure, (row,) = plate_figure()
+    alpha = math.radians(row["alpha_deg"])
+    c, s = math.cos(alpha), math.sin(alpha)
+    # The paper's equation 1, and its C_M = C_N (0.5 - x_cp).
+    assert row["C_N"] * c - row["C_T"] * s == pytest.approx(row["C_L"], rel=1e-12)
+    assert row["C_N"] * s + row["C_T"] * c == pytest.approx(row["C_D"], rel=1e-12)
+    assert row["C_M_mid_chord"] == pytest.approx(row["C_N"] * (0.5 - row["x_cp_chords"]), rel=1e-12)
+    section = figure.axes[1]
+    (centre,) = (line for line in section.get_lines() if line.get_gid() == "centre of pressure")
+    at = row["x_cp_chords"] * np.array([c, -s])
+    np.testing.assert_allclose(centre.get_xydata()[0], at)
+    arrows = {each.get_gid(): np.array(each.xy) - each.xyann for each in section.texts if each.get_gid()}
+    np.testing.assert_allclose(arrows["lift"] + arrows["drag"], arrows["normal"] + arrows["tangential"], atol=1e-12)
+    assert arrows["lift"][0] == arrows["drag"][1] == 0.0
+    (plate,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == "plate")
+    assert (plate.get_width(), plate.get_height()) == (0.076, 0.456)
+
+
+def gids(axes):
+    return {each.get_gid() for each in axes.get_children()}
+
+
+def test_what_the_paper_prints_is_marked_and_a_contradiction_is_said_with_its_reason(orbits):
+    frequency, forces, power, pitch = (
+        drawing(orbits)[0] for drawing in (frequency_figure, forces_figure, power_figure, pitch_figure)
+    )
+    assert {"paper-su-fan", "paper-dickinson"} <= gids(frequency.axes[1])
+    (star,) = (line for line in frequency.axes[1].get_lines() if line.get_gid() == "paper-dickinson")
+    np.testing.assert_array_equal(star.get_xydata(), [[10.0, 12.0]])
+    for axes in (*forces.axes[:2], *power.axes, *pitch.axes):
+        assert "paper" in gids(axes)
+    bars = [line for line in pitch.axes[0].get_lines() if line.get_gid() == "paper"]
+    assert [np.ptp(bar.get_ydata()) for bar in bars] == pytest.approx([10.0, 25.0])
+    peak = orbits[BAT].record()["peak_power"]
+    note = words(power).replace("\n", " ")
+    assert f"prints a peak of 30 W with Su-Fan; ours: {peak:.3g} W, which contradicts it" in note
+    assert "The paper leaves open which mean angles are free" in note
+    ratio = orbits[BAT_DICKINSON].wingbeat.frequency / orbits[BAT].wingbeat.frequency
+    note = words(frequency).replace("\n", " ")
+    assert f"almost twice that near 10 m/s with Dickinson; ours: {ratio:.2f} times (mirrored), which" in note
+    extent = math.degrees(orbits[BAT].record()["body_pitch_range"])
+    verdict = "agrees" if extent <= 10 else "contradicts it"
+    assert f"ours: {extent:.3g} deg, which {verdict}" in words(pitch).replace("\n", " ")
+
+
+def test_a_figure_that_agrees_gives_no_reason():
+    agreeing = told(7, [Printed("a peak of 30 W", "31 W", near(31.0, 30.0, 0.25))])
+    assert agreeing == "The paper prints a peak of 30 W; ours: 31 W, which agrees."
+    assert WHY[7] in told(7, [Printed("a peak of 30 W", "61 W", near(61.0, 30.0, 0.25))])
 
 
 def test_frequencies_are_those_of_the_orbits(orbits):
@@ -294,7 +348,7 @@ def test_a_table_of_nothing_is_a_file_of_nothing():
     assert csv_text([]) == "\n"
 
 
-@pytest.mark.parametrize(("numbers", "sample"), [([1], "mirrored"), ([9], "mirrored"), ([4], "sideways")])
+@pytest.mark.parametrize(("numbers", "sample"), [([0], "mirrored"), ([9], "mirrored"), ([4], "sideways")])
 def test_an_unknown_figure_or_treatment_is_refused(tmp_path, numbers, sample):
     with pytest.raises(wb.InvalidInputError, match="is not a known choice"):
         draw_figures({}, numbers, tmp_path / "new", sample)

@@ -197,7 +197,12 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
             middle, at = 0.5 * (drawn.min() + drawn.max()), 1.03 + 0.17 * i
             bar: dict[str, Any] = {"color": LOOKS[model].color, "clip_on": False, "linewidth": 1.2, "marker": "_"}
             axes.plot([at, at], [middle - 0.5 * extent, middle + 0.5 * extent], gid="paper", **bar)
-            place: dict[str, Any] = {"xytext": (3, 0), "textcoords": "offset points", "va": "center"}
+            place: dict[str, Any] = {
+                "xytext": (3, 0),
+                "textcoords": "offset points",
+                "va": "center",
+                "annotation_clip": False,
+            }
             axes.annotate(
                 f"paper:\n{extent:g}°", (at, middle), color=LOOKS[model].color, fontsize=FONT_SMALL, **place
             )

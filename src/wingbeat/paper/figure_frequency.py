@@ -44,7 +44,8 @@ _NOTE = (
     "Ours: certified orbits of least frequency; filled, thick line: coefficients mirrored at negative angles of "
     "attack; open, thin line: formulas as they stand at negative angles. Neighbouring points may be of different "
     "families of orbits; the flap amplitude rests on its bound in {leaning} of {all}. Crosses at the foot: no "
-    "certified orbit at that speed. Stars: what the paper prints of the bat. Green: measured on animals, or a law "
+    "certified orbit at that speed. Stars: what the paper prints of the bat (of the pigeon it prints no number). "
+    "Green: measured on animals, or a law "
     "of such measurements for a vehicle of "
     "this mass and span; A: as in the source, D: computed by us from it; full sources stand in the table beside "
     "this figure. The frequencies of Tobalske and Dial (1996) that the paper draws could not be had; they were "
@@ -145,7 +146,7 @@ def _printed(orbits: Orbits) -> list[Printed]:
             found.append(Printed(statement, ours, off <= CLOSE))
         if fast in fit and fast in fly:
             ratio = fly[fast].wingbeat.frequency / fit[fast].wingbeat.frequency
-            statement = f"almost {PAPER_BAT_RATIO:g} times that near {fast:g} m/s with Dickinson"
+            statement = f"almost twice that near {fast:g} m/s with Dickinson"
             found.append(Printed(statement, f"{ratio:.2f} times ({treatment})", TWICE[0] <= ratio <= TWICE[1]))
     return found
 

@@ -126,7 +126,7 @@ def _draw_section(axes: Axes, numbers: dict[str, float]) -> None:
     turn: dict[str, Any] = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.6", "color": MEASURED}
     ends = [_pair(middle + side * back - 0.20 * normal) for side in (-0.16, 0.16)]
     axes.annotate("", ends[0], ends[1], arrowprops=turn)
-    axes.text(*(middle - 0.36 * normal), "M", color=MEASURED, fontsize=8, ha="center", va="center")
+    axes.text(*_pair(middle - 0.36 * normal), "M", color=MEASURED, fontsize=8, ha="center", va="center")
     _measure(axes, (-0.12 * normal).tolist(), (at - 0.12 * normal).tolist(), "$x_{cp}$", (-8, -6))
     axes.set(xlim=(-0.85, 1.35), ylim=(-1.0, 0.75), aspect="equal")
     axes.axis("off")

@@ -23,7 +23,7 @@ _OFTEN = 20
 # Assumptions that explain less of a claim's number than this are not named in words.
 _TELLING = 0.05
 # A surface that explains less than this of numbers it has not seen says little of what a claim hangs on.
-_TRUSTED = 0.3
+TRUSTED = 0.3
 _BEST = 5
 
 
@@ -76,7 +76,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "satisfy it, with the standard error that so many sets leave. "
         "*Hangs on* names the assumptions that explain at least a twentieth of the claim's number in a quadratic "
         "response surface (share of the variance of its rank), *quality* how much of numbers it has not seen the "
-        f"surface explains; below {_TRUSTED:g} it says little.",
+        f"surface explains; below {TRUSTED:g} it says little.",
         "",
         "| claim | holds [%] | told [%] | hangs on | quality |",
         "| --- | --- | --- | --- | --- |",
@@ -173,7 +173,7 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     )
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
     fits.barh(places, np.maximum(quality, 0.0), color="#009E73", height=0.7)
-    fits.axvline(_TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
+    fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
     fits.set(xlim=(0, 1), xlabel="surface R² [-]")
     for axes, letter in ((bars, "a"), (heat, "b"), (fits, "c")):
         axes.set_title(letter, loc="left", fontsize=9, fontweight="bold")

@@ -1,8 +1,8 @@
 """Every number of docs/findings.md is counted again, from the sets in docs/assumptions.csv, and none is left out.
 
 Each function of `COUNTS` returns phrases with the numbers that the sets give. The page must hold all of them, and
-every number of the page must lie in one of them. After a new sample `python tests/test_findings.py` prints the phrases as
-they are to stand in the page; what a phrase says in words beside its numbers is asserted where it is counted.
+every number of the page must lie in one of them. After a new sample `python tests/test_findings.py` prints the
+phrases as they are to stand in the page; what they say in words beside the numbers is asserted where it is counted.
 """
 
 import re

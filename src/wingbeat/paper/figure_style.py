@@ -75,7 +75,7 @@ def sheet(width: float, height: float, note: str, alarm: str = "") -> Figure:
 
 
 def _wrapped(text: str, letters: int) -> list[str]:
-    return textwrap.wrap(text, letters) if text else []
+    return textwrap.wrap(text, letters, break_on_hyphens=False) if text else []
 
 
 def dress(axes: Axes, xlabel: str, ylabel: str) -> None:

@@ -73,6 +73,8 @@ def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
     """
     try:
         rows = json.loads(read_text(path, limit=_LIMIT))
+        if not isinstance(rows, list):
+            raise TypeError("claims are a list")
         for row in rows:
             if not isinstance(row["claim"], str) or not isinstance(row["verdict"], str):
                 raise TypeError("a verdict is no text")

@@ -6,17 +6,20 @@ The public names are loaded when first used, so that importing the package is ch
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
 from wingbeat._version import __version__ as __version__
 
+TYPE_CHECKING = False  # the command line must be ready for Ctrl-C before it has time to import `typing`
 if TYPE_CHECKING:
+    from typing import Any
+
     from wingbeat import aero as aero
     from wingbeat import experiment as experiment
     from wingbeat import plots as plots
     from wingbeat import viewer as viewer
     from wingbeat.errors import ClusterError as ClusterError
     from wingbeat.errors import FileError as FileError
+    from wingbeat.errors import ForkError as ForkError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
     from wingbeat.five_coordinates import air_forces as air_forces
@@ -76,6 +79,7 @@ _HOME = {
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "model",
+    "ForkError": "errors",
     "Frequency": "orbits.quantities",
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",

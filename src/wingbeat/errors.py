@@ -47,6 +47,10 @@ class ClusterError(WingbeatError):
     """Other machines cannot be reached or cannot do the work; the message says which, why and a way out."""
 
 
+class ForkError(WingbeatError, RuntimeError):
+    """A forked process cannot run JAX, since its parent has; the message says how to start one that can."""
+
+
 def install_extra(extra: str) -> str:
     """Say how to install an extra; wingbeat is installed from a clone.
 

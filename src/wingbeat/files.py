@@ -12,11 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat.errors import FileError
+from wingbeat.leftovers import Leftover
 
-__all__ = ["read_text", "toml_tables", "write_atomically", "writing"]
+__all__ = ["make_folder", "read_text", "toml_tables", "write_atomically", "writing"]
 
 # tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
 MAX_LINE = 4096
+# Characters of a path in a message.
+_SHOWN = 300
 
 
 def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
@@ -68,6 +71,19 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
         raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
 
 
+def make_folder(path: str | os.PathLike[str]) -> None:
+    """Make a folder, and those above it, where there is none.
+
+    Raises
+    ------
+    FileError : it cannot be made.
+    """
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        raise FileError(f"cannot make the folder {_shown(path)}: {_reason(error)}; choose another") from None
+
+
 @contextmanager
 def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Lend a path beside `path` to write to; it takes the name `path` only if the block ends well.
@@ -94,14 +110,15 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
             kind = "a folder" if target.is_dir() else "not a plain file"
             raise FileError(f"cannot write {_shown(path)}: it is {kind}; give the path of a file")
         candidate = target.with_name(f".{secrets.token_hex(6)}.part{target.suffix}")
-        # Made here and not by the writer, so that a folder without permission is told before hours of work.
-        os.close(os.open(candidate, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-        beside = candidate
-        yield beside
-        if target.exists():
-            os.chmod(beside, stat.S_IMODE(target.stat().st_mode))
-        os.replace(beside, target)
-        beside = None
+        with Leftover(candidate.unlink):
+            # Made here and not by the writer, so that a folder without permission is told before hours of work.
+            os.close(os.open(candidate, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            beside = candidate
+            yield beside
+            if target.exists():
+                os.chmod(beside, stat.S_IMODE(target.stat().st_mode))
+            os.replace(beside, target)
+            beside = None
     except (OSError, ValueError) as error:
         if isinstance(error, ValueError) and beside is not None:
             raise  # a fault of the block's own, not of the path
@@ -127,7 +144,8 @@ def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None
 
 
 def _shown(path: Any) -> str:
-    return repr(os.fspath(path))
+    text = repr(os.fspath(path))
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN // 2]}...{text[-_SHOWN // 2 :]}"
 
 
 def _reason(error: OSError | ValueError) -> str:

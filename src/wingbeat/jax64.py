@@ -5,24 +5,19 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
 import jax
 import jax.numpy as jnp
+from jax._src import compilation_cache
 
-__all__ = ["at_default", "cache_folder", "jax", "jnp", "register_record", "unchecked"]
+from wingbeat.program_cache import keep_program, kept_program, program_folder
+
+__all__ = ["at_default", "jax", "jnp", "register_record", "unchecked"]
 
 T = TypeVar("T")
-
-
-def cache_folder() -> Path:
-    """Return the user's cache folder for wingbeat (``WINGBEAT_CACHE`` overrides it)."""
-    if chosen := os.environ.get("WINGBEAT_CACHE"):
-        return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME", "~/.cache")).expanduser() / "wingbeat"
 
 
 def _configure() -> None:
@@ -35,12 +30,36 @@ def _configure() -> None:
     jax.config.update("jax_enable_x64", True)
     # Computed where it is called: searches in threads would else wait for one another's results.
     jax.config.update("jax_cpu_enable_async_dispatch", False)
-    if getattr(jax.config, "jax_compilation_cache_dir", None) is None:
-        jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))
-        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-        jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
-        # A cache that cannot be read or written costs time, not the answer.
-        warnings.filterwarnings("ignore", message="Error (reading|writing) persistent compilation cache")
+    if getattr(jax.config, "jax_compilation_cache_dir", None) is None and (folder := program_folder()) is not None:
+        _keep_compiled(folder)
+
+
+class _Checked:
+    """JAX's cache of compiled programs, by way of `program_cache`: JAX itself would run whatever stands there."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder
+
+    def get(self, key: str) -> bytes | None:
+        """Return what was compiled before, if it is whole and the user's own."""
+        return kept_program(f"compiled-{key}")
+
+    def put(self, key: str, value: bytes) -> None:
+        """Keep what was compiled."""
+        keep_program(f"compiled-{key}", value)
+
+
+def _keep_compiled(folder: Path) -> None:
+    """Have JAX keep in the folder what it compiles, and read no file there that is not as it was written."""
+    theirs = compilation_cache.get_file_cache
+
+    def opened(path: str) -> Any:
+        return (_Checked(folder), path) if path == str(folder) else theirs(path)
+
+    compilation_cache.get_file_cache = opened
+    jax.config.update("jax_compilation_cache_dir", str(folder))
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
+    jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
 
 
 _configure()

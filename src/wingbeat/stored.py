@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import math
+import os
 import pickle
 import platform
 import threading
@@ -20,12 +21,13 @@ from typing import Any, NamedTuple
 import jax
 import jax.export
 import numpy as np
+from jax._src import xla_bridge
 from jax.core import Tracer
 
 from wingbeat._version import __version__
-from wingbeat.errors import FileError
-from wingbeat.files import write_atomically
-from wingbeat.jax64 import cache_folder, jnp
+from wingbeat.errors import ForkError
+from wingbeat.jax64 import jnp
+from wingbeat.program_cache import keep_program, kept_program
 
 # Threads that trace at a time get in one another's way; in turn, XLA compiles the first while the next is traced.
 _TRACING = threading.Lock()
@@ -33,6 +35,24 @@ _TRACING = threading.Lock()
 # as fast, but for the flight of the search, which takes a tenth longer.
 _SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
 _NOTHING = np.zeros(0)
+
+# Whether this process had run JAX when it was last forked, and whether it is such a fork.
+_has_run = False
+_cannot_run = False
+
+
+def _before_fork() -> None:
+    global _has_run
+    _has_run = xla_bridge.backends_are_initialized()
+
+
+def _after_fork() -> None:
+    global _cannot_run
+    _cannot_run = _has_run
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(before=_before_fork, after_in_child=_after_fork)
 
 
 class _Ready(NamedTuple):
@@ -99,6 +119,8 @@ class StoredFunction:
     ) -> _Ready:
         """Return the program for arrays of these shapes and more, in that order."""
         key = (tree, shapes, tuple(a.shape for a in more), *sorted(static.items()))
+        if _cannot_run:
+            _refuse_fork()
         if key not in self._ready:
             with self._lock:  # one thread loads, the others wait for it
                 if key not in self._ready:
@@ -106,6 +128,8 @@ class StoredFunction:
         return self._ready[key]
 
     def _run(self, ready: _Ready, held: Any, more: list[np.ndarray]) -> Any:
+        if _cannot_run:
+            _refuse_fork()
         program, out_tree, out_shapes = ready
         with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
             found = np.asarray(program(held, _packed(more)))
@@ -114,13 +138,12 @@ class StoredFunction:
     def _load(self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]) -> _Ready:
         sizes = [sum(math.prod(shape) for shape in part) for part in (shapes, rest)]
         arguments = [jax.ShapeDtypeStruct((size,), jnp.float64) for size in sizes]
-        path = self._path(tree, (shapes, rest), static)
-        try:
-            program, out_tree, out_shapes = pickle.loads(path.read_bytes())
-            exported = jax.export.deserialize(bytearray(program))
-            return _Ready(_compiled(exported, arguments, self._hot), out_tree, out_shapes)
-        except Exception:  # absent, cut short, or of a JAX that reads it no more: traced anew
-            pass
+        name = self._kept_name(tree, (shapes, rest), static)
+        if (kept := kept_program(name)) is not None:
+            with suppress(Exception):  # of a JAX that reads it no more: traced anew
+                program, out_tree, out_shapes = pickle.loads(kept)
+                exported = jax.export.deserialize(bytearray(program))
+                return _Ready(_compiled(exported, arguments, self._hot), out_tree, out_shapes)
         outcome = []
 
         def flat(held: Any, more: Any) -> Any:
@@ -134,13 +157,11 @@ class StoredFunction:
 
         with _TRACING:
             exported = jax.export.export(jax.jit(flat))(*arguments)
-        with suppress(FileError, OSError):  # a cache that cannot be written costs time, not the answer
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_atomically(path, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
+        keep_program(name, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
         return _Ready(_compiled(exported, arguments, self._hot), *outcome[0])
 
-    def _path(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Path:
-        """Return where the traced program is kept: its name is a digest of all that could change it."""
+    def _kept_name(self, tree: Any, shapes: Any, static: dict[str, Any]) -> str:
+        """Return the name under which the traced program is kept: a digest of all that could change it."""
         what = (
             f"{self._function.__module__}.{self._function.__qualname__}",
             str(tree),
@@ -149,7 +170,7 @@ class StoredFunction:
             (__version__, _source_digest(), jax.__version__, platform.python_version()),
             jax.default_backend(),
         )
-        return cache_folder() / "traced" / hashlib.sha256(repr(what).encode()).hexdigest()
+        return f"traced-{hashlib.sha256(repr(what).encode()).hexdigest()}"
 
 
 def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
@@ -161,12 +182,22 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
     return lowered.compile()
 
 
+def _refuse_fork() -> None:
+    raise ForkError(
+        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them for "
+        "ever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
+        "wb.solve_orbits(problems, processes=N)"
+    )
+
+
 def _packed(arrays: list[np.ndarray]) -> np.ndarray:
     return np.concatenate([array.ravel() for array in arrays]) if arrays else np.zeros(0)
 
 
 def _moved(arrays: list[np.ndarray]) -> Any:
     """Return the arrays as one of JAX's own."""
+    if _cannot_run:
+        _refuse_fork()
     with jax.ensure_compile_time_eval():
         return jnp.asarray(_packed(arrays))
 

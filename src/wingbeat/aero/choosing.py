@@ -73,7 +73,7 @@ def load_coefficients(
     if name.lower().endswith(".toml"):
         return load_model(name, extension, blend_width_deg)
     if name not in LIBRARY:
-        close = difflib.get_close_matches(name.lower(), LIBRARY, n=2, cutoff=0.5)
+        close = difflib.get_close_matches(name.lower()[:80], LIBRARY, n=2, cutoff=0.5)
         guess = f"did you mean {' or '.join(close)}? " if close else ""
         faults = FaultList()
         fix = f"{guess}The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"

@@ -27,6 +27,7 @@ from wingbeat.app.pool import Pool
 from wingbeat.app.shelf import Shelf
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.leftovers import Leftover
 
 __all__ = ["serve"]
 
@@ -108,19 +109,20 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         listening = socket.create_server((host, port), family=family)
-    except (OSError, UnicodeError, ValueError) as error:
+    except (OSError, TypeError, UnicodeError, ValueError) as error:  # the latter three of names that none can have
         rule = f"cannot be listened at: {(getattr(error, 'strerror', None) or str(error)).lower()}"
         raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
     house = House(processes)
-    try:
-        address = _announce(host, listening)
-        if opens:
-            clock = threading.Timer(1.0, webbrowser.open, [address])
-            clock.daemon = True
-            clock.start()
-        _Server(configure(house, host)).run(sockets=[listening])
-    finally:
-        house.close()
+    with Leftover(house.close):  # the server ends by raising the signal again that stopped it
+        try:
+            address = _announce(host, listening)
+            if opens:
+                clock = threading.Timer(1.0, webbrowser.open, [address])
+                clock.daemon = True
+                clock.start()
+            _Server(configure(house, host)).run(sockets=[listening])
+        finally:
+            house.close()
 
 
 def _announce(host: str, listening: socket.socket) -> str:

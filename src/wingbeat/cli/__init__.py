@@ -1,5 +1,35 @@
 """The command line: ``wingbeat COMMAND ...``. Nothing heavy is imported before a command runs."""
 
-from wingbeat.cli.app import main, program
+from __future__ import annotations
+
+from wingbeat.cli.endings import end_on_signals
+
+TYPE_CHECKING = False  # `typing` takes longer to import than all that must be ready for Ctrl-C
+if TYPE_CHECKING:
+    from wingbeat.cli.app import main as main
 
 __all__ = ["main", "program"]
+
+
+def __getattr__(name: str) -> object:
+    if name == "main":
+        from wingbeat.cli.app import main
+
+        return main
+    raise AttributeError(f"module 'wingbeat.cli' has no attribute {name!r}")
+
+
+def program() -> int:
+    """Run the process's command line; what is in memory at its end is left to the system to clear away."""
+    end_on_signals()  # before all else: imports take a second
+    import gc
+
+    from wingbeat.cli.app import main
+    from wingbeat.cli.streams import prepare_streams
+    from wingbeat.garbage import collect_seldom
+
+    prepare_streams()
+    collect_seldom()
+    code = main()
+    gc.freeze()  # or the interpreter spends half a second at exit looking for garbage in what JAX holds
+    return code

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import gc
-import io
-import os
+import errno
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
 from difflib import get_close_matches
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
 from wingbeat._version import __version__
+from wingbeat.cli.endings import EXIT_INTERRUPTED
+from wingbeat.cli.memory import memory_shortage
+from wingbeat.cli.streams import StdoutError, drop_stdout
 from wingbeat.errors import WingbeatError
-from wingbeat.garbage import collect_seldom
 
 __all__ = ["EXIT_BAD_INPUT", "EXIT_GOOD", "EXIT_NOT_CERTIFIED", "build_app", "main"]
 
 EXIT_GOOD = 0
 EXIT_BAD_INPUT = 2
 EXIT_NOT_CERTIFIED = 3
-EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells report it
+EXIT_SYSTEM = 1  # no memory, or no room for the output
 EXIT_BROKEN_PIPE = 141  # 128 + SIGPIPE: the reader, say `head`, had seen enough
-EXIT_TERMINATED = 143  # 128 + SIGTERM
 
 HELP = """How an animal or a flapping robot must beat its wings to fly.
 
@@ -48,6 +46,12 @@ COMMANDS = {
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }
+
+# A word of the command line; longer than any path, and no list in it is nested so deeply.
+_LONGEST = 10_000
+_DEEPEST = 50
+# A line on stderr; of a longer one the middle is left out.
+_LINE = 600
 
 # Commands whose module goes by another name.
 _HOMES = {"app": "explorer"}
@@ -80,32 +84,39 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
     -------
     The exit code; a command asks for one other than 0 by returning it.
     """
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # an ASCII terminal shows a sign it lacks as an escape
-            stream.reconfigure(errors="backslashreplace")
     try:
-        code = _run(list(sys.argv[1:] if argv is None else argv), app)
+        code = _outcome(list(sys.argv[1:] if argv is None else argv), app)
         sys.stdout.flush()
-    except BrokenPipeError:
-        return _close_stdout()
+    except StdoutError as error:
+        drop_stdout()
+        if error.number == errno.EPIPE:
+            return EXIT_BROKEN_PIPE
+        return _complain([f"cannot write to standard output: {error}"], EXIT_SYSTEM)
+    return code
+
+
+def _outcome(argv: list[str], app: App | None) -> int:
+    """Run a command line, and say in lines on stderr what went wrong."""
+    command = argv[0] if argv else ""
+    for word in argv:
+        if len(word) > _LONGEST:
+            rule = f"has {len(word)} characters, more than {_LONGEST}; put long values into a file"
+            return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
+        if word.startswith("[" * _DEEPEST):
+            rule = f"is a list nested more than {_DEEPEST} deep; give numbers"
+            return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
+    if command in COMMANDS and (shortage := memory_shortage(command)) is not None:
+        return _complain([shortage], EXIT_SYSTEM)
+    try:
+        return _run(argv, app)
+    except MemoryError:
+        return _complain(["there is not enough memory; close other programs or ask for less"], EXIT_SYSTEM)
     except KeyboardInterrupt:
         return _complain(["interrupted"], EXIT_INTERRUPTED)
     except WingbeatError as error:
         return _complain(str(error).splitlines() or [type(error).__name__], EXIT_BAD_INPUT)
     except SystemExit as error:
-        # rich turns a broken pipe into SystemExit(1)
-        if isinstance(error.__context__, BrokenPipeError):
-            return _close_stdout()
         return error.code if isinstance(error.code, int) else EXIT_GOOD if error.code is None else 1
-    return code
-
-
-def program() -> int:
-    """Run the process's command line; what is in memory at its end is left to the system to clear away."""
-    collect_seldom()
-    code = main()
-    gc.freeze()  # or the interpreter spends half a second at exit looking for garbage in what JAX holds
-    return code
 
 
 def _run(argv: list[str], app: App | None) -> int:
@@ -145,12 +156,8 @@ def _missing_command(error: ImportError) -> str | None:
 
 def _complain(lines: list[str], code: int) -> int:
     for line in lines:
-        print(f"error: {line}", file=sys.stderr)
+        shown = "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in line)
+        if len(shown) > _LINE:
+            shown = f"{shown[: _LINE // 2]} ... {shown[-_LINE // 2 :]}"
+        print(f"error: {shown}", file=sys.stderr)
     return code
-
-
-def _close_stdout() -> int:
-    """Point stdout at nothing, so that the flush at exit does not fail again."""
-    with suppress(OSError, ValueError):  # stdout is not a file, as under a test runner
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return EXIT_BROKEN_PIPE

@@ -137,15 +137,23 @@ def check_files(faults: FaultList, output: Path | None = None, **figures: Path |
     """Note figures that are none, and files that two options name; a figure by the name of its option."""
     from wingbeat.plots import check_figure_name
 
-    taken = {} if output is None else {os.path.realpath(output): "--output"}
+    taken = {} if output is None else {_real(output): "--output"}
     for name, figure in figures.items():
         if figure is None:
             continue
         option = f"--{name.replace('_', '-')}"
         check_figure_name(faults, option, figure)
-        other = taken.setdefault(os.path.realpath(figure), option)
+        other = taken.setdefault(_real(figure), option)
         if other != option:
             faults.add(option, str(figure), f"is the file of {other} too", "give each its own")
+
+
+def _real(path: Path) -> str:
+    """Return which file a path means; one that no file can have is refused when it is written."""
+    try:
+        return os.path.realpath(path)
+    except ValueError:  # a NUL
+        return str(path)
 
 
 def check_outputs(*paths: Path | None) -> None:

@@ -14,6 +14,7 @@ from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
 from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
+from wingbeat.files import make_folder
 
 if TYPE_CHECKING:
     from wingbeat.paper.pieces import Sample
@@ -78,6 +79,7 @@ def paper(
         if value is not None:
             faults.add(name, str(value), f"has no part in 'paper {part}'")
     faults.raise_if_any()
+    make_folder(output)  # or the orbits of an hour have no place to go
     if part == "claims":
         _claims(numbers, output, quick, share, before)
         return EXIT_GOOD
@@ -92,7 +94,7 @@ def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: 
     numbers: list[int] = []
     for word in words.split(","):
         first, _, last = word.strip().partition("-")
-        if not first.isdigit() or not (last or first).isdigit():
+        if not all(text.isdecimal() and len(text) < 10 for text in (first, last or first)):
             faults.add(option, words, f"must name {what}", "as in 1-8 or 3,5")
             return []
         ends = int(first), int(last or first)

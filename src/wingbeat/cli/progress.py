@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from wingbeat.cli.app import EXIT_INTERRUPTED, EXIT_TERMINATED
+from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
+from wingbeat.leftovers import Leftover
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Stop, Tally
@@ -24,13 +26,18 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Leftover(_show_cursor), Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=None)
 
         def update(done: int, total: int) -> None:
             bar.update(task, completed=done, total=total)
 
         yield update
+
+
+def _show_cursor() -> None:
+    """Give the terminal its line and its cursor back, which the bar has hidden."""
+    os.write(2, b"\r\x1b[2K\x1b[?25h")
 
 
 @contextlib.contextmanager
@@ -45,7 +52,7 @@ def study_bar() -> Iterator[Callable[[Tally], None] | None]:
     from wingbeat.studies.units import CERTIFIED, UNCERTIFIED
 
     columns = (BarColumn(), MofNCompleteColumn(), TextColumn("{task.description}"))
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Leftover(_show_cursor), Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=None)
 
         def update(tally: Tally) -> None:
@@ -76,7 +83,7 @@ def say(words: str) -> None:
 
 def say_stopping(level: int) -> None:
     """Say that a study was asked to stop."""
-    say("finishing what is in flight; once more stops at once" if level == 1 else "stopping")
+    say("stopping within a second; once more stops at once" if level == 1 else "stopping")
 
 
 def exit_of(stop: Stop) -> int:

@@ -68,7 +68,7 @@ def run(
 ) -> int:
     """Solve what has no answer yet, and keep every answer in the store beside the file.
 
-    Ctrl-C finishes the batches in flight, a second one stops at once; run it again and it goes on from there.
+    Ctrl-C keeps what ends within a second and stops; run it again and it goes on from there.
     Exit codes: 0 all certified, 2 bad input, 3 some points are not, 130 interrupted, 143 terminated.
     Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
 

@@ -4,6 +4,12 @@ from __future__ import annotations
 
 import functools
 import multiprocessing
+import multiprocessing.connection
+import multiprocessing.resource_tracker
+import multiprocessing.util
+import os
+import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -14,6 +20,7 @@ import numpy as np
 from wingbeat.cores import cores_of, pin_to
 from wingbeat.errors import FaultList
 from wingbeat.garbage import collect_seldom
+from wingbeat.leftovers import Leftover
 from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
 from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
@@ -206,15 +213,50 @@ def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], It
     # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
     context = multiprocessing.get_context("spawn")
     count = min(processes, max(most, 1))
-    with ProcessPoolExecutor(count, context, _begin_work, (cores_of(count),)) as pool:
+    with Leftover(_abandon), ProcessPoolExecutor(count, context, _begin_work, (cores_of(count),)) as pool:
+
+        def over(work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+            with _deaf_to_interrupts():  # it starts the processes
+                return pool.map(work, items)
+
         try:
-            yield pool.map
+            yield over
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Have processes that are started meanwhile ignore Ctrl-C, also while they still import: it is for this one."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    multiprocessing.resource_tracker.ensure_running()  # at its start it lets the signal through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _abandon() -> None:
+    """End the processes of pools at once, and give the system back the semaphores they share."""
+    for process in multiprocessing.active_children():
+        process.kill()
+    multiprocessing.util._run_finalizers(0)  # type: ignore[attr-defined]
 
 
 def _begin_work(cores: Sequence[int | None]) -> None:
     """Set up a process of a pool: those of one pool are numbered one after the other, so that each has its core."""
     number = multiprocessing.current_process().name.split("-")[-1].split(":")[-1]
+    threading.Thread(target=_leave_with_parent, daemon=True).start()
     pin_to(cores[int(number) % len(cores)])
     collect_seldom()
+
+
+def _leave_with_parent() -> None:
+    """End this process when the one that started it is gone, whatever it is doing."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    multiprocessing.connection.wait([parent.sentinel])
+    os._exit(1)

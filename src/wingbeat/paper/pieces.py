@@ -16,7 +16,7 @@ import numpy as np
 
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FileError
-from wingbeat.files import read_text, write_atomically
+from wingbeat.files import make_folder, read_text, write_atomically
 from wingbeat.paper.assumption_study import (
     ORBITS,
     SPEEDS,
@@ -79,15 +79,11 @@ class Pieces:
 
     def __init__(self, sample: Sample, folder: Path) -> None:
         self.sample, self.folder = sample, folder
+        make_folder(folder)
         about = folder / "sample.json"
         if about.exists():
             _check_same(_parsed(read_text(about)), sample, about)
         else:
-            try:
-                folder.mkdir(parents=True, exist_ok=True)
-            except OSError as error:
-                reason = (error.strerror or str(error)).lower()
-                raise FileError(f"cannot make the folder {str(folder)!r}: {reason}; choose another") from None
             write_atomically(about, json.dumps(sample.about()) + "\n")
         for number in self.finished():
             self._read(number)

@@ -23,35 +23,50 @@ _MOST = 256
 # Processes that a point may take along, by how they ended, before it is given up: a kill from outside is no fault
 # of the point, and hardly meets the same one three times.
 _TRIES = {"crashed": 3, "timeout": 2}
+# Seconds that batches in flight are waited for after the first request to stop.
+GRACE = 1.0
 
 
 @dataclass
 class Stop:
-    """Whether to stop: 1 after the batches in flight, 2 now; `by` is the signal that said so."""
+    """Whether to stop: 1 soon, with the batches that end till then, 2 now; `by` is the signal that said so.
+
+    Only a driver that has batches in flight is asked; at any other time signals do what they did before.
+    """
 
     level: int = 0
     by: int = 0
+    since: float = 0.0
+    driving: bool = False
 
     def ask(self, level: int, by: int = signal.SIGINT) -> None:
         """Ask to stop; whoever asked for more before is not taken back."""
         if level > self.level:
-            self.level, self.by = level, by
+            self.level, self.by, self.since = level, by, time.monotonic()
+
+    @property
+    def due(self) -> bool:
+        """Whether nothing is to be waited for any longer."""
+        return self.level >= 2 or (self.level == 1 and time.monotonic() - self.since > GRACE)
 
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Let SIGINT ask to stop, a second one and SIGTERM to stop now; `told` hears the level that was asked for."""
+    """Let SIGINT ask to stop soon, a second one and SIGTERM to stop now; `told` hears the level asked for."""
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
         return
 
     def hear(number: int, frame: Any) -> None:
+        if not stop.driving and callable(usual := before[number]):
+            usual(number, frame)
+            return
         stop.ask(2 if number != signal.SIGINT else stop.level + 1, number)
         if told is not None:
             told(stop.level)
 
-    before = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
+    before: dict[int, Any] = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield stop
     finally:
@@ -189,12 +204,13 @@ def drive(
     flying: dict[int, list[_Job]] = {}
     number = 0
     try:
+        stop.driving = True
         while True:
             while stop.level == 0 and engine.free > 0 and (batch := jobs.take()):
                 number += 1
                 flying[number] = batch
                 engine.submit(number, [job.unit for job in batch])
-            if not flying or stop.level >= 2:
+            if not flying or stop.due:
                 break
             ended = engine.wait(0.2)
             if ended is not None:
@@ -202,6 +218,7 @@ def drive(
             if progress is not None:
                 progress(tally)
     finally:
+        stop.driving = False
         engine.close()
     return tally
 

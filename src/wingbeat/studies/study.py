@@ -121,8 +121,8 @@ class Study:
     ) -> Summary:
         """Solve what has no answer yet; every answer is kept as soon as it is there.
 
-        Ctrl-C finishes the batches in flight, a second one stops at once; either way what is kept is kept, and
-        another run goes on from there.
+        Ctrl-C keeps the batches that end within a second, a second one stops at once; another run goes on from
+        there.
 
         Parameters
         ----------

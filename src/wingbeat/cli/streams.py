@@ -1,0 +1,68 @@
+"""Standard output and error of the process: what cannot be written to the one is an error, to the other is not."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from contextlib import suppress
+from typing import Any
+
+__all__ = ["StdoutError", "drop_stdout", "prepare_streams"]
+
+
+class StdoutError(Exception):
+    """Standard output takes no more; `number` says why, as errno does. No OSError: rich catches some of those."""
+
+    def __init__(self, error: OSError) -> None:
+        self.number = error.errno
+        super().__init__((error.strerror or str(error)).lower())
+
+
+class _Stdout(io.FileIO):
+    def write(self, data: Any) -> int | None:
+        try:
+            return super().write(data)
+        except OSError as error:
+            raise StdoutError(error) from None
+
+
+class _Stderr(io.FileIO):
+    def write(self, data: Any) -> int | None:
+        try:
+            return super().write(data)
+        except OSError:  # there is nowhere to say so
+            return len(data)
+
+
+def prepare_streams() -> None:
+    """Give the process its streams, also where it was started with some of them closed."""
+    if os.name != "posix":  # a console of Windows is no file
+        for stream in (sys.stdout, sys.stderr):
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="backslashreplace")
+        return
+    # Else the first file that is opened becomes standard output. What cannot be written to is told from what can.
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_WRONLY if number == 0 else os.O_RDONLY)
+    sys.stdout = _stream(sys.stdout, _Stdout(1, "w", closefd=False))
+    sys.stderr = _stream(sys.stderr, _Stderr(2, "w", closefd=False), at_once=True)
+
+
+def _stream(before: Any, raw: io.FileIO, at_once: bool = False) -> io.TextIOWrapper:
+    """Return a stream like the one before that writes with `raw`; signs that an encoding lacks become escapes."""
+    return io.TextIOWrapper(
+        io.BufferedWriter(raw),
+        encoding=getattr(before, "encoding", "utf-8"),
+        errors="backslashreplace",
+        line_buffering=at_once or raw.isatty() or getattr(before, "write_through", False),
+    )
+
+
+def drop_stdout() -> None:
+    """Point standard output at nothing, so that the flush at exit does not fail again."""
+    with suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

@@ -1,0 +1,38 @@
+"""What must not be left behind when the process ends at once: half-written files, workers, a hidden cursor."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False  # `typing` takes longer to import than all that must be ready for Ctrl-C
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_LEFTOVERS: list[Leftover] = []
+
+
+class Leftover:
+    """A block whose traces are cleared if the process ends at once, inside of it.
+
+    A block that ends by itself, or by an exception, clears its own traces.
+
+    Parameters
+    ----------
+    clear : clears them; it may be called in any thread, at any time within the block.
+    """
+
+    def __init__(self, clear: Callable[[], object]) -> None:
+        self.clear = clear
+
+    def __enter__(self) -> None:
+        _LEFTOVERS.append(self)
+
+    def __exit__(self, *_: object) -> None:
+        _LEFTOVERS.remove(self)
+
+
+def clear_leftovers() -> None:
+    """Clear what every open block would leave behind, the innermost first."""
+    for leftover in reversed(list(_LEFTOVERS)):
+        try:
+            leftover.clear()
+        except Exception:  # the process ends in any case, and the others are to be cleared too
+            continue

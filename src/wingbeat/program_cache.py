@@ -1,0 +1,127 @@
+"""Programs kept on disk, in a folder of the user's own, each with a digest.
+
+What is read here is executed, so it must be the user's own writing, and whole: a changed bit in machine code gives
+wrong numbers or ends the process. Whatever is anything else is not read, and made anew.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import hmac
+import logging
+import os
+import secrets
+import stat
+from contextlib import suppress
+from pathlib import Path
+
+from wingbeat.errors import FileError
+from wingbeat.files import write_atomically
+
+__all__ = ["cache_folder", "keep_program", "kept_program", "program_folder"]
+
+_MAGIC = b"wingbeat program 1\n"
+_DIGEST = 32  # bytes
+_OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
+_OPENING = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
+
+def cache_folder() -> Path:
+    """Return the user's cache folder for wingbeat (``WINGBEAT_CACHE`` overrides it).
+
+    Raises
+    ------
+    RuntimeError : the user has no home.
+    """
+    if chosen := os.environ.get("WINGBEAT_CACHE"):
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "wingbeat"
+
+
+def program_folder() -> Path | None:
+    """Return the folder of programs, which no other user can write to, or None where there can be none."""
+    try:
+        return _private(cache_folder() / f"programs-{_user()}")
+    except RuntimeError as error:
+        return _without(str(error))
+
+
+def kept_program(name: str) -> bytes | None:
+    """Return what was kept under a name, or None: never kept, damaged, or written by somebody else."""
+    folder = program_folder()
+    if folder is None:
+        return None
+    try:
+        with open(os.open(folder / name, _OPENING), "rb") as file:
+            found = os.fstat(file.fileno())
+            if not stat.S_ISREG(found.st_mode) or not _is_own(found):
+                return None
+            content = file.read()
+    except (OSError, ValueError):
+        return None
+    begin = len(_MAGIC) + _DIGEST
+    program = content[begin:]
+    whole = hmac.compare_digest(content[:begin], _MAGIC + _digest(name, program))
+    return program if whole else None
+
+
+def keep_program(name: str, program: bytes) -> None:
+    """Keep a program under a name; where that cannot be done it costs time, not the answer."""
+    folder = program_folder()
+    if folder is not None:
+        with suppress(FileError, OSError):
+            write_atomically(folder / name, _MAGIC + _digest(name, program) + program)
+
+
+def _digest(name: str, program: bytes) -> bytes:
+    """Return a digest that also holds for no other name."""
+    digest = hashlib.blake2b(name.encode() + b"\0", digest_size=_DIGEST)
+    digest.update(program)
+    return digest.digest()
+
+
+def _user() -> int:
+    return os.geteuid() if hasattr(os, "geteuid") else 0
+
+
+def _is_own(found: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
+
+
+@functools.cache
+def _private(folder: Path) -> Path | None:
+    """Return the folder, made where it is missing, if it is the user's own."""
+    try:
+        folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _make(folder)
+        found = os.lstat(folder)
+        if not stat.S_ISDIR(found.st_mode):
+            return _without(f"{str(folder)!r} is not a folder")
+        if not _is_own(found):
+            return _without(f"{str(folder)!r} belongs to another user")
+        if os.name == "posix" and found.st_mode & _OTHERS_WRITE:
+            # Anyone may have put anything there.
+            folder.rename(folder.with_name(f"{folder.name}-not-private-{secrets.token_hex(4)}"))
+            _make(folder)
+        elif os.name == "posix" and stat.S_IMODE(found.st_mode) & 0o077:
+            folder.chmod(0o700)
+    except (OSError, ValueError) as error:
+        reason = (getattr(error, "strerror", None) or str(error)).lower()
+        return _without(f"cannot make the folder {str(folder)!r}: {reason}")
+    return folder
+
+
+def _make(folder: Path) -> None:
+    with suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+
+
+@functools.cache
+def _without(reason: str) -> None:
+    """Say once why programs are not kept. Python prints a logger's warning where nobody set up logging."""
+    logging.getLogger("wingbeat").warning(
+        "warning: compiled programs are not kept, so every start takes longer: %s; set WINGBEAT_CACHE to a folder "
+        "of your own",
+        reason,
+    )

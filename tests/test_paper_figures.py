@@ -10,12 +10,10 @@ import pytest
 from matplotlib.image import imread
 
 import wingbeat as wb
-from wingbeat.paper.contradictions import WHY, Printed, near, told
 from wingbeat.paper.figure_coefficients import coefficients_figure
 from wingbeat.paper.figure_cycle import absence, forces_figure, pitch_figure, power_figure
 from wingbeat.paper.figure_frequency import frequency_figure
 from wingbeat.paper.figure_orbit import phase_figure
-from wingbeat.paper.figure_plate import plate_figure
 from wingbeat.paper.figure_vehicle import vehicle_figure
 from wingbeat.paper.figures import FIGURES, csv_text, draw_figures
 from wingbeat.paper.measured_bands import MEASURED_FREQUENCIES
@@ -153,25 +151,6 @@ def test_portraits_are_the_orbit_with_marks_where_strokes_begin(orbits):
     assert "Our pigeon" in words(figure)
 
 
-def test_the_plate_is_drawn_with_its_forces_at_the_centre_of_pressure():
-    figure, (row,) = plate_figure()
-    alpha = math.radians(row["alpha_deg"])
-    c, s = math.cos(alpha), math.sin(alpha)
-    # The paper's equation 1, and its C_M = C_N (0.5 - x_cp).
-    assert row["C_N"] * c - row["C_T"] * s == pytest.approx(row["C_L"], rel=1e-12)
-    assert row["C_N"] * s + row["C_T"] * c == pytest.approx(row["C_D"], rel=1e-12)
-    assert row["C_M_mid_chord"] == pytest.approx(row["C_N"] * (0.5 - row["x_cp_chords"]), rel=1e-12)
-    section = figure.axes[1]
-    (centre,) = (line for line in section.get_lines() if line.get_gid() == "centre of pressure")
-    at = row["x_cp_chords"] * np.array([c, -s])
-    np.testing.assert_allclose(centre.get_xydata()[0], at)
-    arrows = {each.get_gid(): np.array(each.xy) - each.xyann for each in section.texts if each.get_gid()}
-    np.testing.assert_allclose(arrows["lift"] + arrows["drag"], arrows["normal"] + arrows["tangential"], atol=1e-12)
-    assert arrows["lift"][0] == arrows["drag"][1] == 0.0
-    (plate,) = (patch for patch in figure.axes[0].patches if patch.get_gid() == "plate")
-    assert (plate.get_width(), plate.get_height()) == (0.076, 0.456)
-
-
 def gids(axes):
     return {each.get_gid() for each in axes.get_children()}
 
@@ -197,12 +176,6 @@ def test_what_the_paper_prints_is_marked_and_a_contradiction_is_said_with_its_re
     extent = math.degrees(orbits[BAT].record()["body_pitch_range"])
     verdict = "agrees" if extent <= 10 else "contradicts it"
     assert f"ours: {extent:.3g} deg, which {verdict}" in words(pitch).replace("\n", " ")
-
-
-def test_a_figure_that_agrees_gives_no_reason():
-    agreeing = told(7, [Printed("a peak of 30 W", "31 W", near(31.0, 30.0, 0.25))])
-    assert agreeing == "The paper prints a peak of 30 W; ours: 31 W, which agrees."
-    assert WHY[7] in told(7, [Printed("a peak of 30 W", "61 W", near(61.0, 30.0, 0.25))])
 
 
 def test_frequencies_are_those_of_the_orbits(orbits):

@@ -18,12 +18,6 @@ ORBITS = {
 }
 
 
-def pytest_configure(config):
-    # Two workers share JAX's cache on disk, which it does not write whole or not at all.
-    race = "ignore:Error (reading|writing) persistent compilation cache entry:UserWarning"
-    config.addinivalue_line("filterwarnings", race)
-
-
 @dataclasses.dataclass(frozen=True)
 class Solved:
     """A certified orbit with what the tests ask of it."""

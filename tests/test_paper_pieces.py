@@ -88,7 +88,7 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
     driver.send_signal(signal.SIGINT)
     _, err = driver.communicate(timeout=PATIENCE)
     assert driver.returncode == 130
-    assert "finishing what is in flight" in err
+    assert "stopping within a second" in err or err.endswith("error: interrupted\n")
     assert not (tmp_path / "assumptions.csv").exists()
     written = (tmp_path / "pieces" / "piece-0001-of-0002.csv").stat().st_mtime_ns
     assert not list(tmp_path.glob("pieces/*/*.sqlite-wal"))

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import wingbeat.stored as storing
-from wingbeat.jax64 import cache_folder, jax, jnp
+from wingbeat.jax64 import jax, jnp
+from wingbeat.program_cache import kept_program, program_folder
 from wingbeat.stored import stored
 
 
@@ -58,18 +59,22 @@ def test_traced_arguments_are_traced_through():
 
 def test_a_spoilt_file_is_traced_anew(monkeypatch, tmp_path):
     monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
-    assert cache_folder() == tmp_path
 
     def twice(x):
         return 2.0 * x
 
     assert float(stored(twice)(4.0)) == 8.0
-    (file,) = (tmp_path / "traced").iterdir()
+    folder = program_folder()
+    assert folder is not None
+    assert folder.parent == tmp_path
+    (file,) = folder.glob("traced-*")
     whole = file.read_bytes()
     for spoilt in (b"", whole[: len(whole) // 2], b"nonsense"):
         file.write_bytes(spoilt)
         assert float(stored(twice)(4.0)) == 8.0
-        assert len(pickle.loads(file.read_bytes())) == 3
+        kept = kept_program(file.name)
+        assert kept is not None
+        assert len(pickle.loads(kept)) == 3
     read = []
     monkeypatch.setattr(storing.jax.export, "export", lambda *_: read.append("traced"))
     assert float(stored(twice)(4.0)) == 8.0

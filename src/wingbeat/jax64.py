@@ -58,6 +58,8 @@ def _keep_compiled(folder: Path) -> None:
 
     compilation_cache.get_file_cache = opened
     jax.config.update("jax_compilation_cache_dir", str(folder))
+    # XLA would read files of its own there without a check, and a folder that has moved would be of no use.
+    jax.config.update("jax_persistent_cache_enable_xla_caches", "none")
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
 

@@ -13,6 +13,7 @@ from wingbeat.cores import core_count
 from wingbeat.errors import Fault, FaultList, InvalidInputError, install_extra
 
 _MOST_PROCESSES = 64
+_LONGEST_HOST = 253  # of a name in the domain name system
 
 
 def app(
@@ -31,6 +32,8 @@ def app(
     Examples: wingbeat app; wingbeat app --port 0 --no-open
     """
     faults = FaultList()
+    if len(host) > _LONGEST_HOST or not host.isprintable():
+        faults.add("--host", host, "is not an address", "for example 127.0.0.1")
     faults.number("--port", port, at_least=0, at_most=65535)
     if processes is not None:
         faults.number("--processes", processes, at_least=1, at_most=_MOST_PROCESSES)

@@ -28,5 +28,5 @@ def memory_shortage(command: str) -> str | None:
         return None
     return (
         f"memory is limited to {limit / 1e9:.2g} GB of address space, and {command} needs {need / 1e9:.2g} GB on "
-        f"{cores} cores; raise the limit with `ulimit -v {need // 1000}`"
+        f"{cores} cores; raise the limit with `ulimit -v {-(-need // 1024)}`"
     )

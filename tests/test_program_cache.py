@@ -1,0 +1,144 @@
+"""Programs on disk: what is damaged, planted or open to others is not run, and nothing is lost but time."""
+
+import os
+import pickle
+import random
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from wingbeat.program_cache import keep_program, kept_program, program_folder
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
+NOT_KEPT = "warning: compiled programs are not kept, so every start takes longer: "
+
+
+def polar(cache: Path | str) -> tuple[str, str]:
+    """Run a command that traces and compiles a little, with its cache there; return stdout and stderr."""
+    command = f"umask 0; exec {sys.executable} -W error -m wingbeat polar su-fan"
+    ended = subprocess.run(
+        ["bash", "-c", command],
+        env={**os.environ, "WINGBEAT_CACHE": str(cache)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    return ended.stdout, ended.stderr
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A cache that was filled, and what was printed."""
+    cache = tmp_path_factory.mktemp("cache")
+    out, err = polar(cache)
+    assert err == ""
+    return cache / f"programs-{os.geteuid()}", out
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_it_is_the_users_own_whatever_the_umask(first: tuple[Path, str]) -> None:
+    found = os.stat(first[0])
+    assert stat.S_IMODE(found.st_mode) == 0o700
+    assert found.st_uid == os.geteuid()
+    assert {name.partition("-")[0] for name in contents(first[0])} == {"traced", "compiled"}
+
+
+@pytest.mark.parametrize("damage", ["bits", "short", "swapped", "pickles"])
+def test_what_is_damaged_is_made_anew(first: tuple[Path, str], damage: str, tmp_path: Path) -> None:
+    folder, out = first
+    whole = contents(folder)
+    chance = random.Random(damage)
+    names = sorted(whole)
+    mark = tmp_path / "executed"
+    for name, other in zip(names, names[1:] + names[:1], strict=True):
+        content = bytearray(whole[name])
+        if damage == "bits":
+            content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
+        elif damage == "short":
+            del content[chance.randrange(len(content)) :]
+        elif damage == "swapped":  # whole, but of another program
+            content[:] = whole[other]
+        else:
+            content[:] = pickle.dumps(_Executes(mark))
+        (folder / name).write_bytes(content)
+    assert polar(folder.parent) == (out, "")
+    assert not mark.exists()
+    now = contents(folder)
+    assert sorted(now) == names
+    assert all(now[name][:19] == b"wingbeat program 1\n" for name in names)
+    assert polar(folder.parent) == (out, "")
+    assert contents(folder) == now  # and now all was read
+
+
+class _Executes:
+    def __init__(self, mark: Path) -> None:
+        self.mark = mark
+
+    def __reduce__(self):
+        return os.mkdir, (str(self.mark),)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can plant files of others")
+def test_what_another_user_planted_is_not_read(first: tuple[Path, str], tmp_path: Path) -> None:
+    folder, out = first
+    place = tmp_path / folder.name
+    place.mkdir()
+    for name, content in contents(folder).items():
+        (place / name).write_bytes(content)
+        os.utime(place / name, (1, 1))
+        os.chown(place / name, 12345, -1)
+    assert polar(tmp_path) == (out, "")  # the folder is the user's, its files are not: all made anew
+    assert {path.name for path in place.iterdir() if path.stat().st_mtime <= 1} == set()
+    os.chown(place, 12345, -1)
+    before = contents(place)
+    told = polar(tmp_path)
+    assert told[0] == out
+    assert told[1].startswith(f"{NOT_KEPT}{str(place)!r} belongs to another user; set WINGBEAT_CACHE to")
+    assert contents(place) == before
+
+
+def test_a_folder_that_was_open_to_others_is_moved_aside(first: tuple[Path, str], tmp_path: Path) -> None:
+    place = tmp_path / first[0].name
+    place.mkdir()
+    (place / "planted").write_bytes(b"")
+    place.chmod(0o777)
+    assert polar(tmp_path) == (first[1], "")
+    assert stat.S_IMODE(place.stat().st_mode) == 0o700
+    assert not (place / "planted").exists()
+    (aside,) = (path for path in tmp_path.iterdir() if path != place)
+    assert [path.name for path in aside.iterdir()] == ["planted"]
+
+
+@pytest.mark.parametrize("trouble", ["no folder can be made", "a file", "a link"])
+def test_without_a_folder_it_works_and_says_so(first: tuple[Path, str], trouble: str, tmp_path: Path) -> None:
+    place = tmp_path / first[0].name
+    if trouble == "a file":
+        place.write_text("")
+    elif trouble == "a link":
+        place.symlink_to(first[0])
+    out, err = polar("/proc/nowhere" if trouble == "no folder can be made" else tmp_path)
+    assert out == first[1]
+    (line,) = err.splitlines()
+    assert line.startswith(NOT_KEPT)
+    assert line.endswith("set WINGBEAT_CACHE to a folder of your own")
+
+
+def test_who_has_no_home_has_no_folder(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+    def nobody(number: int) -> None:
+        raise KeyError(number)
+
+    for name in ("WINGBEAT_CACHE", "XDG_CACHE_HOME", "HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("pwd.getpwuid", nobody)
+    assert program_folder() is None
+    keep_program("compiled-x", b"x")
+    assert kept_program("compiled-x") is None
+    (told,) = caplog.messages
+    assert told.startswith(NOT_KEPT)

@@ -136,12 +136,12 @@ def test_newtons_method_gives_up_where_the_rank_changes():
 
 
 def test_least_frequency_at_its_own_bound_is_final(capsys):
-    words = "orbit bat --speed 6 --climb -2.8 --starts 2 --json --subject-to frequency>=2"
+    words = "orbit bat --speed 6 --climb -2.8 --starts 2 --json --subject-to frequency>=3"
     code = main(words.split())
     record = json.loads(capsys.readouterr().out)
     assert code == 0
-    assert record["wingbeat"]["frequency"] == pytest.approx(2.0, abs=1e-4)
-    assert "frequency is at its lower bound, 2 Hz: no search can better it" in record["message"]
+    assert record["wingbeat"]["frequency"] == pytest.approx(3.0, abs=1e-4)
+    assert "frequency is at its lower bound, 3 Hz: no search can better it" in record["message"]
     (told,) = [line for line in record["warnings"] if "the bound is the answer" in line]
     assert "more starts cannot better it" in told
     assert "wingbeat glide bat" in told

@@ -28,7 +28,7 @@ LENGTHS = (8, 16, 24, 48, 96, 512, 2048)
         ("kept.nc/orbit.nc", "cannot read 'kept.nc/orbit.nc': not a directory"),
         ("folder.nc", "cannot read 'folder.nc': is a directory"),
         ("text.nc", "cannot read 'text.nc': it is not a NetCDF-4 file; give a file of `orbit -o`"),
-        ("good.csv", "cannot read 'good.csv': it is not a NetCDF-4 file"),
+        ("good.csv", "cannot read 'good.csv': wingbeat reads results from .nc files"),
     ],
 )
 def test_results_that_are_none(folder: Path, capsys: Any, command: str, name: str, part: str) -> None:

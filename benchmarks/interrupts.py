@@ -78,8 +78,9 @@ def interrupt(command: list[str], folder: Path, after: float, number: int = sign
             start_new_session=True,
         )
         try:
-            process.wait(after)
-            return Ending(None, 0.0, "")
+            code = process.wait(after)
+            told.seek(0)
+            return Ending(None, 0.0, "" if code in (0, 3) else f"ended with {code}: {told.read().decode()}")
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, number)
         begun = time.perf_counter()
@@ -143,7 +144,7 @@ def main() -> int:
                     "done before" if ending.code is None else "before wingbeat" if early else str(ending.code)
                 ] += 1
                 slowest = max(slowest, ending.seconds)
-                good = ending.code is None or early or (ending.code == 128 + number and not ending.fault)
+                good = early or (ending.code in (None, 128 + number) and not ending.fault)
                 if not good or ending.seconds > 2.0:
                     faults += 1
                     print(f"{command} after {after:.3f} s: {ending}", flush=True)

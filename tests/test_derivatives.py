@@ -146,11 +146,12 @@ def test_closure_margins_and_objective_of_the_programme(solved):
     programme = Transcription(solved.problem)
     point = programme.scaled(near(solved)[1])
 
-    def compare(exact, function):
-        assert miss(exact, differences(function, point, 1e-5)) <= TOLERANCE
+    def compare(exact, function, tolerance=TOLERANCE):
+        assert miss(exact, differences(function, point, 1e-5)) <= tolerance
 
     compare(programme.closure_jacobian(point), programme.closure)
-    compare(programme.margins_jacobian(point), programme.margins)
+    # Where in the beat a wing is nearest to a limit is found by two steps of Newton's method.
+    compare(programme.margins_jacobian(point), programme.margins, 1e-6)
     gradient = programme.objective_gradient(point)
     compare(gradient[None], lambda x: np.array([programme.objective(x)]))
 

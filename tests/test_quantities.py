@@ -109,13 +109,13 @@ def test_what_bound_the_search_may_let_go_in_a_finer_flight():
 
 
 def test_a_limit_that_searches_catch_at_is_met_from_the_optimum_without_it():
-    """All fifty searches from starts of its own catch at the edges of this limit."""
+    """Before searches started in each family, all fifty from random starts caught at the edges of this limit."""
     problem = wb.OrbitProblem(
         BAT, speed=10.0, minimise="mean_positive_power", subject_to="peak_pitch_torque<=0.0984937"
     )
     found = find_orbit(problem, starts=2, most_starts=2, advise=False)
     assert found.status is wb.Status.CONVERGED
-    assert found.starts > 2
+    assert found.starts >= 2
     assert found.objective == pytest.approx(17.34, abs=0.01)
     assert found.active_bounds == ("peak_pitch_torque<=0.0984937",)
 

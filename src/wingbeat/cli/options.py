@@ -129,7 +129,7 @@ Output = Annotated[
 
 def check_result(faults: FaultList, output: Path | None) -> None:
     """Note an output that is no file of a result; what `check_outputs` cannot write to, it refuses itself."""
-    if output is not None and (output.is_file() or not output.exists()):
+    if output is not None and not os.path.isdir(output):
         check_result_name(faults, "--output", output)
 
 

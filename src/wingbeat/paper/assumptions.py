@@ -144,7 +144,7 @@ def sample_sets(count: int, seed: int = 0) -> list[Values]:
     """Return sets of assumptions that fill their ranges, by a Latin hypercube.
 
     >>> [round(s["taper"], 2) for s in sample_sets(2, seed=1)]
-    [0.77, 0.57]
+    [0.42, 0.71]
     """
     from scipy.stats import qmc
 

@@ -20,7 +20,7 @@ __all__ = ["SUFFIXES", "check_result_name", "results_of", "save_result"]
 # Attributes of a dataset that are plain text; other texts are JSON.
 _TEXTS = (
     *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),
-    *("inputs", "inputs_hash"),
+    *("inputs", "inputs_hash", "statement_of_closure", "statement_of_plausibility"),
 )
 
 

@@ -39,8 +39,7 @@ __all__ = ["Study", "Summary", "study"]
 _SUFFIX = ".study.sqlite"
 # Seconds that a point may be given, ten days and more: operating systems refuse to wait for years.
 _LONGEST = 1e6
-# Seconds of a point, before this machine has solved any: of a search, and of the record beside it. Those in which a
-# process starts and loads its programs come on top.
+# Seconds of a search, of the record beside it, and of a process that starts, before this machine has solved any.
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
 
 
@@ -347,5 +346,5 @@ def study(
         kept = None
         if store is None:
             faults.add("store", None, "must be given", f"for example store='mine{_SUFFIX}'")
-    plan = make_plan(found, faults, Path.cwd() if path is None else path.parent)
+    plan = make_plan(found, faults, path.parent if path else Path.cwd())
     return Study(plan, Path(store) if store is not None else kept or Path(_SUFFIX))

@@ -1,0 +1,49 @@
+"""What the explorer's server answers without a browser, and the command that runs it."""
+
+import http.client
+import re
+import signal
+import subprocess
+import sys
+import time
+
+from wingbeat.cli import main
+
+
+def test_files_for_nobody_are_not_taken(served):
+    host, port = served.address.removeprefix("http://").split(":")
+    for method, path, headers, status in (
+        ("POST", "/wingbeat/upload/nobody", {}, 404),
+        ("GET", "/wingbeat/shelf/nothing", {}, 404),
+        ("GET", "/wingbeat/shelf/..%2F..%2Fpage.py", {}, 404),
+        ("GET", "/", {"host": "elsewhere.example"}, 400),
+    ):
+        line = http.client.HTTPConnection(host, int(port), timeout=60)
+        line.request(method, path, headers=headers)
+        answer = line.getresponse()
+        assert (path, answer.status) == (path, status)
+        assert status == 400 or "default-src 'self'" in answer.headers["content-security-policy"]
+        line.close()
+
+
+def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch, capsys):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    assert main(["app", "--no-open"]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert "pip install '.[app]'" in lines[0]
+
+
+def test_the_command_serves_until_it_is_interrupted():
+    words = ["app", "--port", "0", "--no-open", "--processes", "1"]
+    program = "import sys; from wingbeat.cli import program; sys.exit(program())"
+    server = subprocess.Popen([sys.executable, "-c", program, *words], stdout=subprocess.PIPE, text=True)
+    try:
+        line = server.stdout.readline()
+        assert re.fullmatch(r"wingbeat explorer: http://127\.0\.0\.1:\d+ \(Ctrl-C ends it\)\n", line)
+        time.sleep(1.0)
+        server.send_signal(signal.SIGINT)
+        assert server.wait(60.0) in (0, 130)
+    finally:
+        server.kill()
+        server.stdout.close()

@@ -228,7 +228,8 @@ class Here:
 
 
 def test_one_set_is_flown_and_judged(tmp_path):
-    sets = [sample_sets(1)[0] | OPEN]
+    mild = {"shoulder_ahead": 0.0, "shoulder_above": 0.0, "pitch_phase_deg": 0.0, "flap_amplitude_deg": 65.0}
+    sets = [sample_sets(1)[0] | OPEN | mild]
     groups, seen = plan_piece(sets, tmp_path), []
     fly_piece(groups, Here, Stop(), seen.append)
     assert (seen[0], seen[-1], len(seen)) == (3, ORBITS, 4)

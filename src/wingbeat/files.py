@@ -111,7 +111,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
             raise FileError(f"cannot write {_shown(path)}: it is {kind}; give the path of a file")
         candidate = target.with_name(f".{secrets.token_hex(6)}.part{target.suffix}")
         with Leftover(candidate.unlink):
-            # Made here and not by the writer, so that a folder without permission is told before hours of work.
+            # Created here and not by the writer: a folder without permission is refused before hours of work.
             os.close(os.open(candidate, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
             beside = candidate
             yield beside

@@ -45,7 +45,7 @@ class View(Protocol):
         """Show an answer."""
 
     def show_stale(self, stale: bool) -> None:
-        """Say whether what is shown is the answer to another question than what is asked now."""
+        """Say whether the answer on the page belongs to an earlier question."""
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show what was refused, [where, message] each; none takes earlier ones away."""

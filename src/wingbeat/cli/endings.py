@@ -1,4 +1,4 @@
-"""How the process ends when it is told to: at once, in one line, whatever it is doing.
+"""How the process ends on a signal: at once, with one line of output.
 
 A KeyboardInterrupt would not do. Raised inside a callback of JAX it is printed and forgotten, raised within an
 import it shows a traceback, and a compilation keeps it waiting for many seconds.

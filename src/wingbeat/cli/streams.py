@@ -42,7 +42,8 @@ def prepare_streams() -> None:
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(errors="backslashreplace")
         return
-    # Else the first file that is opened becomes standard output. What cannot be written to is told from what can.
+    # Without this, the next file that is opened would become standard output. A descriptor opened the wrong way round
+    # refuses to be written to, or read from, as a closed one does.
     for number in range(3):
         try:
             os.fstat(number)

@@ -125,7 +125,7 @@ def _plainly(problem: OrbitProblem) -> OrbitProblem:
 
 
 def leaning(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
-    """Yield (name, sign) of the bounds that a beat leans on, and of the limits of the whole path."""
+    """Yield (name, sign) of the bounds that a beat is at, and of the limits of the whole path that it is at."""
     names, reach = programme.unknowns.names, _LEANING * (programme.upper - programme.lower)
     for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
         if name in programme.problem.free:

@@ -115,7 +115,7 @@ class StrokeLimits:
     def margins(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how far inside its limit each row is, and the derivative by the free parameters.
 
-        Corners are told in lengths of the wing, flap angles in radians.
+        Corners are in wing lengths, flap angles in radians.
         """
         if not self.names:
             return np.zeros(0), np.zeros((0, self._free))

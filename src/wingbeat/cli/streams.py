@@ -42,8 +42,8 @@ def prepare_streams() -> None:
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(errors="backslashreplace")
         return
-    # Without this, the next file that is opened would become standard output. A descriptor opened the wrong way round
-    # refuses to be written to, or read from, as a closed one does.
+    # Without this, the next file that is opened would become standard output. A stand-in opened the wrong way round
+    # refuses reading or writing, as a closed stream does.
     for number in range(3):
         try:
             os.fstat(number)

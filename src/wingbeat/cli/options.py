@@ -128,8 +128,8 @@ Output = Annotated[
 
 
 def check_result(faults: FaultList, output: Path | None) -> None:
-    """Note an output that is no file of a result; what `check_outputs` cannot write to, it refuses itself."""
-    if output is not None and not os.path.isdir(output):
+    """Note an output whose name is no result's; `check_outputs` refuses folders and devices itself."""
+    if output is not None and (os.path.isfile(output) or not os.path.exists(output)):
         check_result_name(faults, "--output", output)
 
 

@@ -108,19 +108,21 @@ def test_what_bound_the_search_may_let_go_in_a_finer_flight():
     assert found.objective == pytest.approx(candidate.objective, rel=1e-2)
 
 
-@pytest.mark.xfail(
-    reason="a search that ends in a worse family keeps the optimum without the limit from being tried"
-)
-def test_a_limit_that_searches_catch_at_is_met_from_the_optimum_without_it():
-    """Before searches started in each family, all fifty from random starts caught at the edges of this limit."""
+@pytest.mark.parametrize(("cross", "power"), [(True, 17.339), (False, 28.994)])
+def test_a_limit_is_met_from_the_optima_without_it_too(cross, power):
+    """Where wings may cross, twelve starts of the limited problem end in the worse family, at 28.994 W.
+
+    Where they may not, it is the best: the other families need 0.106 N m (flap mean above) and 0.135 N m (level).
+    """
+    limit = "peak_pitch_torque<=0.0984937"
     problem = wb.OrbitProblem(
-        BAT, speed=10.0, minimise="mean_positive_power", subject_to="peak_pitch_torque<=0.0984937"
+        BAT, speed=10.0, minimise="mean_positive_power", subject_to=limit, wings_may_cross=cross
     )
     found = find_orbit(problem, starts=2, most_starts=2, advise=False)
     assert found.status is wb.Status.CONVERGED
-    assert found.starts > 1
-    assert found.objective == pytest.approx(17.34, abs=0.01)
-    assert found.active_bounds == ("peak_pitch_torque<=0.0984937",)
+    assert found.starts > 2
+    assert found.objective == pytest.approx(power, abs=0.001)
+    assert limit in found.active_bounds
 
 
 def test_least_peaks_are_sought_from_more_starts_and_beside_the_best():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -18,10 +18,17 @@ from wingbeat.orbits.search import (
     Candidate,
     active_bounds,
     refine,
-    search,
     violation,
 )
-from wingbeat.orbits.searches import beside_best, load_programs, search_from_starts
+from wingbeat.orbits.searches import (
+    Progress,
+    first_searches,
+    load_programs,
+    optima_of,
+    optimal,
+    search_from_optima,
+    search_from_starts,
+)
 from wingbeat.orbits.solution import FAMILY, Optimum, Solution, Status, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
@@ -33,9 +40,6 @@ MOST_STARTS = 50
 # An uncorrected optimum whose objective is more than this share above a certified one's is no better: of 200
 # frequencies nearly all changed by less than .0025 when they were corrected.
 _UNSURE = 0.01
-
-
-Progress = Callable[[int, int], None]
 
 
 def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
@@ -102,12 +106,12 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     here = transcription.scaled(known.unknowns)
     level = transcription.objective(here) * problem.minimise.scale
     unsure = _UNSURE * max(abs(level), problem.minimise.scale)
-    found = _first_searches(transcription, starts, seed, 1)
-    others = [c for c in _optimal(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > FAMILY]
+    found = first_searches(transcription, starts, seed, 1)
+    others = [c for c in optimal(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > FAMILY]
     best = first_certified(transcription, [c for c in others if c.objective <= level + unsure])
     if best is not None:
         return better_of(_found(transcription, best, found, len(found), seed, begun), known)
-    optima = families([*known.as_optimum(), *_optima(found)], problem.unknowns().scale)
+    optima = families([*known.as_optimum(), *optima_of(found)], problem.unknowns().scale)
     return dataclasses.replace(
         known,
         starts=known.starts + len(found),
@@ -130,10 +134,9 @@ def _searched(
     """Return the best certified orbit that searches lead to, if any, and where they all ended."""
     problem = transcription.problem
     load_programs(transcription, start_point(problem, 0, seed))
-    found = _first_searches(transcription, starts, seed, threads, progress)
+    found = first_searches(transcription, starts, seed, threads, progress)
     best = first_certified(transcription, found)
-    for leads in _leads(problem, starts, seed, threads) if best is None else ():
-        led = [search(transcription.anew(), lead) for lead in leads]
+    for led in _where_limits_hold(problem, starts, seed, threads) if best is None else ():
         found += led
         if (best := first_certified(transcription, led)) is not None:
             break
@@ -147,20 +150,6 @@ def _searched(
     return best, found
 
 
-def _first_searches(
-    transcription: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
-) -> list[Candidate]:
-    """Return where so many searches end, and those beside the best of them where peaks are made least."""
-    found: list[Candidate] = []
-    for candidate in search_from_starts(transcription, range(starts), seed, False, threads):
-        found.append(candidate)
-        if progress is not None:
-            progress(len(found), starts)
-    if transcription.has_level:
-        found += beside_best(transcription, found, starts // 2, seed)
-    return found
-
-
 def _found(
     transcription: Transcription,
     best: Corrected,
@@ -171,24 +160,20 @@ def _found(
     ending: Ending | None = None,
 ) -> Solution:
     seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
-    optima = families(_optima(found), transcription.problem.unknowns().scale)
+    optima = families(optima_of(found), transcription.problem.unknowns().scale)
     return _solution(best, searches, optima, seed, seconds, certifying, ending)
 
 
-def _leads(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[np.ndarray]]:
-    """Yield where the limits of a problem may be met: its optima without them, then those of least what they limit.
+def _where_limits_hold(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
+    """Yield where searches end that start from beats that make least what a problem limits, a limit at a time.
 
     Limits on a peak have edges in which searches from random starts catch; all fifty of the bat did at 10 m/s with
     least positive power within a pitch torque that a quarter less would have done for.
     """
-    without = dataclasses.replace(problem, subject_to=())
-    wanted = [limit.quantity for limit in problem.subject_to if limit.at_most]
-    asked = [without, *(dataclasses.replace(without, minimise=quantity) for quantity in wanted)]
-    for easier in asked if problem.subject_to else ():
-        found = find_orbit(easier, starts, seed, threads=threads, most_starts=starts, advise=False)
-        if found.status is not Status.CONVERGED:
-            return
-        yield [found.unknowns, *(optimum.unknowns for optimum in found.optima)]
+    for limit in problem.subject_to:
+        if limit.at_most:
+            easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=limit.quantity))
+            yield search_from_optima(Transcription(problem), first_searches(easier, starts, seed, threads), threads)
 
 
 def settle(problem: OrbitProblem, guess: np.ndarray, like: Curvature | None = None) -> Solution | None:
@@ -244,11 +229,11 @@ def find_optima(problem: OrbitProblem, starts: int, seed: int = 0) -> list[Solut
     problem, starts, seed : as in `find_orbit`; the searches are made one after the other.
     """
     begun = time.perf_counter()
-    found = list(search_from_starts(Transcription(problem), range(starts), seed, False, 1))
+    found = first_searches(Transcription(problem), starts, seed, 1)
     each = (time.perf_counter() - begun) / starts
     optima: list[Solution] = []
     known: list[np.ndarray] = []
-    for candidate in _optimal(found):
+    for candidate in optimal(found):
         if any(np.abs(candidate.scaled - other).max() <= FAMILY for other in known):
             continue
         optimum = certified_optimum(candidate, each)
@@ -308,12 +293,3 @@ def _certified_words(best: Corrected) -> str:
         low = problem.bounds["frequency"][0]
         words += f"; the frequency is at its lower bound, {low:g} Hz: no search can better it"
     return words
-
-
-def _optima(candidates: list[Candidate]) -> tuple[Optimum, ...]:
-    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in _optimal(candidates))
-
-
-def _optimal(found: list[Candidate]) -> list[Candidate]:
-    """Return those candidates that are optima, the best first."""
-    return sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective)

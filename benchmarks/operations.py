@@ -79,7 +79,8 @@ def measure() -> dict[str, dict[str, int]]:
         return _march(model, rows, like, step, start)
 
     def flight(values: Any, start: Any) -> Any:
-        return fly_part._function(model, beat, values, start, 0.0, 1.0, free=problem.free, components=1)
+        static = {"free": problem.free, "components": 1, "stroke": True}
+        return fly_part._function(model, beat, values, start, 0.0, 1.0, **static)
 
     return {
         "right-hand side": traced(lambda state: body_rates(model, table, state), point[:4]),

@@ -11,7 +11,10 @@ from typing import Any
 from wingbeat.jax64 import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
 from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import beside, shape_at, strips_of
+from wingbeat.wing_motion import Strips, WingShape, beside, shape_at, strips_of
+
+# Chordwise place of the leading and the trailing edge from the quarter chord, in chords.
+LEADING, TRAILING = 0.25, -0.75
 
 
 def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> tuple[Any, Any]:
@@ -30,15 +33,40 @@ def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int
     """
     strips = beside(strips_of(vehicle.wing, count), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
-    chordwise, normal = shape.chordwise, shape.normal
-    width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
-    half = 0.5 * width * (normal[2] * chordwise[0] - normal[0] * chordwise[2])
+    half = _half_width(vehicle, wingbeat, shape, phase, count)
 
     def edge(share: float) -> Any:
-        along = shape.left + share * strips.chord * chordwise[1]
+        along = _edge(shape, strips, share)
         return jnp.concatenate([along - half, along + half])
 
-    return edge(0.25), edge(-0.75)
+    return edge(LEADING), edge(TRAILING)
+
+
+def lateral_corner(
+    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, share: Any, side: Any, phase: Any, count: int
+) -> Any:
+    """Return where given corners are to the left [m], each at a phase of its own: arrays of shape (K,) throughout.
+
+    Parameters
+    ----------
+    vehicle, wingbeat, count : as in `lateral_corners`.
+    strips : of the corners.
+    share : `LEADING` or `TRAILING`.
+    side : -1 for an inner corner, 1 for an outer one.
+    phase : phases.
+    """
+    shape = shape_at(vehicle, wingbeat, strips, phase)
+    return _edge(shape, strips, share) + side * _half_width(vehicle, wingbeat, shape, phase, count)
+
+
+def _edge(shape: WingShape, strips: Strips, share: Any) -> Any:
+    return shape.left + share * strips.chord * shape.chordwise[1]
+
+
+def _half_width(vehicle: Vehicle, wingbeat: Wingbeat, shape: WingShape, phase: Any, count: int) -> Any:
+    chordwise, normal = shape.chordwise, shape.normal
+    width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
+    return 0.5 * width * (normal[2] * chordwise[0] - normal[0] * chordwise[2])
 
 
 def has_room(vehicle: Vehicle) -> bool:

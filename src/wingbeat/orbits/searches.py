@@ -13,7 +13,7 @@ from wingbeat.orbits.certify import certify
 from wingbeat.orbits.search import Candidate, search
 from wingbeat.orbits.shooting import fly_part
 from wingbeat.orbits.solution import Optimum, families
-from wingbeat.orbits.starts import start_beside, start_point
+from wingbeat.orbits.starts import is_far, start_beside, start_point
 from wingbeat.orbits.transcription import Transcription
 
 T = TypeVar("T")
@@ -83,7 +83,8 @@ def search_from_starts(
     """Yield where the searches from starts of these indices end, in order, so many threads at a time."""
 
     def one(index: int) -> Candidate:
-        return search(problem.anew(), start_point(problem.problem, index, seed), elastic=elastic)
+        start = start_point(problem.problem, index, seed)
+        return search(problem.anew(), start, elastic=elastic or is_far(problem.problem, index))
 
     yield from _side_by_side(one, indices, threads)
 

@@ -15,6 +15,7 @@ from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
+from wingbeat.orbits.stroke import ROWS, least_distances
 from wingbeat.slopes import settled
 from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
@@ -27,13 +28,16 @@ class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
     Where it ends, shape (6,), and body pitch or the whole pitch state after each step, from the start on, shape
-    (K, components); of their Jacobians the columns are last.
+    (K, components); of their Jacobians the columns are last. How near the stroke comes to its limits, and the
+    derivative by the free parameters, are there if they were asked for.
     """
 
     end: Any
     path: Any
     end_jacobian: Any
     path_jacobian: Any
+    stroke: Any = None
+    stroke_jacobian: Any = None
 
 
 def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[tuple[Any, Any], WingMotion]:
@@ -163,7 +167,7 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     )
 
 
-@stored(static=("free", "components"), hot=True)
+@stored(static=("free", "components", "stroke"), hot=True)
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -174,8 +178,13 @@ def fly_part(
     *,
     free: tuple[str, ...],
     components: int,
+    stroke: bool,
 ) -> Flown:
-    """Fly `STEPS` steps from one phase to another, free parameters now at `values`, and differentiate."""
+    """Fly `STEPS` steps from one phase to another, free parameters now at `values`, and differentiate.
+
+    The least distances of the stroke are of the whole beat, and told where it begins: in the same program, for a
+    call of their own would cost as much again.
+    """
 
     def by_values(at: Any) -> Any:
         return _tabulate(model, unpack(free, wingbeat, at), first, last)
@@ -185,21 +194,37 @@ def fly_part(
     table, tangents = settled((table, tangents))
     flight = _march(model, table, like, step, start)
     by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
-    return _chain(flight, by_state, by_free, step, step_tangent, components)
+    flown = _chain(flight, by_state, by_free, step, step_tangent, components)
+    if not stroke:
+        return flown
+
+    def near(at: Any) -> tuple[Any, Any]:
+        def rows(values: Any) -> Any:
+            return least_distances(model.vehicle, unpack(free, wingbeat, values), model.strips)
+
+        found, along = jax.linearize(rows, at)
+        return found, jax.vmap(along, out_axes=1)(jnp.eye(len(free)))
+
+    def nothing(at: Any) -> tuple[Any, Any]:
+        return jnp.zeros(len(ROWS)), jnp.zeros((len(ROWS), len(free)))
+
+    rows, jacobian = jax.lax.cond(first == 0.0, near, nothing, values)
+    return flown._replace(stroke=rows, stroke_jacobian=jacobian)
 
 
 def flier(
-    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False
+    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False, stroke: bool = False
 ) -> Callable[..., Flown]:
     """Return the flight of one period as a function of free parameters, pitch state at x = z = 0, and blocks.
 
     It flies `blocks` times `STEPS` steps and differentiates them. The path it returns is that of body pitch, or
-    the whole pitch state's: to hand over its derivatives where nobody reads them would cost a batch a tenth.
+    the whole pitch state's: to hand over its derivatives where nobody reads them would cost a batch a tenth. With
+    `stroke` it hands over how near the stroke comes to its limits, too.
     """
-    part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1)
+    part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 
     def fly(values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Flown:
-        flown = Flown(*(np.asarray(a) for a in part(values, start, 0.0, 1.0 / blocks)))
+        flown = part(values, start, 0.0, 1.0 / blocks)
         for i in range(1, blocks):
             flown = _then(flown, part(values, flown.end[2:], i / blocks, (i + 1) / blocks))
         return flown
@@ -219,9 +244,9 @@ def _then(before: Flown, part: Flown) -> Flown:
     end, end_jacobian = np.array(part.end), from_start(part.end_jacobian)
     end[:2] += before.end[:2]
     end_jacobian[:2] += before.end_jacobian[:2]
-    return Flown(
-        end,
-        np.concatenate([before.path, np.asarray(part.path)[1:]]),
-        end_jacobian,
-        np.concatenate([before.path_jacobian, from_start(part.path_jacobian)[1:]]),
+    return before._replace(
+        end=end,
+        path=np.concatenate([before.path, np.asarray(part.path)[1:]]),
+        end_jacobian=end_jacobian,
+        path_jacobian=np.concatenate([before.path_jacobian, from_start(part.path_jacobian)[1:]]),
     )

@@ -1,33 +1,35 @@
 """The limits of the stroke: each wing stays on its own side of the body, and within the range of its shoulder.
 
-Both depend on the wingbeat alone, so they cost no flight. Each row is the least distance from a limit: of the
-strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand in the whole
-beat. Where in the beat the distance is least does not matter to first order.
+Both depend on the wingbeat alone; a flight hands them over with its end. Each row is the least distance from a
+limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand
+in the whole beat. Where in the beat the distance is least does not matter to first order.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.clearance import flap_angles, has_room, lateral_corners
+from wingbeat.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
 from wingbeat.jax64 import jax, jnp
-from wingbeat.kinematics import Wingbeat, unpack
+from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.peaks import PARTS
-from wingbeat.stored import stored
 from wingbeat.vehicle import Vehicle
+from wingbeat.wing_motion import Strips, strips_of
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem import OrbitProblem
+    from wingbeat.orbits.shooting import Flown
 
 # The limit of the corners, as a name among the active bounds.
 SYMMETRY = "plane_of_symmetry"
-# Phases at which the least distance is looked for, and steps of Newton's method that find it between them.
-# Harmonics go up to the eighth, each period of which has eight samples. One step leaves an error of 7e-5 in the
-# derivative, two 1e-8.
-SAMPLES, _NEWTON = 64, 2
+# Phases at which the least distance is looked for, with and without harmonics, and steps of Newton's method that
+# find it between them. Harmonics go up to the eighth, each period of which has eight samples. From 64 samples one
+# step leaves an error of 7e-5 in the derivative, two 1e-8.
+_SAMPLES, _FEW_SAMPLES, _NEWTON = 64, 32, 2
 # Corners keep this share of the wing's length off the plane of symmetry, 3 micrometres of 0.3 m: ten times what the
 # search's tolerances leave open.
 _ALLOWANCE = 1e-5
@@ -35,11 +37,9 @@ _ALLOWANCE = 1e-5
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
 
 _UPRIGHT = 0.5 * math.pi
-# First and last sample of each quarter; a row of corners is looked for in its quarter, one of angles in the beat.
-_PART = SAMPLES // PARTS
-_QUARTERS = np.arange(PARTS)[:, None] * _PART + np.arange(_PART + 1)
-_BEGIN = np.array([*_QUARTERS[:, 0], *_QUARTERS[:, 0], 0, 0, 0, 0]) / SAMPLES
-_END = np.array([*_QUARTERS[:, -1], *_QUARTERS[:, -1], *[SAMPLES] * 4]) / SAMPLES
+# Each row of corners is looked for in its quarter of the beat, one of angles in the whole.
+_BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
+_END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 
 
 def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, strips: int) -> Any:
@@ -55,38 +55,52 @@ def _places(sampled: Any, strips: int) -> tuple[Any, Any]:
     First the sample, by the least of all corners at each: XLA on CPU makes vector code of a least value, but not of
     the search for its place.
     """
+    part = (sampled.shape[1] - 1) // PARTS
+    quarters = np.arange(PARTS)[:, None] * part + np.arange(part + 1)
     corners = sampled[: 4 * strips].reshape(2, 2 * strips, -1)
-    nearest = jnp.min(corners, axis=1)[:, _QUARTERS]
-    place = _QUARTERS[:, 0] + jnp.argmin(nearest, axis=-1)
+    nearest = jnp.min(corners, axis=1)[:, quarters]
+    place = quarters[:, 0] + jnp.argmin(nearest, axis=-1)
     corner = jnp.argmin(jnp.take_along_axis(corners, place[:, None], axis=2), axis=1)
     series = jnp.append((2 * strips * np.arange(2)[:, None] + corner).ravel(), 4 * strips + np.arange(4))
     return series, jnp.append(place.ravel(), jnp.argmin(sampled[4 * strips :], axis=-1))
 
 
-def _least(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
-    """Return each row. Series and phase are held when it is differentiated: at its least the rate by phase is 0."""
-    samples = jnp.arange(SAMPLES + 1) / SAMPLES
+def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
+    """Return the least distance of each row, shape (12,).
+
+    Corner and phase are held when it is differentiated: at its least the rate by phase is 0.
+    """
+    has_harmonics = any(map(len, (wingbeat.flap_harmonics, wingbeat.pitch_harmonics, wingbeat.span_harmonics)))
+    count = _SAMPLES if has_harmonics else _FEW_SAMPLES
+    samples = jnp.arange(count + 1) / count
     series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
+    phase, most = place / count, 1.0 / count
+    trailing, corner = jnp.divmod(series[: 2 * PARTS], 2 * strips)
+    outer, strip = jnp.divmod(corner, strips)
+    of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
 
-    def value(at: Any) -> Any:
-        return jnp.take_along_axis(_series(vehicle, wingbeat, at, strips), series[None], axis=0)[0]
+    def distance(at: Any) -> Any:
+        share, side = jnp.where(trailing, TRAILING, LEADING), 2.0 * outer - 1.0
+        return lateral_corner(vehicle, wingbeat, of_corners, share, side, at, strips) / vehicle.wing.semi_span
 
-    phase = place / SAMPLES
+    def angle(at: Any) -> Any:
+        angles = flap_angles(wingbeat, at)
+        return jnp.stack([angles[0, 0], angles[1, 1], -angles[0, 2], -angles[1, 3]])
+
+    corners = slice(2 * PARTS)
+    angles = slice(2 * PARTS, None)
+    return jnp.concatenate([_at_least(distance, phase, most, corners), _at_least(angle, phase, most, angles)])
+
+
+def _at_least(value: Callable[[Any], Any], phase: Any, most: float, rows: slice) -> Any:
+    """Return some rows at their least, by Newton's method from `phase`, in steps of at most `most`."""
+    phase = phase[rows]
     for _ in range(_NEWTON):
         one = jnp.ones_like(phase)
         slope, bend = jax.jvp(lambda at: jax.jvp(value, (at,), (one,))[1], (phase,), (one,))  # noqa: B023
         step = jnp.where(bend > 0, -slope / jnp.where(bend > 0, bend, 1.0), 0.0)
-        phase = jnp.clip(phase + jnp.clip(step, -1.0 / SAMPLES, 1.0 / SAMPLES), _BEGIN, _END)
+        phase = jnp.clip(phase + jnp.clip(step, -most, most), _BEGIN[rows], _END[rows])
     return value(jax.lax.stop_gradient(phase))
-
-
-@stored(static=("free", "strips"), hot=True)
-def least_distances(
-    vehicle: Vehicle, wingbeat: Wingbeat, values: Any, *, free: tuple[str, ...], strips: int
-) -> tuple[Any, Any]:
-    """Return the rows and their derivative by the free parameters, now at `values`: (12,) and (12, free)."""
-    rows, along = jax.linearize(lambda at: _least(vehicle, unpack(free, wingbeat, at), strips), values)
-    return rows, jax.vmap(along, out_axes=1)(jnp.eye(len(free)))
 
 
 class StrokeLimits:
@@ -107,17 +121,14 @@ class StrokeLimits:
         self._free = len(problem.free)
         if not limited:
             return
-        beat, strips = problem.species.wingbeat, problem.aero.strips
-        self._rows = least_distances.bind(problem.vehicle, beat, free=problem.free, strips=strips)
         low, high = problem.bounds["flap"] if beside else np.clip(problem.bounds["flap"], -_UPRIGHT, _UPRIGHT)
         self._limits = np.array([*[_ALLOWANCE] * 2 * PARTS, low, low, -high, -high])
 
-    def margins(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far inside its limit each row is, and the derivative by the free parameters.
+    def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far inside its limit each row of a flight is, and the derivative by the free parameters.
 
         Corners are in wing lengths, flap angles in radians.
         """
         if not self.names:
             return np.zeros(0), np.zeros((0, self._free))
-        rows, jacobian = self._rows(np.ascontiguousarray(values))
-        return (rows - self._limits)[self._kept], jacobian[self._kept]
+        return (flown.stroke - self._limits)[self._kept], flown.stroke_jacobian[self._kept]

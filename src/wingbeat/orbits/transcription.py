@@ -72,7 +72,13 @@ class Transcription:
         self._peak = highest_sample if self.asked is None else peak_weights
         self._stroke = StrokeLimits(problem)
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
-        self.fly = flier(self.model, problem.species.wingbeat, problem.free, whole_path=problem.reads_beat)
+        self.fly = flier(
+            self.model,
+            problem.species.wingbeat,
+            problem.free,
+            whole_path=problem.reads_beat,
+            stroke=bool(self._stroke.names),
+        )
         self._points: dict[bytes, Point] = {}
         self._uncorrect()
 
@@ -144,7 +150,7 @@ class Transcription:
             tamed = (np.clip(np.nan_to_num(a, nan=_LOST), -_LOST, _LOST) for a in flight)
             closure, jacobian, pitch, pitch_jacobian, rows, rows_jacobian = tamed
         lowest, highest = self._peak(-pitch), self._peak(pitch)
-        stroke, stroke_jacobian = self._stroke.margins(unknowns[4:])
+        stroke, stroke_jacobian = self._stroke.margins(flown)
         inside = np.append(self._inside(lowest @ pitch, highest @ pitch), stroke)
         inside_jacobian = np.zeros((len(inside), scale.size))
         inside_jacobian[:2] = lowest @ pitch_jacobian, -highest @ pitch_jacobian

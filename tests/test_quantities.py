@@ -99,7 +99,7 @@ def test_nothing_else_has_less_of_it(least, name):
 
 def test_what_bound_the_search_may_let_go_in_a_finer_flight():
     problem = wb.OrbitProblem(BAT, speed=SPEED, minimise="peak_actuator_power")
-    candidate = search(Transcription(problem), start_point(problem, 5, 0))
+    candidate = search(Transcription(problem), start_point(problem, 8, 0))
     assert candidate.closed
     assert candidate.optimal
     found = certified_optimum(candidate, 0.0)

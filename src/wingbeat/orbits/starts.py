@@ -59,7 +59,7 @@ _FAMILIES = (
 # most: of 30 random starts 4 led to the bat's least peak pitch torque at 14 m/s, which 12 searches missed by half.
 # Bounds of the user's own may cut off where most searches end: with a flap amplitude of 50 deg at most 12 missed
 # the bat's least frequency at 10 m/s by 3 %, 24 did not.
-_USUAL, _OF_THE_BEAT, _MANY = 7, 12, 24
+_USUAL, _OF_THE_BEAT, _MANY = 6, 12, 24
 # How far from the best optimum met those searches start that look for better ones near, in the optimiser's scale.
 _BESIDE = 0.5
 

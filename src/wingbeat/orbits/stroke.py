@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 # The limit of the corners, as a name among the active bounds.
 SYMMETRY = "plane_of_symmetry"
-# Phases at which the least distance is looked for, with and without harmonics, and steps of Newton's method that
-# find it between them. Harmonics go up to the eighth, each period of which has eight samples. From 64 samples one
-# step leaves an error of 7e-5 in the derivative, two 1e-8.
-_SAMPLES, _FEW_SAMPLES, _NEWTON = 64, 32, 2
+# Phases at which the least distance is looked for, and steps of Newton's method that find it between them.
+# Harmonics go up to the eighth, each period of which has eight samples. One step leaves an error of 7e-5 in the
+# derivative, two 1e-8.
+_SAMPLES, _NEWTON = 64, 2
 # Corners keep this share of the wing's length off the plane of symmetry, 3 micrometres of 0.3 m: ten times what the
 # search's tolerances leave open.
 _ALLOWANCE = 1e-5
@@ -70,11 +70,9 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
 
     Corner and phase are held when it is differentiated: at its least the rate by phase is 0.
     """
-    has_harmonics = any(map(len, (wingbeat.flap_harmonics, wingbeat.pitch_harmonics, wingbeat.span_harmonics)))
-    count = _SAMPLES if has_harmonics else _FEW_SAMPLES
-    samples = jnp.arange(count + 1) / count
+    samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
     series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
-    phase, most = place / count, 1.0 / count
+    phase = place / _SAMPLES
     trailing, corner = jnp.divmod(series[: 2 * PARTS], 2 * strips)
     outer, strip = jnp.divmod(corner, strips)
     of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
@@ -89,17 +87,17 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
 
     corners = slice(2 * PARTS)
     angles = slice(2 * PARTS, None)
-    return jnp.concatenate([_at_least(distance, phase, most, corners), _at_least(angle, phase, most, angles)])
+    return jnp.concatenate([_at_least(distance, phase, corners), _at_least(angle, phase, angles)])
 
 
-def _at_least(value: Callable[[Any], Any], phase: Any, most: float, rows: slice) -> Any:
-    """Return some rows at their least, by Newton's method from `phase`, in steps of at most `most`."""
+def _at_least(value: Callable[[Any], Any], phase: Any, rows: slice) -> Any:
+    """Return some rows at their least, by Newton's method from the phases of the least samples."""
     phase = phase[rows]
     for _ in range(_NEWTON):
         one = jnp.ones_like(phase)
         slope, bend = jax.jvp(lambda at: jax.jvp(value, (at,), (one,))[1], (phase,), (one,))  # noqa: B023
         step = jnp.where(bend > 0, -slope / jnp.where(bend > 0, bend, 1.0), 0.0)
-        phase = jnp.clip(phase + jnp.clip(step, -most, most), _BEGIN[rows], _END[rows])
+        phase = jnp.clip(phase + jnp.clip(step, -1.0 / _SAMPLES, 1.0 / _SAMPLES), _BEGIN[rows], _END[rows])
     return value(jax.lax.stop_gradient(phase))
 
 

@@ -103,7 +103,7 @@ def reference(problem: OrbitProblem) -> float | None:
     given = len(structured_starts(problem))
     transcription, best = Transcription(problem), None
     places = range(given, given + RANDOM_STARTS)
-    ended = search_from_starts(transcription, places, REFERENCE_SEED, False, 1)
+    ended = search_from_starts(transcription, places, REFERENCE_SEED, 1)
     found = [c for c in ended if c.closed and c.optimal]
     for candidate in sorted(found, key=lambda c: c.objective)[:4]:
         certain = certified_optimum(candidate, 0.0)

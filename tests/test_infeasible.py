@@ -17,7 +17,7 @@ from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.transcription import Transcription
-from wingbeat.orbits.without_orbit import without_orbit
+from wingbeat.orbits.without_orbit import unexplained, without_orbit
 from wingbeat.results.warnings import rivals
 
 CASES = list(cases())
@@ -176,6 +176,17 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     beat, failure = without_orbit(programme, [astray, rough, best], 1, advise=False)
     assert "beats that close were met in 3 searches, but none could be certified" in failure.message
     np.testing.assert_array_equal(beat.scaled, best.scaled)
+    beat, failure = unexplained([astray, rough, best])
+    assert (failure.status, beat.scaled is best.scaled) == (Status.NOT_CONVERGED, True)
+
+
+def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_the_search_for_why(solved):
+    problem = solved["too slow"].problem
+    found = find_orbit(problem, 2, most_starts=2, threads=1, advise=False, explain=False)
+    assert (found.status, found.shortages, found.relaxations) == (Status.INFEASIBLE, (), ())
+    assert found.message == "no orbit within the bounds in 2 searches; which law of balance fails was not asked"
+    explained = find_orbit(problem, 2, most_starts=2, threads=1, advise=False)
+    assert explained.shortages
 
 
 @pytest.mark.parametrize(

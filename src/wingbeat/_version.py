@@ -2,7 +2,7 @@
 
 __version__ = "0.1.0"
 
-NUMERICAL_VERSION = 7
+NUMERICAL_VERSION = 8
 """Which numbers this package gives; a part of the key of every point of a study.
 
 Raise it by one whenever the numbers of any record may change by more than rounding: equations, defaults, solver,

@@ -57,7 +57,7 @@ def test_a_key_is_the_same_on_every_machine_until_the_numbers_change(tmp_path):
     (tmp_path / "kite.toml").write_text(SPECIES.format(**GOOD))
     (key,) = keys(species=str(tmp_path / "kite.toml"), speed=8.0)
     # Another one throws everybody's stores away: raise NUMERICAL_VERSION, and say so in the changelog.
-    assert key == "195e46d79fe607ee41486a58bcd7a07a3c58557abd20cb8bcb1469a806750038"
+    assert key == "e02c22f06c0bb46913f5187878dd4eb1866aa9cd7c5d81c4d5978d7cbdddf0b8"
 
 
 def test_points_of_a_chain_know_those_before_them():
@@ -148,6 +148,10 @@ FAULTS = [
     ({"species": "pigeon", "speed": 9.0, "set": {"wing.mas": 1.0}}, "wing.mas = 1.0: is not the path of a number"),
     ({"species": "pigeon", "speed": 9.0, "bounds": {"flap_amplitude": [2.0, 1.0]}}, "lower must be below upper"),
     ({"species": "pigeon", "speed": 9.0, "chain": "climb"}, "chain = 'climb': is not a parameter varied by grid"),
+    (
+        {"species": "pigeon", "speed": 9.0, "advise": True, "explain": False},
+        "advise = True: cannot go with explain = false; leave one of them out",
+    ),
 ]
 VARY_FAULTS = [
     ({"speed": 9.0}, "vary.speed = 9.0: must be a table; for example { grid = [6.0, 8.0] }"),

@@ -165,16 +165,17 @@ def find_helped(
     seed: int = 0,
     most_starts: int | None = None,
     advise: bool = False,
+    explain: bool = True,
 ) -> Solution:
     """Return the best of a certified orbit that other answers led to, if any, and what the searches left find.
 
     Parameters
     ----------
-    problem, starts, seed, most_starts, advise : as in `find_orbit`.
+    problem, starts, seed, most_starts, advise, explain : as in `find_orbit`.
     known : takes the place of one search; with it there is an orbit, so nobody asks for most_starts or advice.
     """
     if known is None:
-        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise)
+        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise, explain=explain)
     return known if starts == 1 else find_beside(known, starts - 1, seed)
 
 

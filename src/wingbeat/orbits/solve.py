@@ -32,7 +32,7 @@ from wingbeat.orbits.searches import (
 from wingbeat.orbits.solution import FAMILY, Optimum, Solution, Status, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
-from wingbeat.orbits.without_orbit import Ending, without_orbit
+from wingbeat.orbits.without_orbit import Ending, unexplained, without_orbit
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0
@@ -59,6 +59,7 @@ def find_orbit(
     threads: int | None = None,
     most_starts: int | None = None,
     advise: bool = True,
+    explain: bool = True,
 ) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
@@ -74,6 +75,8 @@ def find_orbit(
     most_starts : if none of the searches can be certified, more are made, up to this many (50 if not
         given), before giving up.
     advise : where there is no orbit, find the single changes that make one; costs as much as the searches.
+    explain : where there is no orbit, find the beat that comes closest to one and which law of balance fails; costs
+        a third of the searches. Without it nothing is advised.
 
     Returns
     -------
@@ -92,7 +95,9 @@ def find_orbit(
     best, found = _searched(transcription, starts, most, seed, threads, progress)
     ending = None
     if best is None:
-        best, ending = without_orbit(transcription, found, threads, advise, progress)
+        best, ending = (
+            without_orbit(transcription, found, threads, advise, progress) if explain else unexplained(found)
+        )
     return _found(transcription, best, found, len(found), seed, begun, ending)
 
 
@@ -141,7 +146,7 @@ def _searched(
         if (best := first_certified(transcription, led)) is not None:
             break
     more = range(starts, most if best is None else starts)
-    for done, candidate in enumerate(search_from_starts(transcription, more, seed, True, threads), starts + 1):
+    for done, candidate in enumerate(search_from_starts(transcription, more, seed, threads), starts + 1):
         found.append(candidate)
         if progress is not None:  # what limits led to is none of the starts
             progress(done, max(starts, most))

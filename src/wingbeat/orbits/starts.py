@@ -30,7 +30,6 @@ class Family(NamedTuple):
     pitch_mean, pitch_amplitude : likewise [rad].
     flap_amplitude, frequency : times those of the stock wingbeat.
     nose_up : body pitch [rad], with an upright stroke plane.
-    far : whether it is too far from closure for a search to begin there: an elastic solve brings it near first.
     """
 
     flap_mean: float | None = None
@@ -39,7 +38,6 @@ class Family(NamedTuple):
     flap_amplitude: float = 1.0
     frequency: float = _BRISK
     nose_up: float = 0.1
-    far: bool = False
 
 
 # Each is the best start into its family of up to 108 tried for 110 vehicles of +-40 %. Wings that hardly pitch and
@@ -48,7 +46,7 @@ class Family(NamedTuple):
 _QUIET, _PITCHING, _STEEP = math.radians(3.0), math.radians(15.0), math.radians(30.0)
 _FAMILIES = (
     Family(),
-    Family(-0.8, 0.0, _QUIET, flap_amplitude=1.3, frequency=1.0, nose_up=0.35, far=True),
+    Family(-0.8, 0.0, _QUIET, flap_amplitude=1.3, frequency=1.0, nose_up=0.35),
     Family(0.8, 0.0, _QUIET),
     Family(-0.8, None, _PITCHING),
     Family(None, 0.0, _QUIET, frequency=1.0),
@@ -103,22 +101,12 @@ def structured_starts(problem: OrbitProblem) -> list[np.ndarray]:
 
     Optima beat with the wings below, above or about level with the body, and with little or much pitching.
     """
-    return [start for start, _ in _structured(problem)]
-
-
-def is_far(problem: OrbitProblem, index: int) -> bool:
-    """Say whether a start is too far from closure for a search to begin there without an elastic solve."""
-    given = _structured(problem)
-    return index < len(given) and given[index][1].far
-
-
-def _structured(problem: OrbitProblem) -> list[tuple[np.ndarray, Family]]:
     unknowns = problem.unknowns()
-    found: list[tuple[np.ndarray, Family]] = []
+    found: list[np.ndarray] = []
     for family in _FAMILIES:
         start = np.clip(_start_in(problem, family), unknowns.lower, unknowns.upper)
-        if not any(np.array_equal(start, other) for other, _ in found):
-            found.append((start, family))
+        if not any(np.array_equal(start, other) for other in found):
+            found.append(start)
     return found
 
 

@@ -62,14 +62,10 @@ def without_orbit(
     if orbit is not None:
         return orbit, None
     closing = [c for c in (*found, *led) if c.closed]
-    if closing or nearest.closes:
-        beat = min(closing, key=lambda c: c.violation).scaled if closing else nearest.scaled
-        almost = "" if closing else "almost "
-        message = (
-            f"beats that {almost}close were met in {len(found)} searches, but none could be certified as an "
-            "optimum; try more starts, another seed, or a start nearer the answer"
-        )
-        return certified(programme.anew(), beat), Ending(Status.NOT_CONVERGED, message)
+    if closing:
+        return _uncertified(closing, len(found))
+    if nearest.closes:
+        return certified(programme.anew(), nearest.scaled), _no_optimum("almost close", len(found))
     changes = certified_changes(problem, met)
     message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
     if changes:
@@ -78,6 +74,30 @@ def without_orbit(
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
     ending = Ending(Status.INFEASIBLE, message, nearest.shortages, changes)
     return certified(programme.anew(), nearest.scaled), ending
+
+
+def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
+    """Return the beat that came closest to an orbit where searches ended, and only whether it closes."""
+    closing = [c for c in found if c.closed]
+    if closing:
+        return _uncertified(closing, len(found))
+    nearest = min(found, key=lambda c: c.violation)
+    message = f"no orbit within the bounds in {len(found)} searches; which law of balance fails was not asked"
+    return certified(nearest.programme.anew(), nearest.scaled), Ending(Status.INFEASIBLE, message)
+
+
+def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, Ending]:
+    """Return the beat that closes best, of those that do but are no optima."""
+    nearest = min(closing, key=lambda c: c.violation)
+    return certified(nearest.programme.anew(), nearest.scaled), _no_optimum("close", searches)
+
+
+def _no_optimum(how: str, searches: int) -> Ending:
+    message = (
+        f"beats that {how} were met in {searches} searches, but none could be certified as an "
+        "optimum; try more starts, another seed, or a start nearer the answer"
+    )
+    return Ending(Status.NOT_CONVERGED, message)
 
 
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:

@@ -108,6 +108,7 @@ class StudyForm(BaseModel):
     bounds: _Bounds = Field(default={})
     settings: dict[str, Any] = Field(default={}, alias="set")
     advise: bool = False
+    explain: bool = True
     chain: str | None = None
     vary: dict[str, Vary] = Field(default={})
     sample: Sample | None = None
@@ -231,6 +232,8 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         faults.add("chain", form.chain, "is not a parameter varied by grid or relative", fix)
     elif form.chain is not None and form.vary[form.chain].given == ("list",):
         faults.add("chain", form.chain, "goes with its list row by row", "give it as grid")
+    if form.advise and not form.explain:
+        faults.add("advise", True, "cannot go with explain = false", "leave one of them out")
 
 
 def number(value: Any) -> Any:

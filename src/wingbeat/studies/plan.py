@@ -245,7 +245,8 @@ def _base(
             faults.faults += [_hashable(fault) for fault in error.faults]
         except WingbeatError as error:
             faults.add(name, shown(chosen[name]), str(error))
-    search = {name: chosen.get(name) for name in ("starts", "seed", "most_starts")} | {"advise": form.advise}
+    search: dict[str, Any] = {name: chosen.get(name) for name in ("starts", "seed", "most_starts")}
+    search |= {"advise": form.advise, "explain": form.explain}
     motion = {name: float(chosen[name]) for name in MOTION if name in chosen and name not in form.vary}
     for name, value in motion.items():
         faults.number(name, value, **MOTION[name])

@@ -44,7 +44,7 @@ class Recipe:
     objective : as `objective.as_inputs` says it.
     free, bounds : as in `OrbitProblem`.
     subject_to : limits as texts.
-    search : ``starts``, ``seed``, ``most_starts`` and ``advise`` of the search; None for the usual number.
+    search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; None for the usual number.
     """
 
     species: Species

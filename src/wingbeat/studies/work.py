@@ -66,7 +66,7 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
     near = settle_foretold(problem, Answers(like, [numbers]).foretell(0))
     if before and near is None:
         near = follow(problem, before[-1].known.unknowns)
-    found = find_helped(problem, near, starts, seed, most, search["advise"])
+    found = find_helped(problem, near, starts, seed, most, search["advise"], search["explain"])
     return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, found.learned))
 
 

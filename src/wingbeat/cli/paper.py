@@ -128,7 +128,7 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int, befor
 
 def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
     from wingbeat.paper.assumption_page import write_study
-    from wingbeat.paper.assumption_study import STARTS
+    from wingbeat.paper.assumption_study import STARTS, SURENESS
     from wingbeat.paper.pieces import Pieces
     from wingbeat.studies.driver import listening
     from wingbeat.studies.engine import LocalProcesses
@@ -146,7 +146,7 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}`{so_far} "
         f"(numerical version {NUMERICAL_VERSION}): each animal and coefficient model under each choice of trims is "
         f"a [study](studies.md) with {STARTS} searches an orbit, one of them from the orbit at the speed before "
-        f"where there is one. The orbits took {seconds / 3600:.1f} core-hours, "
+        f"where there is one ({SURENESS}). The orbits took {seconds / 3600:.1f} core-hours, "
         f"{seconds / len(judged.sets):.2f} s a set."
     )
     if so_far:

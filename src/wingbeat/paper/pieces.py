@@ -20,6 +20,7 @@ from wingbeat.files import make_folder, read_text, write_atomically
 from wingbeat.paper.assumption_study import (
     ORBITS,
     SPEEDS,
+    STARTS,
     Judged,
     fly_piece,
     judge_piece,
@@ -58,8 +59,9 @@ class Sample:
         return range((number - 1) * self.piece, min(number * self.piece, self.sets))
 
     def about(self) -> dict[str, int | str]:
-        """Return what tells its answers from those to any other question."""
-        asked = repr((ASSUMPTIONS, SPEEDS, [(claim.id, claim.claim) for claim in study_claims()]))
+        """Return what tells its answers from those to another question: what is sampled and judged, no words."""
+        ranges = [(a.name, a.low, a.high, a.choices) for a in ASSUMPTIONS]
+        asked = repr((ranges, SPEEDS, STARTS, [claim.id for claim in study_claims()]))
         digest = hashlib.sha256(asked.encode()).hexdigest()[:12]
         return {**asdict(self), "numerical_version": NUMERICAL_VERSION, "asked": digest}
 

@@ -18,8 +18,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
+from wingbeat._jax.config import jax
 from wingbeat.flights import state_rates
-from wingbeat.jax64 import jax
 
 rates = jax.jit(state_rates)
 

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
+from wingbeat._jax.config import jax, jnp
 from wingbeat.flights import state_rates
-from wingbeat.jax64 import jax, jnp
 from wingbeat.loads import flight_loads
 
 INTEGRALS = ("force_x", "force_z", "actuator_power", "air_power", "hinge_power")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import (
     LIBRARY,
     BladeElement,
@@ -23,7 +24,6 @@ from wingbeat.aero import (
     thin_aerofoil_moment,
 )
 from wingbeat.errors import InvalidInputError
-from wingbeat.jax64 import jax, jnp
 
 # model.md section 7: angle [deg], Su-Fan C_L, C_D, x_cp, C_M about mid-chord, Dickinson C_L, C_D.
 TABLE = [

@@ -7,7 +7,7 @@ import pytest
 from reflight import refly_many
 
 import wingbeat as wb
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
 from wingbeat.kinematics import unpack
 from wingbeat.model import body_rates, motion_table
 from wingbeat.orbits.certify import certify

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementary import horner
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
 from wingbeat.aero.blends import Jet, Join, even_blend, jet_of, odd_blend
-from wingbeat.elementary import horner
-from wingbeat.jax64 import jax, jnp
 
 RIGHT = math.pi / 2
 WIDTH = math.radians(1.0)

@@ -9,8 +9,8 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
+from wingbeat._jax.config import jnp
 from wingbeat.flights import fly_beats
-from wingbeat.jax64 import jnp
 from wingbeat.results.dataset import evaluate
 
 SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles once

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat._jax.config import jax
 from wingbeat.hinges import hinge_loads, hinge_motion
-from wingbeat.jax64 import jax
 from wingbeat.model import body_rates, motion_table
 from wingbeat.species.record import Species
 

@@ -9,7 +9,7 @@ import oracle
 import pytest
 
 import wingbeat as wb
-from wingbeat.jax64 import jax
+from wingbeat._jax.config import jax
 from wingbeat.model import body_rates, motion_table
 
 TOLERANCE = 1e-9

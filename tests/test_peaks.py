@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wingbeat.jax64 import jax
+from wingbeat._jax.config import jax
 from wingbeat.orbits.peaks import PARTS, highest, peaks, spread
 from wingbeat.orbits.transcription import peak_weights
 

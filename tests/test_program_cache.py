@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from wingbeat.program_cache import keep_program, kept_program, program_folder
+from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
 NOT_KEPT = "warning: compiled programs are not kept, so every start takes longer: "

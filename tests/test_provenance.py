@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat.jax64 import jax
+from wingbeat._jax.config import jax
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset

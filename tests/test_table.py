@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import SuFan, TableCoefficients, load_coefficients, load_table
 from wingbeat.errors import FileError, InvalidInputError
-from wingbeat.jax64 import jax, jnp
 
 RIGHT = math.pi / 2
 

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
+from wingbeat._jax.config import jax, jnp
 from wingbeat.frames import stroke_pitch, to_world
-from wingbeat.jax64 import jax, jnp
 from wingbeat.wing_motion import beside, mass_points, shape_at, strips_of, wing_motion
 
 STRIPS = 8

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from test_derivatives import differences, miss
 
 import wingbeat as wb
+from wingbeat._jax.config import jax
 from wingbeat.harmonics import HARMONIC_NAMES
-from wingbeat.jax64 import jax
 from wingbeat.kinematics import (
     FREE_NAMES,
     flap_angle,

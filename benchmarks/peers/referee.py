@@ -11,8 +11,8 @@ from physics import NUMPY, Flier, accelerations
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
+from wingbeat._jax.config import jax
 from wingbeat.flights import state_rates
-from wingbeat.jax64 import jax
 from wingbeat.orbits.beat import flown_beat
 
 _rates = jax.jit(state_rates)

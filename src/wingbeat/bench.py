@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
-from wingbeat.jax64 import jax, jnp
 from wingbeat.model import body_rates, motion_table
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem

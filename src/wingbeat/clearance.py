@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat.jax64 import jnp
+from wingbeat._jax.config import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
 from wingbeat.vehicle import Vehicle
 from wingbeat.wing_motion import Strips, WingShape, beside, shape_at, strips_of

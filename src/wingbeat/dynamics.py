@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jnp
+from wingbeat._jax.elementary import cos, sin
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.elementary import cos, sin
 from wingbeat.frames import Pair, from_world, to_world
-from wingbeat.jax64 import jnp
 from wingbeat.vehicle import Vehicle
 from wingbeat.wing_motion import WingMotion, dot, over_strips, turned
 

@@ -12,10 +12,10 @@ import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.dynamics import body_drag, pressure_offset
 from wingbeat.frames import from_world, to_world
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.model import FlightModel
 from wingbeat.wing_motion import strips_of

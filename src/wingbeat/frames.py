@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wingbeat.elementary import cos, sin
+from wingbeat._jax.elementary import cos, sin
 
 Pair = tuple[Any, Any]
 Triple = tuple[Any, Any, Any]

@@ -15,12 +15,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._jax.config import jnp
+from wingbeat._jax.exported import stored
 from wingbeat.five_coordinates import air_forces, equations_of_motion
 from wingbeat.frames import stroke_pitch
-from wingbeat.jax64 import jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel
-from wingbeat.stored import stored
 
 TRIMS = ("body-pitch", "flap", "tail")
 # Largest force over weight, and moment over weight times chord, of what counts as balance.

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.dynamics import strip_loads, strip_moments
 from wingbeat.frames import Pair, Triple, from_world
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
 from wingbeat.model import FlightModel
 from wingbeat.vehicle import Vehicle

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.elementary import atan2, cos, sin
+from wingbeat._jax.config import at_default, jnp, register_record, unchecked
+from wingbeat._jax.elementary import atan2, cos, sin
 from wingbeat.errors import FaultList
 from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, harmonic_place
-from wingbeat.jax64 import at_default, jnp, register_record, unchecked
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
 _OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt")

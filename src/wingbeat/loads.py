@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.exported import stored
 from wingbeat.five_coordinates import air_forces_on
 from wingbeat.hinges import hinge_loads, hinge_motion
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.model import FlightModel, State, body_rates, motion_table
-from wingbeat.stored import stored
 from wingbeat.wing_motion import strips_of
 from wingbeat.wing_points import point_motion
 

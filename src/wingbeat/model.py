@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jnp, register_record
+from wingbeat._jax.elementwise_jvp import by_slopes
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.dynamics import BodyLoads, accelerations, body_drag, wing_loads
 from wingbeat.errors import FaultList
 from wingbeat.frames import from_world
-from wingbeat.jax64 import jnp, register_record
 from wingbeat.kinematics import Wingbeat
-from wingbeat.slopes import by_slopes
 from wingbeat.vehicle import Air, Vehicle
 from wingbeat.wing_motion import WingMotion, stroke_attitude, wing_motion
 

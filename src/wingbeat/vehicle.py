@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat._jax.config import register_record
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import register_record
 
 
 @register_record

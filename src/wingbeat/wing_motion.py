@@ -12,9 +12,9 @@ import operator
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from wingbeat.elementary import cos, sin
+from wingbeat._jax.config import at_default, jax, jnp
+from wingbeat._jax.elementary import cos, sin
 from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
-from wingbeat.jax64 import at_default, jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.vehicle import Vehicle, Wing
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.exported import stored
 from wingbeat.frames import Triple, stroke_pitch, to_world
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.model import FlightModel, State
-from wingbeat.stored import stored
 from wingbeat.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
 
 

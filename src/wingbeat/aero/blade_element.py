@@ -11,11 +11,11 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jnp
+from wingbeat._jax.elementary import atan2
+from wingbeat._jax.elementwise_jvp import by_slopes
 from wingbeat.aero.choosing import coefficients_of
-from wingbeat.elementary import atan2
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.jax64 import jnp
-from wingbeat.slopes import by_slopes
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")

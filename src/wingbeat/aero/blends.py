@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from wingbeat.elementary import horner
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementary import horner
 
 Function = Callable[[Any], Any]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wingbeat._jax.config import jax
 from wingbeat.errors import Fault, InvalidInputError
-from wingbeat.jax64 import jax
 
 
 @jax.jit

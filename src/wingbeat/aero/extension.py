@@ -23,11 +23,11 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple, Protocol
 
+from wingbeat._jax.config import jnp
+from wingbeat._jax.elementary import horner
+from wingbeat._jax.exported import stored
 from wingbeat.aero.blends import Function, Jet, Join, even_blend, jet_of, odd_blend
-from wingbeat.elementary import horner
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jnp
-from wingbeat.stored import stored
 
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
 MAX_BLEND_WIDTH_DEG = 3.0

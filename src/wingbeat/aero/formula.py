@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from wingbeat._jax.config import jnp, register_record
+from wingbeat._jax.elementary import sin
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
-from wingbeat.elementary import sin
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jnp, register_record
 
 _DEG = 180 / math.pi
 GRADES = ("A", "B")

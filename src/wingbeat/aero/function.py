@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
+from wingbeat._jax.config import jax, jnp, unchecked
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
-from wingbeat.jax64 import jax, jnp, unchecked
 
 _WHERE = "aero.coefficients"
 # A function is looked at every half degree, with 0, +-90 and +-180 degrees among them.

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementary import horner
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.aero.extension import check_extension, extend
 from wingbeat.aero.table_checks import (
@@ -19,10 +21,8 @@ from wingbeat.aero.table_checks import (
     is_whole_turn,
     numbers,
 )
-from wingbeat.elementary import horner
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
-from wingbeat.jax64 import jax, jnp
 
 
 class TablePieces(NamedTuple):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.jax64 import jax
+from wingbeat._jax.config import jax
 from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
 
 PARTS = 4
 

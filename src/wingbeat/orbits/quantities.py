@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._jax.config import jnp
 from wingbeat.errors import FaultList
-from wingbeat.jax64 import jnp
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.peaks import spread
 from wingbeat.orbits.springs import SpringCost

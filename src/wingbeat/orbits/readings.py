@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.errors import Fault, InvalidInputError
-from wingbeat.jax64 import jax, jnp
 from wingbeat.orbits.beat import NUMBERS, Beat
 from wingbeat.orbits.limits import Constraint
 from wingbeat.orbits.peaks import PARTS, highest, peaks

@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementwise_jvp import settled
+from wingbeat._jax.exported import stored
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.stroke import ROWS, least_distances
-from wingbeat.slopes import settled
-from wingbeat.stored import stored
 from wingbeat.wing_motion import WingMotion
 
 # One compiled march has this many steps; finer flights chain several.

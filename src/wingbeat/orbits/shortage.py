@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.jax64 import jnp
+from wingbeat._jax.config import jnp
 from wingbeat.model import motion_table
 from wingbeat.orbits.least_misses import least_misses
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
 from wingbeat.orbits.beat import Beat, mean_positive
 
 # A rest angle further away than this is no spring but a constant torque.

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementwise_jvp import settled
+from wingbeat._jax.exported import stored
 from wingbeat.flights import Steps
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
-from wingbeat.slopes import settled
-from wingbeat.stored import stored
 
 # Steps in each of the certifier's own, which are short at the kinks of the loads: with two the multipliers of
 # unstable bats come within 1e-5 of those of an adaptive flight.

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._jax.config import jax, jnp
 from wingbeat.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
-from wingbeat.jax64 import jax, jnp
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.peaks import PARTS
 from wingbeat.vehicle import Vehicle

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from jax.custom_derivatives import SymbolicZero
 
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
 
 T = TypeVar("T")
 

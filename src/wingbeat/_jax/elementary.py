@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wingbeat.jax64 import jax, jnp
+from wingbeat._jax.config import jax, jnp
 
 # Taylor's series of sin(x)/x in x^2; on |x| <= pi/2 the first term left out is 1e-18.
 _SIN = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(11))

@@ -13,7 +13,7 @@ import jax
 import jax.numpy as jnp
 from jax._src import compilation_cache
 
-from wingbeat.program_cache import keep_program, kept_program, program_folder
+from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
 
 __all__ = ["at_default", "jax", "jnp", "register_record", "unchecked"]
 

@@ -24,10 +24,10 @@ import numpy as np
 from jax._src import xla_bridge
 from jax.core import Tracer
 
+from wingbeat._jax.config import jnp
+from wingbeat._jax.program_cache import keep_program, kept_program
 from wingbeat._version import __version__
 from wingbeat.errors import ForkError
-from wingbeat.jax64 import jnp
-from wingbeat.program_cache import keep_program, kept_program
 
 # Threads that trace at a time get in one another's way; in turn, XLA compiles the first while the next is traced.
 _TRACING = threading.Lock()
@@ -214,7 +214,7 @@ def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
 def _source_digest() -> str:
     """Return a digest of the package's own sources, so that an edited equation is traced anew."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
+    for path in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

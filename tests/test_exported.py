@@ -8,10 +8,10 @@ import sys
 import numpy as np
 import pytest
 
-import wingbeat.stored as storing
-from wingbeat.jax64 import jax, jnp
-from wingbeat.program_cache import kept_program, program_folder
-from wingbeat.stored import stored
+from wingbeat._jax import exported
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.exported import stored
+from wingbeat._jax.program_cache import kept_program, program_folder
 
 
 @stored(static=("power",))
@@ -76,14 +76,14 @@ def test_a_spoilt_file_is_traced_anew(monkeypatch, tmp_path):
         assert kept is not None
         assert len(pickle.loads(kept)) == 3
     read = []
-    monkeypatch.setattr(storing.jax.export, "export", lambda *_: read.append("traced"))
+    monkeypatch.setattr(exported.jax.export, "export", lambda *_: read.append("traced"))
     assert float(stored(twice)(4.0)) == 8.0
     assert read == []
 
 
 def test_an_option_that_xla_does_not_know_changes_nothing(monkeypatch, tmp_path):
     monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
-    monkeypatch.setattr(storing, "_SOON_ON_CPU", {"xla_cpu_no_such_option": True})
+    monkeypatch.setattr(exported, "_SOON_ON_CPU", {"xla_cpu_no_such_option": True})
 
     def thrice(x):
         return 3.0 * x
@@ -100,7 +100,7 @@ def test_an_option_that_xla_does_not_know_changes_nothing(monkeypatch, tmp_path)
     ],
 )
 def test_flags_of_the_users_own_are_kept(mine, kept):
-    code = "import wingbeat.jax64, os; print(os.environ['XLA_FLAGS'])"
+    code = "import wingbeat._jax.config, os; print(os.environ['XLA_FLAGS'])"
     environment = os.environ | {"XLA_FLAGS": mine}
     found = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True

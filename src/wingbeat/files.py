@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat.errors import FileError
-from wingbeat.leftovers import Leftover
+from wingbeat.workers.leftovers import Leftover
 
 __all__ = ["make_folder", "read_text", "toml_tables", "write_atomically", "writing"]
 

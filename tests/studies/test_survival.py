@@ -17,10 +17,10 @@ from terminals import needs_terminal, on_terminal
 
 import wingbeat as wb
 from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
-from wingbeat.cores import usable_cores
 from wingbeat.species import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
+from wingbeat.workers.affinity import usable_cores
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
 CORES = usable_cores()

@@ -27,7 +27,7 @@ from wingbeat.app.pool import Pool
 from wingbeat.app.shelf import Shelf
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError
-from wingbeat.leftovers import Leftover
+from wingbeat.workers.leftovers import Leftover
 
 __all__ = ["serve"]
 

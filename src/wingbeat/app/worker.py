@@ -12,7 +12,7 @@ import sys
 import traceback
 from typing import Any
 
-from wingbeat.workers import answer_through_stdout, hear_stdin, load_work
+from wingbeat.workers.stdio import answer_through_stdout, hear_stdin, load_work
 
 __all__ = ["NO_MEMORY", "Hand", "StoppedError", "main"]
 

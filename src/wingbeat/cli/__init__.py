@@ -26,7 +26,7 @@ def program() -> int:
 
     from wingbeat.cli.app import main
     from wingbeat.cli.streams import prepare_streams
-    from wingbeat.garbage import collect_seldom
+    from wingbeat.workers.gc import collect_seldom
 
     prepare_streams()
     collect_seldom()

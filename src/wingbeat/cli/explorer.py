@@ -9,8 +9,8 @@ from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole
-from wingbeat.cores import core_count
 from wingbeat.errors import Fault, FaultList, InvalidInputError, install_extra
+from wingbeat.workers.affinity import core_count
 
 _MOST_PROCESSES = 64
 _LONGEST_HOST = 253  # of a name in the domain name system

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wingbeat.cores import core_count
+from wingbeat.workers.affinity import core_count
 
 __all__ = ["memory_shortage"]
 

@@ -12,9 +12,9 @@ from cyclopts import Parameter
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
-from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 from wingbeat.files import make_folder
+from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
     from wingbeat.paper.pieces import Sample

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
-from wingbeat.leftovers import Leftover
+from wingbeat.workers.leftovers import Leftover
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Stop, Tally

@@ -17,16 +17,16 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat.cores import cores_of, pin_to
 from wingbeat.errors import FaultList
-from wingbeat.garbage import collect_seldom
-from wingbeat.leftovers import Leftover
 from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
 from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status
 from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.workers.affinity import cores_of, pin_to
+from wingbeat.workers.gc import collect_seldom
+from wingbeat.workers.leftovers import Leftover
 
 T = TypeVar("T")
 R = TypeVar("R")

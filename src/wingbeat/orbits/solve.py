@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from wingbeat.cores import core_count
 from wingbeat.errors import FaultList
 from wingbeat.orbits.correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
 from wingbeat.orbits.least_frequency import is_at_lower_bound
@@ -33,6 +32,7 @@ from wingbeat.orbits.solution import FAMILY, Optimum, Solution, Status, better_o
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.orbits.without_orbit import Ending, unexplained, without_orbit
+from wingbeat.workers.affinity import core_count
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.
 _NEXT_TO = 5.0

@@ -10,13 +10,13 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat.cores import core_count
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import Candidate, as_candidate, refine
 from wingbeat.orbits.solution import FAMILY, Solution, Status
 from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
 from wingbeat.orbits.transcription import Transcription
+from wingbeat.workers.affinity import core_count
 
 T = TypeVar("T")
 R = TypeVar("R")

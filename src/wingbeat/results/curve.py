@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.cores import core_count
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.marks import marks_of
 from wingbeat.orbits.problem import OrbitProblem
@@ -27,6 +26,7 @@ from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
 from wingbeat.results.saving import save_result
 from wingbeat.results.storage import KIND, inputs_hash, load_dataset
+from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from wingbeat.cores import cores_of
 from wingbeat.errors import FileError
 from wingbeat.studies.units import Outcome, Unit
+from wingbeat.workers.affinity import cores_of
 
 __all__ = ["Ended", "Engine", "LocalProcesses", "pack"]
 

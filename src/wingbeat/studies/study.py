@@ -11,7 +11,6 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.cores import core_count
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 from wingbeat.orbits.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
@@ -28,6 +27,7 @@ from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
 from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
+from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,9 +12,9 @@ import queue
 import sys
 from typing import Any
 
-from wingbeat.cores import pin_to
 from wingbeat.studies.units import Task, Unit
-from wingbeat.workers import answer_through_stdout, hear_stdin, load_work
+from wingbeat.workers.affinity import pin_to
+from wingbeat.workers.stdio import answer_through_stdout, hear_stdin, load_work
 
 __all__ = ["main"]
 

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.garbage import collect_seldom
+from wingbeat.workers.gc import collect_seldom
 
 __all__ = ["answer_through_stdout", "hear_stdin", "load_work"]
 

@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from wingbeat.cores import core_count, cores_of, pin_to, usable_cores
 from wingbeat.orbits.batch import in_processes, spread
+from wingbeat.workers.affinity import core_count, cores_of, pin_to, usable_cores
 
 CORES = usable_cores()
 several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")

@@ -19,7 +19,7 @@ from scipy.integrate import solve_ivp
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.flights import state_rates
+from wingbeat.mechanics.flights import state_rates
 
 rates = jax.jit(state_rates)
 

@@ -18,7 +18,7 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
-from wingbeat.model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.shooting import STEPS, _march, _tabulate, fly_part
 from wingbeat.orbits.starts import start_point
 

@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
-from wingbeat.flights import state_rates
-from wingbeat.loads import flight_loads
+from wingbeat.mechanics.flight_loads import flight_loads
+from wingbeat.mechanics.flights import state_rates
 
 INTEGRALS = ("force_x", "force_z", "actuator_power", "air_power", "hinge_power")
 

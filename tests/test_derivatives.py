@@ -9,7 +9,7 @@ from reflight import refly_many
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
 from wingbeat.kinematics import unpack
-from wingbeat.model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.certify import certify
 from wingbeat.orbits.correction import correct
 from wingbeat.orbits.search import optimise

@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
 from wingbeat._jax.config import jnp
-from wingbeat.flights import fly_beats
+from wingbeat.mechanics.flights import fly_beats
 from wingbeat.results.dataset import evaluate
 
 SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles once

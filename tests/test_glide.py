@@ -9,7 +9,7 @@ import xarray as xr
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.glide import held_still
+from wingbeat.mechanics.glide import held_still
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 ANGLES = np.radians([2.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0])

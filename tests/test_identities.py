@@ -9,7 +9,7 @@ from reflight import refly
 
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
-from wingbeat.five_coordinates import generalised_torques
+from wingbeat.mechanics.equations_of_motion import generalised_torques
 
 EXACT = 1e-11
 ODD_WING = wb.Wing(0.30, 0.12, 0.0048, 0.94, (0.03, 0.02, 0.01), math.radians(75))

@@ -8,7 +8,7 @@ import pytest
 from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
-from wingbeat.loads import flight_loads
+from wingbeat.mechanics.flight_loads import flight_loads
 from wingbeat.orbits.advice import Nearest, nearest_beat
 from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
 from wingbeat.orbits.search import Candidate, search

@@ -10,7 +10,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_rates, motion_table
 
 TOLERANCE = 1e-9
 STATES = 100

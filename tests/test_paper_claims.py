@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.paper import claims as judging
 from wingbeat.paper.claim import (
     FAILS,
@@ -26,7 +27,6 @@ from wingbeat.paper.pigeon_claims import pigeon_reference
 from wingbeat.paper.premise_claims import premise_claims
 from wingbeat.paper.treatments import DRAWN, PLANFORMS, TREATMENTS, Case, all_cases, problem_of, solve_cases
 from wingbeat.paper.verdict_changes import ASKED_OTHERWISE, changes_table, read_verdicts, verdict_changes
-from wingbeat.wing_motion import strips_of
 
 DOCS = Path(__file__).parents[1] / "docs"
 KEYS = {"id", "where", "claim", "paper", "ours", "unit", "verdict", "assumptions", "orbits"}

@@ -10,6 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 import wingbeat as wb
+from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.paper.figure_coefficients import coefficients_figure
 from wingbeat.paper.figure_cycle import absence, forces_figure, pitch_figure, power_figure
 from wingbeat.paper.figure_frequency import frequency_figure
@@ -18,7 +19,6 @@ from wingbeat.paper.figure_vehicle import vehicle_figure
 from wingbeat.paper.figures import FIGURES, csv_text, draw_figures
 from wingbeat.paper.measured_bands import MEASURED_FREQUENCIES
 from wingbeat.paper.treatments import Case, solve_cases
-from wingbeat.wing_motion import strips_of
 
 BAT = Case("mirrored", "bat", "su-fan", 10.0)
 BAT_DICKINSON = Case("mirrored", "bat", "dickinson", 10.0)

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
-from wingbeat.frames import stroke_pitch, to_world
-from wingbeat.wing_motion import beside, mass_points, shape_at, strips_of, wing_motion
+from wingbeat.mechanics.frames import stroke_pitch, to_world
+from wingbeat.mechanics.wing_motion import beside, mass_points, shape_at, strips_of, wing_motion
 
 STRIPS = 8
 VEHICLE = wb.Vehicle(

@@ -24,7 +24,7 @@ from wingbeat.kinematics import (
     unpack,
     with_parameters,
 )
-from wingbeat.model import motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits.shooting import flier
 from wingbeat.species_schema import template
 

@@ -1,7 +1,8 @@
 /* One right-hand side of the body's motion with the wings prescribed, by hand and eight lanes at a time.
  *
- * The arithmetic of wingbeat.model.body_rates with a coefficient model of Su-Fan's form (a sine and an exponential
- * for lift, a sine for drag), mirrored extension, force at the quarter chord. A lane is an independent problem.
+ * The arithmetic of wingbeat.mechanics.flight_model.body_rates with a coefficient model of Su-Fan's form (a sine and
+ * an exponential for lift, a sine for drag), mirrored extension, force at the quarter chord. A lane is an independent
+ * problem.
  * All arrays have the lanes last and their number is a multiple of WIDTH:
  *   table  (ROWS, lanes)  the leaves of WingMotion one under the other, STRIPS rows for a leaf of the strips
  *   state  (4, lanes)     body_pitch, u, w, pitch_rate; rates alike

@@ -1,7 +1,7 @@
 """How far the compiled right-hand side is from the same arithmetic written by hand in C.
 
-Compiles rhs.c into a temporary folder, checks it against `wingbeat.model.body_rates`, and times both on one core.
-Run from the root of a clone, with gcc at hand::
+Compiles rhs.c into a temporary folder, checks it against `wingbeat.mechanics.flight_model.body_rates`, and times
+both on one core. Run from the root of a clone, with gcc at hand::
 
     taskset -c 0 uv run python benchmarks/kernel/yardstick.py
 """
@@ -27,8 +27,8 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat.bench import median_seconds
-from wingbeat.frames import stroke_pitch
-from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.frames import stroke_pitch
 
 LANES = (64, 256, 1024, 4096)
 STEPS, REPEATS = 8, 30

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.flights import state_rates
+from wingbeat.mechanics.flights import state_rates
 from wingbeat.orbits.beat import flown_beat
 
 _rates = jax.jit(state_rates)

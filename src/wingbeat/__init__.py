@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from wingbeat.errors import ForkError as ForkError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
-    from wingbeat.five_coordinates import air_forces as air_forces
-    from wingbeat.five_coordinates import equations_of_motion as equations_of_motion
-    from wingbeat.five_coordinates import generalised_torques as generalised_torques
-    from wingbeat.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.kinematics import Wingbeat as Wingbeat
-    from wingbeat.loads import flight_loads as flight_loads
-    from wingbeat.model import FlightModel as FlightModel
-    from wingbeat.model import State as State
-    from wingbeat.model import flight_model as flight_model
+    from wingbeat.mechanics.equations_of_motion import air_forces as air_forces
+    from wingbeat.mechanics.equations_of_motion import equations_of_motion as equations_of_motion
+    from wingbeat.mechanics.equations_of_motion import generalised_torques as generalised_torques
+    from wingbeat.mechanics.flight_loads import flight_loads as flight_loads
+    from wingbeat.mechanics.flight_model import FlightModel as FlightModel
+    from wingbeat.mechanics.flight_model import State as State
+    from wingbeat.mechanics.flight_model import flight_model as flight_model
+    from wingbeat.mechanics.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.orbits.beat import Beat as Beat
     from wingbeat.orbits.limits import Constraint as Constraint
     from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
@@ -78,7 +78,7 @@ _HOME = {
     "Curve": "results.curve",
     "FileError": "errors",
     "Flight": "results.flight",
-    "FlightModel": "model",
+    "FlightModel": "mechanics.flight_model",
     "ForkError": "errors",
     "Frequency": "orbits.quantities",
     "GlidePolar": "results.glide",
@@ -90,20 +90,20 @@ _HOME = {
     "Species": "species",
     "Spread": "results.spread",
     "SpringPower": "orbits.quantities",
-    "State": "model",
+    "State": "mechanics.flight_model",
     "Status": "orbits.solution",
     "Study": "studies.study",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
     "WingbeatError": "errors",
-    "air_forces": "five_coordinates",
+    "air_forces": "mechanics.equations_of_motion",
     "bat": "species",
     "bird": "species",
-    "equations_of_motion": "five_coordinates",
-    "flight_loads": "loads",
-    "flight_model": "model",
-    "generalised_torques": "five_coordinates",
+    "equations_of_motion": "mechanics.equations_of_motion",
+    "flight_loads": "mechanics.flight_loads",
+    "flight_model": "mechanics.flight_model",
+    "generalised_torques": "mechanics.equations_of_motion",
     "glide_polar": "results.glide",
     "load_curve": "results.curve",
     "load_orbit": "results.orbit",
@@ -113,7 +113,7 @@ _HOME = {
     "robot": "species",
     "sensitivities": "results.sensitivities",
     "simulate": "results.flight",
-    "simulate_torque_driven": "flights",
+    "simulate_torque_driven": "mechanics.flights",
     "solve_curve": "results.curve",
     "solve_orbit": "results.orbit",
     "solve_orbits": "results.orbit",

@@ -15,7 +15,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
-from wingbeat.model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.shooting import flier

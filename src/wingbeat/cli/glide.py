@@ -29,7 +29,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
-from wingbeat.glide import Glide
+from wingbeat.mechanics.glide import Glide
 from wingbeat.plots import glide_page, save_figure
 from wingbeat.results.glide import GlidePolar, glide_polar
 

@@ -34,7 +34,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
-from wingbeat.model import State, flight_model
+from wingbeat.mechanics.flight_model import State, flight_model
 from wingbeat.plots import film_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly

@@ -10,13 +10,13 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import settled
 from wingbeat._jax.exported import stored
-from wingbeat.dynamics import strip_loads
-from wingbeat.frames import from_world, to_world
-from wingbeat.hinges import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
-from wingbeat.model import FlightModel, air_loads, body_rates, motion_table
+from wingbeat.mechanics.body_dynamics import strip_loads
+from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table
+from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
+from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.orbits.shooting import STEPS, Flown
-from wingbeat.wing_motion import WingMotion, strips_of, stroke_attitude
 
 
 class Beat(NamedTuple):

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.flights import RTOL, Steps, fly_through
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel, State
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 
 SAMPLES = 256
 # Samples and tolerance of a flight that only corrects; it is right to some 1e-8 and takes half the time.

@@ -16,7 +16,7 @@ from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
-from wingbeat.model import FlightModel, flight_model
+from wingbeat.mechanics.flight_model import FlightModel, flight_model
 from wingbeat.orbits.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
 from wingbeat.orbits.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.quantities import Frequency, Quantity, named_objective

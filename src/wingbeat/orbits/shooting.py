@@ -15,10 +15,10 @@ from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import settled
 from wingbeat._jax.exported import stored
 from wingbeat.kinematics import Wingbeat, unpack
-from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.wing_motion import WingMotion
 from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.stroke import ROWS, least_distances
-from wingbeat.wing_motion import WingMotion
 
 # One compiled march has this many steps; finer flights chain several.
 STEPS = 32

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat._jax.config import jnp
-from wingbeat.model import motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits.least_misses import least_misses
 from wingbeat.orbits.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 from wingbeat.orbits.transcription import Transcription

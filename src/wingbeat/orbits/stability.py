@@ -13,9 +13,9 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import settled
 from wingbeat._jax.exported import stored
-from wingbeat.flights import Steps
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.runge_kutta import ALONG, PLACES, WEIGHTS
 
 # Steps in each of the certifier's own, which are short at the kinks of the loads: with two the multipliers of

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
 from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
+from wingbeat.mechanics.wing_motion import Strips, strips_of
 from wingbeat.orbits.peaks import PARTS
 from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import Strips, strips_of
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem import OrbitProblem

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from wingbeat.model import flight_model
+from wingbeat.mechanics.flight_model import flight_model
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.energy_claims import BATS_NEED
 from wingbeat.paper.flight_claims import ARM, BAT_MEASURED, HAND, station_series

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.mechanics.wing_points import CORNERS
 from wingbeat.paper.figure_cycle import sample_orbits
 from wingbeat.paper.figure_style import PAGE, STYLE, Table, letter_panels, sheet
 from wingbeat.paper.figure_vehicle_views import draw_front, draw_oblique, draw_section, draw_side, draw_top
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, SAMPLE_SPEED, Orbits
 from wingbeat.paper.vehicle_posture import Posture, flown, posture, section
-from wingbeat.wing_points import CORNERS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,16 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.frames import stroke_pitch
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
-from wingbeat.model import FlightModel, State, flight_model
+from wingbeat.mechanics.flight_model import FlightModel, State, flight_model
+from wingbeat.mechanics.frames import stroke_pitch
+from wingbeat.mechanics.wing_motion import strips_of, twist_factors
+from wingbeat.mechanics.wing_points import corners_of, wing_points
 from wingbeat.paper.treatments import MODELS, SAMPLE_SPEED
 from wingbeat.results.dataset import evaluate
 from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
 from wingbeat.viewer.shape import body_axes
-from wingbeat.wing_motion import strips_of, twist_factors
-from wingbeat.wing_points import corners_of, wing_points
 
 
 class Posture(NamedTuple):

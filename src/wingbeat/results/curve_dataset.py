@@ -13,7 +13,7 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import PARAMETER_NAMES, in_use
-from wingbeat.model import State
+from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.marks import Mark, certified, families
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import QUANTITIES

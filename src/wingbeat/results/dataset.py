@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.loads import Loads, flight_loads
-from wingbeat.model import FlightModel, State
+from wingbeat.mechanics.flight_loads import Loads, flight_loads
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.nomenclature import NOMENCLATURE
-from wingbeat.wing_points import CORNERS, strip_corners
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,9 +12,9 @@ import numpy as np
 
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList
-from wingbeat.flights import fly_beats
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel, State, check_state
+from wingbeat.mechanics.flight_model import FlightModel, State, check_state
+from wingbeat.mechanics.flights import fly_beats
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.saving import save_result
 from wingbeat.results.storage import KIND

@@ -16,8 +16,8 @@ from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList
-from wingbeat.glide import TRIMS, Glide, GlideSolver
-from wingbeat.model import flight_model
+from wingbeat.mechanics.flight_model import flight_model
+from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import Term
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
 from wingbeat.results.saving import save_result

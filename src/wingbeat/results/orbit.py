@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.flights import Steps
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import State
+from wingbeat.mechanics.flight_model import State
+from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.beat import flown_beat
 from wingbeat.orbits.certify import SAMPLES, Certificate, certify

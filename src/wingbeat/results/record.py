@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import State
+from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, Status

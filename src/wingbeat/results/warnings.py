@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from wingbeat.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.kinematics import ANGLES, Wingbeat
+from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.least_frequency import is_at_lower_bound
 from wingbeat.orbits.problem import OrbitProblem

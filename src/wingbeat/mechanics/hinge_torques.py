@@ -3,7 +3,7 @@
 By d'Alembert the effort along a motion of the wing is ``sum m (r'' - g) . v - F . v``, v what that motion does to
 each point: for a hinge torque dr/d(angle), for the power of all actuators dr/dt in body axes. In stroke axes
 ``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` with b the place of a point, so that all sums over mass
-points depend on time alone, as in `dynamics`.
+points depend on time alone, as in `body_dynamics`.
 """
 
 from __future__ import annotations
@@ -11,12 +11,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.dynamics import strip_loads, strip_moments
-from wingbeat.frames import Pair, Triple, from_world
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
-from wingbeat.model import FlightModel
-from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import (
+from wingbeat.mechanics.body_dynamics import strip_loads, strip_moments
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.frames import Pair, Triple, from_world
+from wingbeat.mechanics.wing_motion import (
     Strips,
     WingMotion,
     WingShape,
@@ -31,6 +30,7 @@ from wingbeat.wing_motion import (
     turned,
     wing_shape,
 )
+from wingbeat.vehicle import Vehicle
 
 
 class Along(NamedTuple):

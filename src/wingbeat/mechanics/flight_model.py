@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementwise_jvp import by_slopes
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.dynamics import BodyLoads, accelerations, body_drag, wing_loads
 from wingbeat.errors import FaultList
-from wingbeat.frames import from_world
 from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_drag, wing_loads
+from wingbeat.mechanics.frames import from_world
+from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.vehicle import Air, Vehicle
-from wingbeat.wing_motion import WingMotion, stroke_attitude, wing_motion
 
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 

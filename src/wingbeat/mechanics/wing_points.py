@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import stored
-from wingbeat.frames import Triple, stroke_pitch, to_world
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
-from wingbeat.model import FlightModel, State
-from wingbeat.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.frames import Triple, stroke_pitch, to_world
+from wingbeat.mechanics.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
 
 
 class WingPoints(NamedTuple):

@@ -17,10 +17,10 @@ import numpy as np
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import stored
-from wingbeat.five_coordinates import air_forces, equations_of_motion
-from wingbeat.frames import stroke_pitch
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel
+from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.frames import stroke_pitch
 
 TRIMS = ("body-pitch", "flap", "tail")
 # Largest force over weight, and moment over weight times chord, of what counts as balance.

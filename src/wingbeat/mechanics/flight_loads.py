@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import stored
-from wingbeat.five_coordinates import air_forces_on
-from wingbeat.hinges import hinge_loads, hinge_motion
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.model import FlightModel, State, body_rates, motion_table
-from wingbeat.wing_motion import strips_of
-from wingbeat.wing_points import point_motion
+from wingbeat.mechanics.equations_of_motion import air_forces_on
+from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
+from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_points import point_motion
 
 
 class Loads(NamedTuple):

@@ -11,9 +11,9 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import stored
 from wingbeat.errors import FaultList
-from wingbeat.five_coordinates import accelerations_from_torques
 from wingbeat.kinematics import Wingbeat
-from wingbeat.model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
+from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 
 RTOL = 1e-10
 # The absolute tolerance over the relative one; states are in SI units, near one.

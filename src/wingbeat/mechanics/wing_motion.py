@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
-from wingbeat.frames import Pair, Triple, from_world, stroke_pitch
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
+from wingbeat.mechanics.frames import Pair, Triple, from_world, stroke_pitch
 from wingbeat.vehicle import Vehicle, Wing
 
 _FEW = 32

@@ -14,12 +14,12 @@ from typing import Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.dynamics import body_drag, pressure_offset
-from wingbeat.frames import from_world, to_world
 from wingbeat.kinematics import Wingbeat, span_ratio
-from wingbeat.model import FlightModel
-from wingbeat.wing_motion import strips_of
-from wingbeat.wing_points import (
+from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_points import (
     PointMotion,
     bias_accelerations,
     partial_velocities,

@@ -10,8 +10,8 @@ from typing import Any
 
 from wingbeat._jax.config import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
+from wingbeat.mechanics.wing_motion import Strips, WingShape, beside, shape_at, strips_of
 from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import Strips, WingShape, beside, shape_at, strips_of
 
 # Chordwise place of the leading and the trailing edge from the quarter chord, in chords.
 LEADING, TRAILING = 0.25, -0.75

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import cos, sin
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.frames import Pair, from_world, to_world
+from wingbeat.mechanics.frames import Pair, from_world, to_world
+from wingbeat.mechanics.wing_motion import WingMotion, dot, over_strips, turned
 from wingbeat.vehicle import Vehicle
-from wingbeat.wing_motion import WingMotion, dot, over_strips, turned
 
 
 class BodyLoads(NamedTuple):

@@ -7,8 +7,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.hinges import hinge_loads, hinge_motion
-from wingbeat.model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
 from wingbeat.species.record import Species
 
 PHASE = np.linspace(0.0, 1.0, 9)[:-1]

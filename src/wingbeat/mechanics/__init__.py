@@ -1,0 +1,1 @@
+"""The mechanics of flight: the wing's motion, the equations of motion, loads, and flights flown with them."""

@@ -22,9 +22,9 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.searches import search_from_starts
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import certified_optimum, find_orbit
 from wingbeat.orbits.starts import structured_starts
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.transcription import Transcription
 
 RANDOM_STARTS, REFERENCE_SEED = 80, 12345

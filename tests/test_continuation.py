@@ -10,8 +10,8 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.orbits import continuation
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.continuation import find_series
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import find_orbit, follow
+from wingbeat.orbits.status import Status
 
 
 @pytest.fixture(scope="module")

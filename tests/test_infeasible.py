@@ -13,9 +13,9 @@ from wingbeat.orbits.advice import Nearest, nearest_beat
 from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
 from wingbeat.orbits.search import Candidate, search
 from wingbeat.orbits.shortage import LAWS, Balance, Closest, Shortage
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.orbits.without_orbit import unexplained, without_orbit
 from wingbeat.results.warnings import rivals

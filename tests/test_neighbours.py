@@ -10,8 +10,9 @@ from wingbeat.bench import mixed_problems
 from wingbeat.orbits import batch, neighbours
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.neighbours import Answers, Known, alike, differences, numbers_of
-from wingbeat.orbits.solution import Status, better_of
+from wingbeat.orbits.solution import better_of
 from wingbeat.orbits.solve import find_orbit, settle
+from wingbeat.orbits.status import Status
 
 
 @pytest.fixture(scope="module")

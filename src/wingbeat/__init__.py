@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from wingbeat.orbits.quantities import PowerCost as PowerCost
     from wingbeat.orbits.quantities import Quantity as Quantity
     from wingbeat.orbits.quantities import SpringPower as SpringPower
-    from wingbeat.orbits.solution import Status as Status
+    from wingbeat.orbits.status import Status as Status
     from wingbeat.results.curve import Curve as Curve
     from wingbeat.results.curve import load_curve as load_curve
     from wingbeat.results.curve import solve_curve as solve_curve
@@ -91,7 +91,7 @@ _HOME = {
     "Spread": "results.spread",
     "SpringPower": "orbits.quantities",
     "State": "mechanics.flight_model",
-    "Status": "orbits.solution",
+    "Status": "orbits.status",
     "Study": "studies.study",
     "Vehicle": "vehicle",
     "Wing": "vehicle",

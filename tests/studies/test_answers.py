@@ -12,9 +12,9 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.status import Status
 from wingbeat.studies import work
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Task, Unit

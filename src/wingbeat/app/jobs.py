@@ -15,8 +15,9 @@ from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.app.worker import Hand
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import follow
+from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit, solve_orbit
 from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups

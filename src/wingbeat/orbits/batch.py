@@ -21,9 +21,10 @@ from wingbeat.errors import FaultList
 from wingbeat.orbits.neighbours import Answers, Group, Known, alike, numbers_of
 from wingbeat.orbits.polish import Curvature
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import cores_of, pin_to
 from wingbeat.workers.gc import collect_seldom
 from wingbeat.workers.leftovers import Leftover

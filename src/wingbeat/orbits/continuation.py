@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status, better_of
+from wingbeat.orbits.solution import Solution, better_of
 from wingbeat.orbits.solve import find_orbit, follow
+from wingbeat.orbits.status import Status
 
 # Sweeps up and down the row after which handing on stops, better answers or not.
 _SWEEPS = 6

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.tracing import LEAP, Branches, Join
 
 GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import enum
 import functools
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -20,18 +19,11 @@ from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.shortage import Shortage
 from wingbeat.orbits.stability import floquet_multipliers
+from wingbeat.orbits.status import Status
 
 # Optima nearer to one another than this, in the optimiser's scale, are of one family. Some wingbeats can change a
 # little at hardly any cost, and where along them a search stops is chance.
 FAMILY = 0.05
-
-
-class Status(enum.Enum):
-    """How a search for an orbit ended; the value is the name in records."""
-
-    CONVERGED = "converged"
-    INFEASIBLE = "infeasible"
-    NOT_CONVERGED = "not-converged"
 
 
 class Optimum(NamedTuple):

@@ -28,8 +28,9 @@ from wingbeat.orbits.searches import (
     search_from_optima,
     search_from_starts,
 )
-from wingbeat.orbits.solution import FAMILY, Optimum, Solution, Status, better_of, families
+from wingbeat.orbits.solution import FAMILY, Optimum, Solution, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.orbits.without_orbit import Ending, unexplained, without_orbit
 from wingbeat.workers.affinity import core_count

@@ -1,4 +1,4 @@
-"""The limits of the stroke: each wing stays on its own side of the body, and within the range of its shoulder.
+"""How near a stroke comes to its limits: the side of the body that a wing keeps to, the range of its shoulder.
 
 Both depend on the wingbeat alone; a flight hands them over with its end. Each row is the least distance from a
 limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand
@@ -7,22 +7,17 @@ in the whole beat. Where in the beat the distance is least does not matter to fi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat.kinematics import Wingbeat
-from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
+from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, lateral_corner, lateral_corners
 from wingbeat.mechanics.wing_motion import Strips, strips_of
 from wingbeat.orbits.peaks import PARTS
 from wingbeat.vehicle import Vehicle
-
-if TYPE_CHECKING:
-    from wingbeat.orbits.problem import OrbitProblem
-    from wingbeat.orbits.shooting import Flown
 
 # The limit of the corners, as a name among the active bounds.
 SYMMETRY = "plane_of_symmetry"
@@ -30,13 +25,9 @@ SYMMETRY = "plane_of_symmetry"
 # Harmonics go up to the eighth, each period of which has eight samples. One step leaves an error of 7e-5 in the
 # derivative, two 1e-8.
 _SAMPLES, _NEWTON = 64, 2
-# Corners keep this share of the wing's length off the plane of symmetry, 3 micrometres of 0.3 m: ten times what the
-# search's tolerances leave open.
-_ALLOWANCE = 1e-5
 # Name and sign of each row's limit.
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
 
-_UPRIGHT = 0.5 * math.pi
 # Each row of corners is looked for in its quarter of the beat, one of angles in the whole.
 _BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
 _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
@@ -99,34 +90,3 @@ def _at_least(value: Callable[[Any], Any], phase: Any, rows: slice) -> Any:
         step = jnp.where(bend > 0, -slope / jnp.where(bend > 0, bend, 1.0), 0.0)
         phase = jnp.clip(phase + jnp.clip(step, -1.0 / _SAMPLES, 1.0 / _SAMPLES), _BEGIN[rows], _END[rows])
     return value(jax.lax.stop_gradient(phase))
-
-
-class StrokeLimits:
-    """How far the stroke of a problem stays inside its limits, as rows of the search.
-
-    Where nothing that is free shapes the stroke, or wings may cross, there are none.
-
-    Attributes
-    ----------
-    names : name and sign of the limit of each row.
-    """
-
-    def __init__(self, problem: OrbitProblem) -> None:
-        limited = problem.shapes_stroke and not problem.wings_may_cross
-        beside = has_room(problem.vehicle)
-        self._kept = slice(0 if beside else 2 * PARTS, None if limited else 0)
-        self.names = ROWS[self._kept]
-        self._free = len(problem.free)
-        if not limited:
-            return
-        low, high = problem.bounds["flap"] if beside else np.clip(problem.bounds["flap"], -_UPRIGHT, _UPRIGHT)
-        self._limits = np.array([*[_ALLOWANCE] * 2 * PARTS, low, low, -high, -high])
-
-    def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far inside its limit each row of a flight is, and the derivative by the free parameters.
-
-        Corners are in wing lengths, flap angles in radians.
-        """
-        if not self.names:
-            return np.zeros(0), np.zeros((0, self._free))
-        return (flown.stroke - self._limits)[self._kept], flown.stroke_jacobian[self._kept]

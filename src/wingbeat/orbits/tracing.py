@@ -13,8 +13,9 @@ import numpy as np
 from wingbeat.orbits.polish import Curvature, Polish
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.search import Candidate, as_candidate, refine
-from wingbeat.orbits.solution import FAMILY, Solution, Status
+from wingbeat.orbits.solution import FAMILY, Solution
 from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.transcription import Transcription
 from wingbeat.workers.affinity import core_count
 

@@ -14,7 +14,7 @@ from wingbeat.orbits.certify import Certificate
 from wingbeat.orbits.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 from wingbeat.orbits.quantities import Frequency
 from wingbeat.orbits.shooting import Flown, flier
-from wingbeat.orbits.stroke import StrokeLimits
+from wingbeat.orbits.stroke_limits import StrokeLimits
 
 _LOST = 1e3
 # Sums of a flight's numbers beyond this overflow when squared, or soon will.

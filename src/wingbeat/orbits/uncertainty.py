@@ -14,8 +14,8 @@ from wingbeat.orbits.parameters import Parameter
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity
 from wingbeat.orbits.sensitivity import Sensitivity
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import Progress, find_orbit, follow, settle
+from wingbeat.orbits.status import Status
 
 # A uniform spread's standard deviation, as a share of its width.
 _UNIFORM = 1 / math.sqrt(12)

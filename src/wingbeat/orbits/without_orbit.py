@@ -11,7 +11,7 @@ from wingbeat.orbits.correction import Corrected, certified, first_certified
 from wingbeat.orbits.least_frequency import from_raised_bound, may_end_at_lower_bound, words_of_raise
 from wingbeat.orbits.search import Candidate, search
 from wingbeat.orbits.shortage import NOTHING, Shortage
-from wingbeat.orbits.solution import Status
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.transcription import Transcription
 
 

@@ -20,10 +20,11 @@ from wingbeat.orbits.certify import SAMPLES, Certificate, certify
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.continuation import find_series
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
 from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.status import Status
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, own_functions, problem_from
 from wingbeat.results.record import orbit_record

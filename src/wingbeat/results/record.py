@@ -13,7 +13,8 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.status import Status
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Vehicle

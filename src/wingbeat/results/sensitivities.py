@@ -13,8 +13,8 @@ from wingbeat.orbits.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem import OrbitProblem
 from wingbeat.orbits.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
-from wingbeat.orbits.solution import Status
 from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.status import Status
 from wingbeat.orbits.uncertainty import (
     ErrorBar,
     ParameterSpread,

@@ -11,7 +11,8 @@ from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.beat import Beat
 from wingbeat.orbits.least_frequency import is_at_lower_bound
 from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.solution import FAMILY, Solution, Status
+from wingbeat.orbits.solution import FAMILY, Solution
+from wingbeat.orbits.status import Status
 from wingbeat.vehicle import Air, Vehicle
 
 # Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.

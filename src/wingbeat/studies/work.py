@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 
 from wingbeat.orbits.batch import find_helped, settle_foretold
 from wingbeat.orbits.neighbours import Answers, Known, kind, numbers_of
-from wingbeat.orbits.solution import Solution, Status
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import follow
+from wingbeat.orbits.status import Status
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed

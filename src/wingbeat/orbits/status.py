@@ -1,0 +1,13 @@
+"""How a search for an orbit ended."""
+
+from __future__ import annotations
+
+import enum
+
+
+class Status(enum.Enum):
+    """How a search for an orbit ended; the value is the name in records."""
+
+    CONVERGED = "converged"
+    INFEASIBLE = "infeasible"
+    NOT_CONVERGED = "not-converged"

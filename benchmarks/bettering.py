@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.search import Candidate, search
+from wingbeat.orbits.nlp.local_search import Candidate, search
+from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solution import FAMILY, Solution
 from wingbeat.orbits.solve import certified_optimum, follow
 from wingbeat.orbits.starts import start_point
-from wingbeat.orbits.transcription import Transcription
 
 sys.path.append(str(Path(__file__).parent / "peers"))
 

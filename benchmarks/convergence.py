@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.shooting import STEPS, flier
+from wingbeat.orbits.flight.shooting import STEPS, flier
 from wingbeat.orbits.solve import find_orbit
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "convergence.md"

@@ -18,7 +18,7 @@ from typing import Any
 from infeasible_cases import Case, cases, drawn
 
 import wingbeat as wb
-from wingbeat.orbits.changes import Relaxation, with_change
+from wingbeat.orbits.infeasible.relaxation import Relaxation, with_change
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import find_orbit
 

@@ -20,12 +20,12 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.searches import search_from_starts
+from wingbeat.orbits.multistart import search_from_starts
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import certified_optimum, find_orbit
 from wingbeat.orbits.starts import structured_starts
 from wingbeat.orbits.status import Status
-from wingbeat.orbits.transcription import Transcription
 
 RANDOM_STARTS, REFERENCE_SEED = 80, 12345
 # An answer this share above the best is a miss.

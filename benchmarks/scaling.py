@@ -15,7 +15,7 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat.bench import median_seconds, right_hand_side
-from wingbeat.orbits.shooting import STEPS, flier
+from wingbeat.orbits.flight.shooting import STEPS, flier
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 REPEATS = 60

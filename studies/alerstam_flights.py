@@ -11,7 +11,7 @@ from pathlib import Path
 import wingbeat as wb
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
-from wingbeat.orbits.batch import in_processes
+from wingbeat.orbits.many.batch import in_processes
 from wingbeat.orbits.solve import Progress
 
 AIRSPEEDS = "bird_airspeed_alerstam2007.csv"

@@ -10,7 +10,7 @@ from browsers import FLAGS, PATIENCE
 from reflight import Reflight, refly
 
 import wingbeat as wb
-from wingbeat.orbits.certify import Certificate, certify
+from wingbeat.orbits.flight.certify import Certificate, certify
 
 ORBITS = {
     "pigeon": (10.0, wb.aero.SuFan()),

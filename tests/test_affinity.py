@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from wingbeat.orbits.batch import in_processes, spread
+from wingbeat.orbits.many.batch import in_processes, spread
 from wingbeat.workers.affinity import core_count, cores_of, pin_to, usable_cores
 
 CORES = usable_cores()

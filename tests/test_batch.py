@@ -8,15 +8,16 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
-from wingbeat.orbits import batch, correction
 from wingbeat.orbits import solve as solving
-from wingbeat.orbits.batch import find_orbits, in_processes
-from wingbeat.orbits.correction import correct
-from wingbeat.orbits.polish import Conditions, Polish
-from wingbeat.orbits.search import optimise, search
+from wingbeat.orbits.many import batch
+from wingbeat.orbits.many.batch import find_orbits, in_processes
+from wingbeat.orbits.nlp import defect_correction
+from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.nlp.local_search import optimise, search
+from wingbeat.orbits.nlp.newton_kkt import Conditions, Polish
+from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solve import find_beside, find_optima, find_orbit
 from wingbeat.orbits.starts import start_point, usual_starts
-from wingbeat.orbits.transcription import Transcription
 
 
 def problems():
@@ -157,7 +158,7 @@ def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
     (worse,) = [o for o in find_optima(problem, 1) if o.objective > best.objective + 0.1]
     tried = []
     monkeypatch.setattr(
-        correction, "correct", lambda p, scaled: tried.append(p.physical(scaled)) or correct(p, scaled)
+        defect_correction, "correct", lambda p, scaled: tried.append(p.physical(scaled)) or correct(p, scaled)
     )
     better = find_beside(worse, 6)
     assert better.objective == best.objective

@@ -9,10 +9,10 @@ import pytest
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.errors import FileError, InvalidInputError
-from wingbeat.orbits.marks import families, marks_of, unmarked_jumps
+from wingbeat.orbits.many.branches import LEAP, Branches, Join, carry, trace
+from wingbeat.orbits.many.transitions import families, marks_of, unmarked_jumps
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
-from wingbeat.orbits.tracing import LEAP, Branches, Join, carry, trace
 from wingbeat.results.characteristic import characteristic_speeds
 
 SPEEDS = [5.0, 6.0, 7.0]

@@ -10,12 +10,12 @@ import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
 from wingbeat.kinematics import unpack
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.certify import certify
-from wingbeat.orbits.correction import correct
-from wingbeat.orbits.search import optimise
-from wingbeat.orbits.shooting import STEPS, flier
-from wingbeat.orbits.stability import floquet_multipliers
-from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.flight.certify import certify
+from wingbeat.orbits.flight.floquet import floquet_multipliers
+from wingbeat.orbits.flight.shooting import STEPS, flier
+from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.nlp.local_search import optimise
+from wingbeat.orbits.nlp.transcription import Transcription
 
 TOLERANCE = 1e-7
 # Central differences of order 8: weight of each step.

@@ -9,15 +9,15 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.mechanics.flight_loads import flight_loads
-from wingbeat.orbits.advice import Nearest, nearest_beat
-from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
-from wingbeat.orbits.search import Candidate, search
-from wingbeat.orbits.shortage import LAWS, Balance, Closest, Shortage
+from wingbeat.orbits.infeasible.deficit import LAWS, Balance, Closest, Shortage
+from wingbeat.orbits.infeasible.diagnosis import Nearest, nearest_beat
+from wingbeat.orbits.infeasible.relaxation import Change, is_limit, possible_changes, relaxation, with_change
+from wingbeat.orbits.infeasible.without_orbit import unexplained, without_orbit
+from wingbeat.orbits.nlp.local_search import Candidate, search
+from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.status import Status
-from wingbeat.orbits.transcription import Transcription
-from wingbeat.orbits.without_orbit import unexplained, without_orbit
 from wingbeat.results.warnings import rivals
 
 CASES = list(cases())
@@ -160,10 +160,12 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     programme = Transcription(problem)
     closed = search(programme.anew(), start_point(problem, 0, 0))
     astray = Candidate(programme, 0.5 * (programme.lower + programme.upper), 1.0, False, False, 9.0)
-    monkeypatch.setattr("wingbeat.orbits.without_orbit.nearest_beat", lambda *_: Nearest(closed.scaled, (), True))
+    monkeypatch.setattr(
+        "wingbeat.orbits.infeasible.without_orbit.nearest_beat", lambda *_: Nearest(closed.scaled, (), True)
+    )
     # Searches that go on from it stray; one that finds an orbit is taken.
     assert without_orbit(programme, [astray], 1, advise=False)[1] is None
-    monkeypatch.setattr("wingbeat.orbits.without_orbit.search", lambda *_: astray)
+    monkeypatch.setattr("wingbeat.orbits.infeasible.without_orbit.search", lambda *_: astray)
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
     assert "beats that almost close were met in 1 searches, but none could be certified" in failure.message

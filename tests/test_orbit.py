@@ -9,11 +9,11 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits import solve as solving
-from wingbeat.orbits.beat import flown_beat
-from wingbeat.orbits.correction import correct
-from wingbeat.orbits.search import optimise
+from wingbeat.orbits.flight.beat import flown_beat
+from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.nlp.local_search import optimise
+from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.starts import start_point, structured_starts
-from wingbeat.orbits.transcription import Transcription
 from wingbeat.results.record import beat_mean, finite_or_none
 
 # The orbit record of the specification: names, and those of its parts.

@@ -12,11 +12,11 @@ from wingbeat.aero.model_file import FittedCurve, FittedModel
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.errors import InvalidInputError
-from wingbeat.orbits.parameters import parameters_of
-from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_order
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import find_orbit, settle
-from wingbeat.orbits.uncertainty import ErrorBar, ParameterSpread, first_order
 from wingbeat.results.sensitivities import Comparison
 
 POWER = QUANTITIES["mean_positive_power"]

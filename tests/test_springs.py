@@ -5,10 +5,10 @@ import pytest
 from scipy.optimize import linprog
 
 import wingbeat as wb
-from wingbeat.orbits.limits import parse_constraint
-from wingbeat.orbits.quantities import QUANTITIES, named_objective
+from wingbeat.orbits.problem.limits import parse_constraint
+from wingbeat.orbits.problem.objectives import QUANTITIES, named_objective
+from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.orbits.solve import find_orbit
-from wingbeat.orbits.springs import best_spring
 from wingbeat.results.provenance import problem_from
 
 PIGEON = wb.load_species("pigeon")

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.shooting import flier
-from wingbeat.orbits.stroke import SYMMETRY
-from wingbeat.orbits.stroke_limits import StrokeLimits
+from wingbeat.orbits.flight.shooting import flier
+from wingbeat.orbits.flight.stroke_distances import SYMMETRY
+from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
 from wingbeat.results.warnings import crossing
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")

@@ -25,7 +25,7 @@ from wingbeat.kinematics import (
     with_parameters,
 )
 from wingbeat.mechanics.flight_model import motion_table
-from wingbeat.orbits.shooting import flier
+from wingbeat.orbits.flight.shooting import flier
 from wingbeat.species_schema import template
 
 PLAIN = wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, 0.3, 1.6, 0.4, 0.45)

@@ -31,13 +31,13 @@ if TYPE_CHECKING:
     from wingbeat.mechanics.flight_model import State as State
     from wingbeat.mechanics.flight_model import flight_model as flight_model
     from wingbeat.mechanics.flights import simulate_torque_driven as simulate_torque_driven
-    from wingbeat.orbits.beat import Beat as Beat
-    from wingbeat.orbits.limits import Constraint as Constraint
-    from wingbeat.orbits.problem import OrbitProblem as OrbitProblem
-    from wingbeat.orbits.quantities import Frequency as Frequency
-    from wingbeat.orbits.quantities import PowerCost as PowerCost
-    from wingbeat.orbits.quantities import Quantity as Quantity
-    from wingbeat.orbits.quantities import SpringPower as SpringPower
+    from wingbeat.orbits.flight.beat import Beat as Beat
+    from wingbeat.orbits.problem.limits import Constraint as Constraint
+    from wingbeat.orbits.problem.objectives import Frequency as Frequency
+    from wingbeat.orbits.problem.objectives import PowerCost as PowerCost
+    from wingbeat.orbits.problem.objectives import Quantity as Quantity
+    from wingbeat.orbits.problem.objectives import SpringPower as SpringPower
+    from wingbeat.orbits.problem.problem import OrbitProblem as OrbitProblem
     from wingbeat.orbits.status import Status as Status
     from wingbeat.results.curve import Curve as Curve
     from wingbeat.results.curve import load_curve as load_curve
@@ -71,25 +71,25 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Air": "vehicle",
-    "Beat": "orbits.beat",
+    "Beat": "orbits.flight.beat",
     "Body": "vehicle",
     "ClusterError": "errors",
-    "Constraint": "orbits.limits",
+    "Constraint": "orbits.problem.limits",
     "Curve": "results.curve",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "mechanics.flight_model",
     "ForkError": "errors",
-    "Frequency": "orbits.quantities",
+    "Frequency": "orbits.problem.objectives",
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
     "Orbit": "results.orbit",
-    "OrbitProblem": "orbits.problem",
-    "PowerCost": "orbits.quantities",
-    "Quantity": "orbits.quantities",
+    "OrbitProblem": "orbits.problem.problem",
+    "PowerCost": "orbits.problem.objectives",
+    "Quantity": "orbits.problem.objectives",
     "Species": "species",
     "Spread": "results.spread",
-    "SpringPower": "orbits.quantities",
+    "SpringPower": "orbits.problem.objectives",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
     "Study": "studies.study",

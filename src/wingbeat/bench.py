@@ -16,9 +16,9 @@ from wingbeat._jax.config import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.batch import find_orbits
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.shooting import flier
+from wingbeat.orbits.flight.shooting import flier
+from wingbeat.orbits.many.batch import find_orbits
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, find_orbit
 from wingbeat.orbits.starts import start_point

@@ -11,7 +11,7 @@ from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
 from wingbeat.app.words import from_shown, sentence
-from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.species import species_names
 
 __all__ = ["Controls"]

@@ -14,7 +14,7 @@ from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.app.worker import Hand
 from wingbeat.errors import FileError, InvalidInputError
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import follow
 from wingbeat.orbits.status import Status

@@ -11,8 +11,8 @@ from typing import Any
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY, BladeElement, load_coefficients
 from wingbeat.errors import FaultList, FileError, InvalidInputError
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text

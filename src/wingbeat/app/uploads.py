@@ -10,7 +10,7 @@ from wingbeat.app.links import from_json, to_plain
 from wingbeat.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.species import species_text

@@ -30,7 +30,7 @@ from wingbeat.cli.options import (
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.saving import save_figure
 from wingbeat.results.curve import solve_curve
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.sensitivity import Sensitivity
-from wingbeat.orbits.uncertainty import ErrorBar
 from wingbeat.results.sensitivities import Sensitivities
 
 if TYPE_CHECKING:

@@ -46,9 +46,9 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.many.uncertainty import ErrorBar
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.orbits.uncertainty import ErrorBar
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
 from wingbeat.results.power import power_account
 from wingbeat.results.sensitivities import Sensitivities

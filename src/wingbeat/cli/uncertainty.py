@@ -12,7 +12,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.influence import in_words, ranked_in_words
 from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whole, aero_with, fit_of, species_with
 from wingbeat.cli.progress import progress_bar
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.results.sensitivities import Comparison, sensitivities, uncertainty_by_samples

@@ -22,7 +22,7 @@ from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.film import FILMED, Film
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species
 
 __all__ = ["FilmedBeat", "FilmedLaw", "fit_film"]

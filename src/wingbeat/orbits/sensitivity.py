@@ -15,13 +15,13 @@ import numpy as np
 
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
-from wingbeat.orbits.beat import flown_beat
-from wingbeat.orbits.certify import certify
-from wingbeat.orbits.parameters import SIDES, Parameter, bound_of, limit_of
-from wingbeat.orbits.polish import Conditions, Polish
-from wingbeat.orbits.problem import PATH_NAMES, PITCH_STATE, OrbitProblem, Unknowns
-from wingbeat.orbits.quantities import Quantity
-from wingbeat.orbits.transcription import Transcription
+from wingbeat.orbits.flight.beat import flown_beat
+from wingbeat.orbits.flight.certify import certify
+from wingbeat.orbits.nlp.newton_kkt import Conditions, Polish
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.problem.objectives import Quantity
+from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
+from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem, Unknowns
 
 # Blocks of steps of a flight that is right to some 1e-5.
 _FINE = 6

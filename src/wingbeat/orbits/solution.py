@@ -11,14 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.beat import Beat, flown_beat
-from wingbeat.orbits.certify import Certificate
-from wingbeat.orbits.changes import Relaxation
-from wingbeat.orbits.polish import Curvature
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import Quantity
-from wingbeat.orbits.shortage import Shortage
-from wingbeat.orbits.stability import floquet_multipliers
+from wingbeat.orbits.flight.beat import Beat, flown_beat
+from wingbeat.orbits.flight.certify import Certificate
+from wingbeat.orbits.flight.floquet import floquet_multipliers
+from wingbeat.orbits.infeasible.deficit import Shortage
+from wingbeat.orbits.infeasible.relaxation import Relaxation
+from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.problem.objectives import Quantity
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 
 # Optima nearer to one another than this, in the optimiser's scale, are of one family. Some wingbeats can change a

@@ -9,17 +9,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
-from wingbeat.orbits.least_frequency import is_at_lower_bound
-from wingbeat.orbits.polish import Curvature, Polish
-from wingbeat.orbits.problem import CLOSURE, OrbitProblem
-from wingbeat.orbits.search import (
-    Candidate,
-    active_bounds,
-    refine,
-    violation,
-)
-from wingbeat.orbits.searches import (
+from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
+from wingbeat.orbits.infeasible.without_orbit import Ending, unexplained, without_orbit
+from wingbeat.orbits.multistart import (
     Progress,
     first_searches,
     load_programs,
@@ -28,11 +20,19 @@ from wingbeat.orbits.searches import (
     search_from_optima,
     search_from_starts,
 )
+from wingbeat.orbits.nlp.defect_correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
+from wingbeat.orbits.nlp.local_search import (
+    Candidate,
+    active_bounds,
+    refine,
+    violation,
+)
+from wingbeat.orbits.nlp.newton_kkt import Curvature, Polish
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.solution import FAMILY, Optimum, Solution, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.status import Status
-from wingbeat.orbits.transcription import Transcription
-from wingbeat.orbits.without_orbit import Ending, unexplained, without_orbit
 from wingbeat.workers.affinity import core_count
 
 # Violation, in the optimiser's scale, of unknowns that are next to an orbit.

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.kinematics import parameter
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 
 # Times the stock frequency. From 2 to 4 every pigeon and nearly every bat of +-30 % was found in one search; at 1 a
 # third of the bats strayed, and took three times the flights.

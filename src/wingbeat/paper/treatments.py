@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.orbits.batch import in_processes
-from wingbeat.orbits.continuation import find_series
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.many.batch import in_processes
+from wingbeat.orbits.many.series import find_series
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit

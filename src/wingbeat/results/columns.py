@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import InvalidInputError
-from wingbeat.orbits import parameters
-from wingbeat.orbits.quantities import QUANTITIES, named_objective, named_quantity
+from wingbeat.orbits.problem import parameters
+from wingbeat.orbits.problem.objectives import QUANTITIES, named_objective, named_quantity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList, FileError
-from wingbeat.orbits.marks import marks_of
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.many.branches import trace
+from wingbeat.orbits.many.transitions import marks_of
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.orbits.tracing import trace
 from wingbeat.results.characteristic import characteristic_speeds
 from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
 from wingbeat.results.orbit import Orbit

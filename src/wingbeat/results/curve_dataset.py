@@ -14,10 +14,10 @@ from wingbeat._version import __version__
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.marks import Mark, certified, families
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import QUANTITIES
-from wingbeat.orbits.tracing import Branches
+from wingbeat.orbits.many.branches import Branches
+from wingbeat.orbits.many.transitions import Mark, certified, families
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.results.storage import KIND, inputs_hash
 

@@ -14,15 +14,15 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Steps
-from wingbeat.orbits.batch import find_orbits
-from wingbeat.orbits.beat import flown_beat
-from wingbeat.orbits.certify import SAMPLES, Certificate, certify
-from wingbeat.orbits.changes import Relaxation
-from wingbeat.orbits.continuation import find_series
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.flight.beat import flown_beat
+from wingbeat.orbits.flight.certify import SAMPLES, Certificate, certify
+from wingbeat.orbits.flight.floquet import floquet_multipliers
+from wingbeat.orbits.infeasible.relaxation import Relaxation
+from wingbeat.orbits.many.batch import find_orbits
+from wingbeat.orbits.many.series import find_series
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
-from wingbeat.orbits.stability import floquet_multipliers
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.results.dataset import evaluate, flight_dataset

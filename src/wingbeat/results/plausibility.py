@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from wingbeat.orbits.beat import Beat
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import QUANTITIES
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species.plausibility import JUDGED
 
 __all__ = ["Statements", "is_judgement", "plausibility", "statements"]

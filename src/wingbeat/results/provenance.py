@@ -17,9 +17,9 @@ from wingbeat.aero import (
 )
 from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.limits import Constraint
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import Frequency, Quantity, named_objective, named_quantity
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective, named_quantity
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
 from wingbeat.species_schema import Number, Range

@@ -11,8 +11,8 @@ from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.beat import Beat
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.results.plausibility import plausibility

@@ -9,13 +9,7 @@ import numpy as np
 
 from wingbeat.aero.model_file import FittedModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
-from wingbeat.orbits.parameters import Parameter, parameters_of
-from wingbeat.orbits.problem import OrbitProblem
-from wingbeat.orbits.quantities import Quantity, named_quantity
-from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
-from wingbeat.orbits.solve import Progress
-from wingbeat.orbits.status import Status
-from wingbeat.orbits.uncertainty import (
+from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
     ParameterSpread,
     Samples,
@@ -23,6 +17,12 @@ from wingbeat.orbits.uncertainty import (
     sample_orbits,
     uniform_spread,
 )
+from wingbeat.orbits.problem.objectives import Quantity, named_quantity
+from wingbeat.orbits.problem.parameters import Parameter, parameters_of
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
+from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 
 QUANTITIES = ("frequency", "mean_positive_power")

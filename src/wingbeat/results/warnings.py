@@ -8,9 +8,9 @@ import numpy as np
 
 from wingbeat.kinematics import ANGLES, Wingbeat
 from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
-from wingbeat.orbits.beat import Beat
-from wingbeat.orbits.least_frequency import is_at_lower_bound
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import FAMILY, Solution
 from wingbeat.orbits.status import Status
 from wingbeat.vehicle import Air, Vehicle

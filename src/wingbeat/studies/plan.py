@@ -17,7 +17,7 @@ import numpy as np
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat.orbits.parameters import unit_of
+from wingbeat.orbits.problem.parameters import unit_of
 from wingbeat.species import load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown

@@ -11,8 +11,8 @@ from typing import Any
 
 from wingbeat.aero import BladeElement
 from wingbeat.errors import FaultList
-from wingbeat.orbits.parameters import Parameter, bound_of, limit_of, parameters_of
-from wingbeat.orbits.problem import OrbitProblem
+from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.provenance import aero_from, inputs_of, species_from
 from wingbeat.species import Species

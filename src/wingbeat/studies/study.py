@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
-from wingbeat.orbits.batch import check_processes
+from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.columns import unit_of
 from wingbeat.results.orbit import Orbit

@@ -11,8 +11,8 @@ import time
 from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from wingbeat.orbits.batch import find_helped, settle_foretold
-from wingbeat.orbits.neighbours import Answers, Known, kind, numbers_of
+from wingbeat.orbits.many.batch import find_helped, settle_foretold
+from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import follow
 from wingbeat.orbits.status import Status

@@ -1,0 +1,92 @@
+"""How near a stroke comes to its limits: the side of the body that a wing keeps to, the range of its shoulder.
+
+Both depend on the wingbeat alone; a flight hands them over with its end. Each row is the least distance from a
+limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand
+in the whole beat. Where in the beat the distance is least does not matter to first order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from wingbeat._jax.config import jax, jnp
+from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, lateral_corner, lateral_corners
+from wingbeat.mechanics.wing_motion import Strips, strips_of
+from wingbeat.orbits.flight.path_maxima import PARTS
+from wingbeat.vehicle import Vehicle
+
+# The limit of the corners, as a name among the active bounds.
+SYMMETRY = "plane_of_symmetry"
+# Phases at which the least distance is looked for, and steps of Newton's method that find it between them.
+# Harmonics go up to the eighth, each period of which has eight samples. One step leaves an error of 7e-5 in the
+# derivative, two 1e-8.
+_SAMPLES, _NEWTON = 64, 2
+# Name and sign of each row's limit.
+ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
+
+# Each row of corners is looked for in its quarter of the beat, one of angles in the whole.
+_BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
+_END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
+
+
+def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, strips: int) -> Any:
+    """Return what the rows are the least of: corners over the wing's length, then angles, shape (4 N + 4, K)."""
+    corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, strips)]
+    angles = flap_angles(wingbeat, phase)
+    return jnp.concatenate([*corners, angles, -angles])
+
+
+def _places(sampled: Any, strips: int) -> tuple[Any, Any]:
+    """Return which series is the least of each row, and at which sample.
+
+    First the sample, by the least of all corners at each: XLA on CPU makes vector code of a least value, but not of
+    the search for its place.
+    """
+    part = (sampled.shape[1] - 1) // PARTS
+    quarters = np.arange(PARTS)[:, None] * part + np.arange(part + 1)
+    corners = sampled[: 4 * strips].reshape(2, 2 * strips, -1)
+    nearest = jnp.min(corners, axis=1)[:, quarters]
+    place = quarters[:, 0] + jnp.argmin(nearest, axis=-1)
+    corner = jnp.argmin(jnp.take_along_axis(corners, place[:, None], axis=2), axis=1)
+    series = jnp.append((2 * strips * np.arange(2)[:, None] + corner).ravel(), 4 * strips + np.arange(4))
+    return series, jnp.append(place.ravel(), jnp.argmin(sampled[4 * strips :], axis=-1))
+
+
+def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
+    """Return the least distance of each row, shape (12,).
+
+    Corner and phase are held when it is differentiated: at its least the rate by phase is 0.
+    """
+    samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
+    series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
+    phase = place / _SAMPLES
+    trailing, corner = jnp.divmod(series[: 2 * PARTS], 2 * strips)
+    outer, strip = jnp.divmod(corner, strips)
+    of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
+
+    def distance(at: Any) -> Any:
+        share, side = jnp.where(trailing, TRAILING, LEADING), 2.0 * outer - 1.0
+        return lateral_corner(vehicle, wingbeat, of_corners, share, side, at, strips) / vehicle.wing.semi_span
+
+    def angle(at: Any) -> Any:
+        angles = flap_angles(wingbeat, at)
+        return jnp.stack([angles[0, 0], angles[1, 1], -angles[0, 2], -angles[1, 3]])
+
+    corners = slice(2 * PARTS)
+    angles = slice(2 * PARTS, None)
+    return jnp.concatenate([_at_least(distance, phase, corners), _at_least(angle, phase, angles)])
+
+
+def _at_least(value: Callable[[Any], Any], phase: Any, rows: slice) -> Any:
+    """Return some rows at their least, by Newton's method from the phases of the least samples."""
+    phase = phase[rows]
+    for _ in range(_NEWTON):
+        one = jnp.ones_like(phase)
+        slope, bend = jax.jvp(lambda at: jax.jvp(value, (at,), (one,))[1], (phase,), (one,))  # noqa: B023
+        step = jnp.where(bend > 0, -slope / jnp.where(bend > 0, bend, 1.0), 0.0)
+        phase = jnp.clip(phase + jnp.clip(step, -1.0 / _SAMPLES, 1.0 / _SAMPLES), _BEGIN[rows], _END[rows])
+    return value(jax.lax.stop_gradient(phase))

@@ -1,0 +1,283 @@
+"""Single changes to a problem: a bound, a limit, or a number of the vehicle or the flight set to another value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from wingbeat.errors import InvalidInputError
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import ANGLES, parameter, with_parameters
+from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.parameters import Place, unit_of, with_number
+from wingbeat.orbits.problem.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
+
+# How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
+_QUARTER_TURN = 0.5 * math.pi
+_ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
+_ANY_FLAP = (-1.3 * _QUARTER_TURN, 1.3 * _QUARTER_TURN)
+_AMPLITUDE = (0.0, _QUARTER_TURN)
+_REACH = {
+    "frequency": (0.1, 200.0),
+    "flap_amplitude": _AMPLITUDE,
+    "pitch_amplitude": _AMPLITUDE,
+    "sweep_amplitude": _AMPLITUDE,
+    "span_retraction": (0.0, 0.9),
+    "twist_ratio": (0.0, 4.0),
+    "downstroke_fraction": (0.1, 0.9),
+    "body_pitch": _ANY_ANGLE,
+    "flap": _ANY_FLAP,
+}
+# Of a harmonic, an angle or a share of the span.
+_HARMONIC = (-0.5, 0.5)
+# How often a reach beyond what can be is halved.
+_HALVED = 6
+# A change of an angle by this much counts as large as a change of any other number by all of itself.
+_LARGE_ANGLE = math.radians(60.0)
+# Times itself that a limit is raised, or divided by, in looking for an orbit.
+_FAR = 30.0
+# The lightest body, and the most that is added to the speed, as a share of what was asked for.
+_LIGHTEST = 0.1
+_MUCH_FASTER = 5.0
+# Where a cost of transport is asked for, which hover has none of, the slowest flight, as a share of the speed.
+_SLOWEST = 0.01
+# A much wider range of frequencies: its ends times and over this, and shares of the upper end by which it is raised
+# first. Bounds of a scaling law used outside its data were met to be 9 times too low (a bat of 10 kg).
+_WIDE = 10.0
+_RAISED = (1.0, 3.0, _WIDE - 1.0)
+# Times what is short that a number is moved first.
+_MORE = 1.1
+# The least change that is worth a digit of its own, as a share of its scale.
+_LEAST = 1e-3
+# Chords that the shoulder is moved by, at most; of a speed near 0, what counts as large [m/s].
+_CHORDS = 2.0
+_BRISK = 2.0
+
+
+# Ends of the range of frequencies, which are moved whether or not the nearest beat is at them: a search that never
+# came near an orbit says nothing of where the frequency would have to be.
+WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
+
+
+@dataclass(frozen=True)
+class Change:
+    """A number of a problem that may move, one way only.
+
+    Parameters
+    ----------
+    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity,
+        ``mass`` (whole, taken off the body), ``speed``, ``climb`` or ``shoulder`` (its place ahead of the body's
+        centre of mass).
+    sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for what is held.
+    old : what it is, SI and radians.
+    reach : how far it may go.
+    scale : a change that is large.
+    tries : shares of the scale at which an orbit is looked for first; the reach alone if not given.
+    """
+
+    name: str
+    sign: str
+    old: float
+    reach: float
+    scale: float
+    tries: tuple[float, ...] = ()
+
+    @property
+    def widest(self) -> float:
+        """The farthest it may move, over its scale."""
+        return abs(self.reach - self.old) / self.scale
+
+    @property
+    def direction(self) -> float:
+        """The sign of a change."""
+        return math.copysign(1.0, self.reach - self.old)
+
+    def moved(self, share: float) -> float:
+        """Return the number moved by a share of its scale, never past its reach."""
+        moved = self.old + self.direction * share * self.scale
+        return min(max(moved, min(self.old, self.reach)), max(self.old, self.reach))
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """A single change with which a certified orbit was found.
+
+    Parameters
+    ----------
+    name, sign : which number, as in `Change`.
+    old, new : what it is and what it would be, SI and radians.
+    unit : of both.
+    text : the change in words, angles in degrees.
+    """
+
+    name: str
+    sign: str
+    old: float
+    new: float
+    unit: str
+    text: str
+
+    def apply(self, problem: OrbitProblem) -> OrbitProblem:
+        """Return the problem with the change made."""
+        return with_change(problem, self.name, self.sign, self.new)
+
+
+_SHOWN = {"rad": (math.degrees(1.0), "deg"), "m": (1e3, "mm")}
+_PLACES: dict[str, Place] = {
+    "mass": ("species", "vehicle", "body", "mass"),
+    "shoulder": ("species", "vehicle", "wing", "shoulder", 0),
+    "speed": ("speed",),
+    "climb": ("climb",),
+}
+
+
+def _unit(problem: OrbitProblem, change: Change) -> str:
+    limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
+    return limits[0] if limits else unit_of(change.name)
+
+
+def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
+    """Return the change to at least a value, rounded outward to what its text prints.
+
+    Parameters
+    ----------
+    problem, change : what changes.
+    value : what it must at least be changed to, SI.
+    more : further steps of the last digit.
+    """
+    unit = _unit(problem, change)
+    factor, shown = _SHOWN.get(unit, (1.0, unit))
+    new = rounded_outward(change, value, factor, more)
+    text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
+    text += "" if shown == "1" else f" {shown}"
+    if change.name == "mass":
+        text += f" ({100 * (new / change.old - 1):.2g} %, off the body)"
+    return Relaxation(change.name, change.sign, change.old, new, unit, text)
+
+
+def _words(problem: OrbitProblem, change: Change) -> str:
+    if any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
+        return f"{'upper' if change.sign == '<=' else 'lower'} limit of {change.name}"
+    words = {"pitch_mean": "mean wing pitch", "pitch_amplitude": "wing pitch amplitude", "mass": "whole mass"}
+    name = words.get(change.name, change.name.replace("_", " "))
+    return name if change.sign == "=" else f"{'upper' if change.sign == '<=' else 'lower'} bound of {name}"
+
+
+def with_change(problem: OrbitProblem, name: str, sign: str, value: float) -> OrbitProblem:
+    """Return the problem with one number set, named as in `Change`."""
+    if name == "mass":
+        value -= 2.0 * problem.vehicle.wing.mass
+    return with_number(problem, _place(problem, name, sign), value)
+
+
+def _place(problem: OrbitProblem, name: str, sign: str) -> Place:
+    if name in _PLACES:
+        return _PLACES[name]
+    limits = [i for i, c in enumerate(problem.subject_to) if is_limit(c, name, sign)]
+    if limits:
+        return "subject_to", limits[0], "limit"
+    if sign == "=":
+        return "species", "wingbeat", name
+    return "bounds", name, int(sign == "<=")
+
+
+def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
+    """Say whether a constraint is the limit of this name and sign."""
+    return constraint.quantity.name == name and constraint.at_most is (sign == "<=")
+
+
+def possible_changes(
+    problem: OrbitProblem, leaning: Iterable[tuple[str, str]], short: Mapping[str, float]
+) -> Iterator[Change]:
+    """Yield the changes that may make a problem feasible.
+
+    Parameters
+    ----------
+    problem : the problem.
+    leaning : (name, sign) of the bounds, that of body pitch along the path too, that the nearest beat leans on.
+    short : what that beat is short of, by law, as shares of the weight and of weight times chord: a vehicle lighter
+        by the lift that is short, or one that sinks by the thrust that is short, is next to an orbit.
+    """
+    limits = [(c.quantity.name, "<=" if c.at_most else ">=", c) for c in problem.subject_to]
+    for name, sign, constraint in limits:
+        old = float(constraint.limit)
+        scale = abs(old) or constraint.quantity.scale
+        yield Change(name, sign, old, old + (_FAR if constraint.at_most else -_FAR) * scale, scale)
+    for name, sign in dict.fromkeys((*leaning, *WIDER_FREQUENCIES)):
+        if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
+            upper = sign == "<="
+            old = float(problem.bounds[name][upper])
+            tries = _RAISED if (name, upper) == ("frequency", True) else ()
+            yield from _towards(name, sign, old, _reach(problem, name, old, upper), tries)
+    for name in problem.species.bounds:
+        if name not in problem.free:
+            old = float(parameter(problem.species.wingbeat, name))
+            for upper in (False, True):
+                tries = (0.1, 0.3, *_RAISED) if name == "frequency" else (0.1, 0.3)
+                yield from _towards(name, "=", old, _reach(problem, name, old, upper), tries)
+    wing = problem.vehicle.wing
+    mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
+    yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, _tries(short.get(LIFT), (0.3, 0.6)))
+    brisk = max(problem.speed, _BRISK)
+    fastest = min(problem.speed + _MUCH_FASTER * brisk, FASTEST)
+    yield from _moving("speed", problem.speed, fastest, brisk, (0.3, 1.0, 2.5))
+    slowest = _SLOWEST * problem.speed if problem.asks_cost_of_transport else 0.0
+    yield from _moving("speed", problem.speed, slowest, brisk, (0.3,))
+    steepest = max(problem.climb - brisk, -FASTEST_CLIMB)
+    yield from _moving("climb", problem.climb, steepest, brisk, _tries(short.get(THRUST), (0.2, 0.4)))
+    for way in (1.0, -1.0):
+        reach, tries = ahead + way * _CHORDS * wing.mean_chord, _tries(short.get(MOMENT), (0.2, 0.6))
+        yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
+
+
+def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[float, ...]) -> Iterator[Change]:
+    """Yield the change of a velocity, if it leaves any way to go."""
+    if reach != old:
+        yield Change(name, "=", old, reach, scale, tries)
+
+
+def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
+    """Return how far a number of the wingbeat may go, up or down, for there still to be a wingbeat."""
+    reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
+    far = reach[upper]
+    if name == "frequency":
+        far = max(far, _WIDE * old) if upper else min(far, old / _WIDE)
+    for _ in range(_HALVED):
+        try:
+            with_parameters(problem.species.wingbeat, {} if name in PATH_NAMES else {name: far})
+        except InvalidInputError:
+            far = 0.5 * (old + far)
+        else:
+            return far
+    return old
+
+
+def _tries(short: float | None, others: tuple[float, ...]) -> tuple[float, ...]:
+    return others if short is None else (_MORE * abs(short), *others)
+
+
+def _towards(name: str, sign: str, old: float, reach: float, tries: tuple[float, ...] = ()) -> Iterator[Change]:
+    """Yield the change from old to reach, if there is any way to go in that direction."""
+    scale = _LARGE_ANGLE if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
+    if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
+        yield Change(name, sign, old, reach, scale, tries)
+
+
+def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
+    """Return a value that can be printed, moved on from `old` to the next of two digits of the change.
+
+    Parameters
+    ----------
+    change : of which number.
+    value : what it must at least be changed to, SI.
+    factor : of the unit it is printed in.
+    more : further steps of the last digit.
+    """
+    moved = max(abs(value - change.old), _LEAST * change.scale) * factor
+    digits = 1 - math.floor(math.log10(moved))
+    way = change.direction
+    steps = math.ceil(round(way * value * factor * 10.0**digits, 3)) + more
+    printed = round(way * steps * 10.0**-digits, digits)
+    return min(max(printed / factor, min(change.old, change.reach)), max(change.old, change.reach))

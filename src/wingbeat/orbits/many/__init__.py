@@ -1,0 +1,1 @@
+"""Many orbits: batches, series, branches along speed, and spreads."""

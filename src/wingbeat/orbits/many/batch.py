@@ -1,0 +1,264 @@
+"""Many orbit problems, spread over processes; of problems alike, the later ones start from the answers before."""
+
+from __future__ import annotations
+
+import functools
+import multiprocessing
+import multiprocessing.connection
+import multiprocessing.resource_tracker
+import multiprocessing.util
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.orbits.many.warm_start import Answers, Group, Known, alike, numbers_of
+from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
+from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.status import Status
+from wingbeat.workers.affinity import cores_of, pin_to
+from wingbeat.workers.gc import collect_seldom
+from wingbeat.workers.leftovers import Leftover
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+_MOST_PROCESSES = 1024
+
+
+class Part(NamedTuple):
+    """Problems of one kind that are solved one after the other, and answers of others to begin with."""
+
+    problems: list[OrbitProblem]
+    known: list[Known]
+
+
+# A solution, and what it tells of other problems if it is certified.
+Answer = tuple[Solution, Known | None]
+
+
+def find_orbits(
+    problems: Sequence[OrbitProblem],
+    starts: int | None = None,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
+    most_starts: int | None = None,
+    advise: bool = False,
+) -> Iterator[Solution]:
+    """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
+
+    Of problems that differ in numbers only, the first are searched as in `find_orbit`. Of a later one the first
+    search starts from what their answers foretell; if that leads to no certified orbit, it does not count. Of many
+    that are alike some go first and foretell the rest, which is shared out.
+
+    Parameters
+    ----------
+    problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
+    starts, seed, most_starts, advise : as in `find_orbit`, for each problem.
+    processes : how many Python processes share the work; with 1 it is done in this one. The answers are the same.
+    progress : called with (problems done, problems in all).
+
+    Raises
+    ------
+    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
+    """
+    faults = FaultList()
+    for i, problem in enumerate(problems):
+        if not isinstance(problem, OrbitProblem):
+            faults.add(f"problems[{i}]", problem, "is not an OrbitProblem")
+    check_processes(faults, processes)
+    faults.raise_if_any()
+    check_search(1 if starts is None else starts, seed, 1 if most_starts is None else most_starts)
+    solve = functools.partial(_solve_part, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
+    return _in_order(solve, problems, processes, progress)
+
+
+def check_processes(faults: FaultList, processes: Any) -> None:
+    """Note a fault unless it is a whole number of processes."""
+    if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
+        faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
+
+
+def _in_order(
+    solve: Callable[[Part], Iterator[Answer]],
+    problems: Sequence[OrbitProblem],
+    processes: int,
+    progress: Progress | None,
+) -> Iterator[Solution]:
+    """Solve group by group, and yield each solution when its turn comes."""
+    groups = alike(problems)
+    work = solve if processes == 1 else functools.partial(_all_of, solve)
+    waiting: dict[int, Solution] = {}
+    due = 0
+    with spread(processes, max(len(groups), sum(len(group.parts) for group in groups))) as over:
+        for index, solution in _by_groups(functools.partial(over, work), problems, groups):
+            waiting[index] = solution
+            if progress is not None:
+                progress(due + len(waiting), len(problems))
+            while due in waiting:
+                yield waiting.pop(due)
+                due += 1
+
+
+def _by_groups(
+    solve: Callable[[list[Part]], Iterator[Iterable[Answer]]],
+    problems: Sequence[OrbitProblem],
+    groups: Sequence[Group],
+) -> Iterator[tuple[int, Solution]]:
+    """Yield index and solution of each problem: those of a group that go first, then the parts that they help."""
+    known: list[list[Known]] = [[] for _ in groups]
+    first = [Part([problems[i] for i in group.first], []) for group in groups]
+    for group, learned, answers in zip(groups, known, solve(first), strict=True):
+        for index, (solution, answer) in zip(group.first, answers, strict=True):
+            if answer is not None:
+                learned.append(answer)
+            yield index, solution
+    rest = [(part, learned) for group, learned in zip(groups, known, strict=True) for part in group.parts]
+    found = solve([Part([problems[i] for i in part], learned) for part, learned in rest])
+    for (part, _), answers in zip(rest, found, strict=True):
+        for index, (solution, _) in zip(part, answers, strict=True):
+            yield index, solution
+
+
+def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
+    return list(solve(item))
+
+
+def _solve_part(
+    part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool
+) -> Iterator[Answer]:
+    """Solve the problems of a part in turn, each helped by the answers before."""
+    numbers = [numbers_of(problem) for problem in part.problems]
+    answers = Answers(part.known, numbers)
+    for i, problem in enumerate(part.problems):
+        count = usual_starts(problem) if starts is None else starts
+        settled = settle_foretold(problem, answers.foretell(i))
+        best = find_helped(problem, settled, count, seed, most_starts, advise)
+        known = None
+        if best.status is Status.CONVERGED:
+            known = Known(numbers[i], best.unknowns, best.active_bounds, best.learned)
+            answers.add(i, known)
+        yield best, known
+
+
+def settle_foretold(
+    problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Curvature | None]]
+) -> Solution | None:
+    """Return the best certified orbit next to what answers foretell, or None."""
+    settled = [found for guess in guesses if (found := settle(problem, *guess)) is not None]
+    return min(settled, key=lambda found: found.objective, default=None)
+
+
+def find_helped(
+    problem: OrbitProblem,
+    known: Solution | None,
+    starts: int,
+    seed: int = 0,
+    most_starts: int | None = None,
+    advise: bool = False,
+    explain: bool = True,
+) -> Solution:
+    """Return the best of a certified orbit that other answers led to, if any, and what the searches left find.
+
+    Parameters
+    ----------
+    problem, starts, seed, most_starts, advise, explain : as in `find_orbit`.
+    known : takes the place of one search; with it there is an orbit, so nobody asks for most_starts or advice.
+    """
+    if known is None:
+        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise, explain=explain)
+    return known if starts == 1 else find_beside(known, starts - 1, seed)
+
+
+def in_processes(
+    work: Callable[[T], R],
+    items: Sequence[T],
+    processes: int,
+    progress: Progress | None = None,
+) -> Iterator[R]:
+    """Yield what `work` makes of each item, in their order, as they come.
+
+    Parameters
+    ----------
+    work : a function that can be pickled; its JAX programs run in the process it is called in.
+    items : what to work on.
+    processes : how many Python processes share the items; with 1 it is done in this one.
+    progress : called with (items done, items in all).
+    """
+
+    def told(results: Iterator[R]) -> Iterator[R]:
+        for done, result in enumerate(results, start=1):
+            if progress is not None:
+                progress(done, len(items))
+            yield result
+
+    with spread(processes, len(items)) as over:
+        yield from told(over(work, items))
+
+
+@contextmanager
+def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
+    """Give a `map` over so many processes, as many as there is work for at most; with 1 it is Python's own."""
+    if processes == 1:
+        yield map
+        return
+    # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
+    context = multiprocessing.get_context("spawn")
+    count = min(processes, max(most, 1))
+    with Leftover(_abandon), ProcessPoolExecutor(count, context, _begin_work, (cores_of(count),)) as pool:
+
+        def over(work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+            with _deaf_to_interrupts():  # it starts the processes
+                return pool.map(work, items)
+
+        try:
+            yield over
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Have processes that are started meanwhile ignore Ctrl-C, also while they still import: it is for this one."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    multiprocessing.resource_tracker.ensure_running()  # at its start it lets the signal through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _abandon() -> None:
+    """End the processes of pools at once, and give the system back the semaphores they share."""
+    for process in multiprocessing.active_children():
+        process.kill()
+    multiprocessing.util._run_finalizers(0)  # type: ignore[attr-defined]
+
+
+def _begin_work(cores: Sequence[int | None]) -> None:
+    """Set up a process of a pool: those of one pool are numbered one after the other, so that each has its core."""
+    number = multiprocessing.current_process().name.split("-")[-1].split(":")[-1]
+    threading.Thread(target=_leave_with_parent, daemon=True).start()
+    pin_to(cores[int(number) % len(cores)])
+    collect_seldom()
+
+
+def _leave_with_parent() -> None:
+    """End this process when the one that started it is gone, whatever it is doing."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    multiprocessing.connection.wait([parent.sentinel])
+    os._exit(1)

@@ -1,0 +1,117 @@
+"""What a curve of best orbits tells of itself: where it changes branch, meets other bounds, or has gaps."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.orbits.many.branches import LEAP, Branches, Join
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.status import Status
+
+GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
+
+
+class Mark(NamedTuple):
+    """Something that happens to the best orbit between two neighbouring speeds [m/s], in a few words."""
+
+    kind: str
+    lower_speed: float
+    upper_speed: float
+    what: str
+
+
+def marks_of(branches: Branches) -> list[Mark]:
+    """Return what happens from speed to speed along the best orbits.
+
+    ``gap``: one side has no certified orbit. ``branch``: the best of one side is not continued into the best of the
+    other, so that unknowns jump. ``bounds``: other bounds are active.
+    """
+    marks = []
+    for interval, (below, above) in enumerate(_neighbours(branches)):
+        ends = below.problem.speed, above.problem.speed
+        if not certified(below) or not certified(above):
+            marks.append(Mark(GAP, *ends, "no certified orbit at one of these speeds"))
+            continue
+        if _join_of_best(branches, interval) is None:
+            marks.append(Mark(BRANCH, *ends, _how_it_changes(branches, interval)))
+        gone = [name for name in below.active_bounds if name not in above.active_bounds]
+        come = [name for name in above.active_bounds if name not in below.active_bounds]
+        parts = [f"{', '.join(names)} {verb}" for names, verb in ((gone, "left"), (come, "met")) if names]
+        if parts:
+            marks.append(Mark(BOUNDS, *ends, "; ".join(parts)))
+    return marks
+
+
+def unmarked_jumps(branches: Branches, marks: list[Mark]) -> list[tuple[float, float]]:
+    """Return the intervals over which unknowns change by more than their continuation can, and no mark says so.
+
+    A continuation in n steps changes no unknown by more than n times `LEAP`, in the optimiser's scale.
+    """
+    marked = {(m.lower_speed, m.upper_speed) for m in marks if m.kind in (GAP, BRANCH)}
+    jumps = []
+    for interval, (below, above) in enumerate(_neighbours(branches)):
+        ends = below.problem.speed, above.problem.speed
+        join = _join_of_best(branches, interval)
+        steps = 0 if join is None else join.steps
+        change = np.abs(above.place - below.place).max()
+        if ends not in marked and not change <= steps * LEAP * (1.0 + 1e-6):
+            jumps.append(ends)
+    return jumps
+
+
+def families(branches: Branches) -> list[list[int]]:
+    """Return the number of the family that each optimum of each speed is of, in the order of their best objective.
+
+    A family has one optimum at a speed; where two are continued into one, the shorter way goes on.
+    """
+    labels = [[-1] * len(optima) for optima in branches.optima]
+    count = 0
+    for place, optima in enumerate(branches.optima):
+        ways = [join for join in branches.joins if join.interval == place - 1]
+        taken: set[int] = set()
+        for join in sorted(ways, key=lambda j: j.steps):
+            if labels[place][join.upper] < 0 and join.lower not in taken:
+                labels[place][join.upper] = labels[place - 1][join.lower]
+                taken.add(join.lower)
+        for index in range(len(optima)):
+            if labels[place][index] < 0:
+                labels[place][index] = count
+                count += 1
+    first = dict.fromkeys(label for rank in range(count) for row in labels for label in row[rank : rank + 1])
+    order = {label: number for number, label in enumerate(first)}
+    return [[order[label] for label in row] for row in labels]
+
+
+def certified(solution: Solution) -> bool:
+    """Whether a solution is a certified orbit."""
+    return solution.status is Status.CONVERGED
+
+
+def _neighbours(branches: Branches) -> list[Any]:
+    best = [optima[0] for optima in branches.optima]
+    return list(itertools.pairwise(best))
+
+
+def _join_of_best(branches: Branches, interval: int) -> Join | None:
+    return next((j for j in branches.joins if (j.interval, j.lower, j.upper) == (interval, 0, 0)), None)
+
+
+def _how_it_changes(branches: Branches, interval: int) -> str:
+    """Say whether two families cross, and where, or one of them ends."""
+    ways = {j.lower: j.upper for j in branches.joins if j.interval == interval}
+    back = {upper: lower for lower, upper in ways.items()}
+    below, above = branches.optima[interval : interval + 2]
+    if 0 in ways and 0 in back:
+        before = below[back[0]].objective - below[0].objective
+        after = above[ways[0]].objective - above[0].objective
+        low, high = below[0].problem.speed, above[0].problem.speed
+        share = before / (before + after) if before + after > 0 else 0.5
+        return f"another family becomes the better near {low + share * (high - low):.2f} m/s"
+    if 0 in ways:
+        return "a better family begins"
+    if 0 in back:
+        return "the family ends and another goes on"
+    return "the family ends and another begins"

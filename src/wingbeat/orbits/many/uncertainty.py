@@ -1,0 +1,168 @@
+"""How far an answer is known: spreads of what goes in, carried to what comes out, to first order and by samples."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.orbits.many.batch import in_processes
+from wingbeat.orbits.problem.objectives import Quantity
+from wingbeat.orbits.problem.parameters import Parameter
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.sensitivity import Sensitivity
+from wingbeat.orbits.solve import Progress, find_orbit, follow, settle
+from wingbeat.orbits.status import Status
+
+# A uniform spread's standard deviation, as a share of its width.
+_UNIFORM = 1 / math.sqrt(12)
+
+
+class ParameterSpread(NamedTuple):
+    """What is not known of some parameters: deviations from their values, independent of all other spreads.
+
+    ``plausible`` is the lowest and highest deviation of one parameter, all between as likely; without it the
+    deviations are normal, of mean 0 and of `covariance`, shape (P, P).
+    """
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    covariance: np.ndarray
+    plausible: tuple[float, float] | None = None
+
+    @property
+    def mean(self) -> np.ndarray:
+        """Mean deviation of each parameter; not 0 where the value is not in the middle of its range."""
+        return np.full(len(self.parameters), 0.0 if self.plausible is None else float(np.mean(self.plausible)))
+
+    def draw(self, generator: np.random.Generator, count: int) -> np.ndarray:
+        """Return deviations, shape (count, P)."""
+        if self.plausible is not None:
+            return generator.uniform(*self.plausible, size=(count, 1))
+        return generator.multivariate_normal(np.zeros(len(self.parameters)), self.covariance, size=count)
+
+
+def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
+    """Return the spread of a parameter over its plausible range, drawn in about its value to a share of it."""
+    assert parameter.plausible is not None
+    low, high = (share * (end - parameter.value) for end in parameter.plausible)
+    return ParameterSpread(parameter.path, (parameter,), np.array([[((high - low) * _UNIFORM) ** 2]]), (low, high))
+
+
+class ErrorBar(NamedTuple):
+    """A quantity with its standard deviation, and how much of that is due to each spread, largest first.
+
+    The squares of `due_to` add up to that of `deviation`. `shift` is how far the mean lies from `value`, since not
+    every value is in the middle of its range.
+
+    First order is a straight line through the optimum. Only draws can tell whether it will do over whole ranges;
+    until they have, `ranking` is what can be said: which spreads matter most.
+    """
+
+    quantity: str
+    unit: str
+    value: float
+    deviation: float
+    shift: float
+    due_to: dict[str, float]
+
+    @property
+    def ranking(self) -> dict[str, float]:
+        """Share of the variance to first order that is due to each spread, largest first."""
+        whole = self.deviation**2
+        return {name: part**2 / whole for name, part in self.due_to.items()} if whole > 0 else {}
+
+    def ranked(self) -> dict[str, Any]:
+        """Return the quantity and its ranking, without an error bar, fit for JSON."""
+        return {"quantity": self.quantity, "unit": self.unit, "value": self.value, "ranking": self.ranking}
+
+
+def first_order(
+    slopes: Sequence[Sensitivity], spreads: Sequence[ParameterSpread], quantity: str, unit: str, value: float
+) -> ErrorBar:
+    """Carry spreads to a quantity by its derivatives.
+
+    Parameters
+    ----------
+    slopes : derivatives by every parameter of the spreads.
+    quantity : name of one of those that were differentiated.
+    unit, value : of the quantity.
+    """
+    by_path = {s.parameter.path: s.quantities[quantity] for s in slopes}
+    due_to, shift = {}, 0.0
+    for spread in spreads:
+        slope = np.array([by_path[p.path] for p in spread.parameters])
+        due_to[spread.name] = math.sqrt(slope @ spread.covariance @ slope)
+        shift += float(slope @ spread.mean)
+    ranked = dict(sorted(due_to.items(), key=lambda item: -item[1]))
+    return ErrorBar(quantity, unit, value, math.hypot(*ranked.values()), shift, ranked)
+
+
+class Samples(NamedTuple):
+    """Orbits of drawn parameters.
+
+    Deviations, shape (n, P), in the order of `paths`; quantities, (n, Q); which draws are certified, (n,).
+    """
+
+    paths: tuple[str, ...]
+    deviations: np.ndarray
+    quantities: np.ndarray
+    certified: np.ndarray
+
+
+def sample_orbits(
+    problem: OrbitProblem,
+    unknowns: np.ndarray,
+    slopes: Sequence[Sensitivity],
+    spreads: Sequence[ParameterSpread],
+    quantities: Sequence[Quantity],
+    count: int,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
+) -> Samples:
+    """Solve a problem with its parameters drawn from their spreads, again and again.
+
+    Every draw is settled from where the slopes foretell its optimum, and so belongs to the same family of orbits;
+    where that leads to none it is searched.
+
+    Parameters
+    ----------
+    problem, unknowns : the orbit problem and its optimum.
+    slopes : its sensitivities by the spreads' parameters.
+    spreads : what to draw from.
+    quantities : read off every certified orbit; NaN where there is none.
+    count : number of draws.
+    seed : of the draws, and of the searches.
+    processes, progress : as in `solve_orbits`.
+    """
+    generator = np.random.default_rng(seed)
+    parameters = [p for spread in spreads for p in spread.parameters]
+    deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
+    by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
+    foretold = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
+    drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, foretold, strict=True)]
+    work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed)
+    values = np.array(list(in_processes(work, drawn, processes, progress)))
+    certified = np.asarray(np.isfinite(values).all(axis=1))
+    return Samples(tuple(p.path for p in parameters), deviations, values, certified)
+
+
+def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: np.ndarray) -> OrbitProblem:
+    for parameter, deviation in zip(parameters, deviations.tolist(), strict=True):
+        problem = parameter.changed(problem, parameter.value + deviation)
+    return problem
+
+
+def _read_off(drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int) -> list[float]:
+    """Return quantities of the orbit of one draw, not-a-number where there is none."""
+    problem, guess = drawn
+    found = settle(problem, guess) or follow(problem, guess)
+    if found is None:
+        found = find_orbit(problem, 1, seed, threads=1, most_starts=1)
+    if found.status is not Status.CONVERGED:
+        return [math.nan] * len(quantities)
+    return [found.value_of(quantity) for quantity in quantities]

@@ -1,0 +1,176 @@
+"""Which problems of a batch are alike, and what the answers of some foretell of another's."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat._jax.config import jax
+from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.problem.problem import OrbitProblem
+
+# Problems that are solved one after the other, each helped by those before: few enough to share a batch out over
+# processes. Of more that are alike so many go first and help all others.
+TOGETHER = 256
+FIRST = 128
+# Answers nearer than this share of the farthest one asked weigh alike.
+_NEAR = 0.3
+# Relative differences between numbers that come from rounding.
+_ROUNDING = 1e-12
+
+
+class Group(NamedTuple):
+    """Indices of problems that differ in numbers only: those that are solved first, and parts that they help."""
+
+    first: list[int]
+    parts: list[list[int]]
+
+
+def alike(problems: Sequence[OrbitProblem]) -> list[Group]:
+    """Return the problems in groups that differ in numbers only, all in an order to learn from.
+
+    A group is of one species and one coefficient model, by name; its parts have neighbouring numbers. Orders go to
+    what is farthest from all that came before. Groups hang on the problems alone, not on who solves them.
+    """
+    kinds: dict[object, list[int]] = {}
+    for i, problem in enumerate(problems):
+        kinds.setdefault(kind(problem), []).append(i)
+    groups = []
+    for members in kinds.values():
+        places = differences([numbers_of(problems[i]) for i in members])
+        whole = np.arange(len(members))
+        first = _spread(places, whole, len(members) if len(members) <= TOGETHER else FIRST)
+        rest = np.setdiff1d(whole, first)
+        parts = [_spread(places, part, part.size) for part in _parts(places, rest)] if rest.size else []
+        groups.append(Group([members[j] for j in first], [[members[j] for j in part] for part in parts]))
+    return groups
+
+
+def kind(problem: OrbitProblem) -> Hashable:
+    """Return what problems share that differ in numbers only."""
+    leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
+    shapes = tuple(np.shape(leaf) for leaf in leaves)
+    names = (
+        problem.species.name,
+        problem.aero.coefficients.name,
+        *problem.free,
+        repr(problem.minimise),
+        repr(problem.subject_to),
+    )
+    return names, tree, shapes
+
+
+def differences(described: Sequence[np.ndarray]) -> np.ndarray:
+    """Return where problems of one kind are, from their mean, in as few directions as they differ in.
+
+    Distances are those between the numbers that describe them, each over its largest; shape (problems, directions).
+    """
+    numbers = np.array(described)
+    numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
+    places, sizes, _ = np.linalg.svd(numbers - numbers.mean(axis=0), full_matrices=False)
+    told = sizes > _ROUNDING * np.sqrt(numbers.size)
+    return places[:, told] * sizes[told]
+
+
+def numbers_of(problem: OrbitProblem) -> np.ndarray:
+    """Return the numbers that tell a problem from others of its kind."""
+    leaves = jax.tree_util.tree_leaves((problem.model, problem.species.wingbeat))
+    bounds = list(problem.bounds.values())
+    # What a coefficient model has none of is not-a-number.
+    return np.nan_to_num(np.concatenate([np.ravel(a) for a in (*leaves, problem.speed, problem.climb, bounds)]))
+
+
+def _parts(places: np.ndarray, members: np.ndarray) -> list[np.ndarray]:
+    """Halve where the numbers differ most, until the parts are small enough."""
+    if members.size <= TOGETHER:
+        return [members]
+    here = places[members]
+    order = members[np.argsort(here[:, np.ptp(here, axis=0).argmax()], kind="stable")] if here.size else members
+    half = members.size // 2
+    return _parts(places, order[:half]) + _parts(places, order[half:])
+
+
+def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
+    """Return so many members from the middle on, each the farthest from those before it."""
+    here = places[members] - places[members].mean(axis=0)
+    order, away = [], np.full(members.size, np.inf)
+    nearest = np.linalg.norm(here, axis=1).argmin()
+    for _ in range(count):
+        order.append(nearest)
+        away = np.minimum(away, np.linalg.norm(here - here[nearest], axis=1))
+        away[order] = -1.0
+        nearest = away.argmax()
+    return members[order]
+
+
+class Known(NamedTuple):
+    """A solved problem.
+
+    Parameters
+    ----------
+    numbers : that tell it from others of its kind.
+    unknowns : its answer.
+    active : the bounds active there.
+    learned : what was learned of the optimum.
+    """
+
+    numbers: np.ndarray
+    unknowns: np.ndarray
+    active: tuple[str, ...]
+    learned: Curvature | None
+
+
+class Answers:
+    """Answers of problems of one kind, and what the nearest of them foretell of those to come.
+
+    Parameters
+    ----------
+    known : solved before.
+    coming : the numbers of those to come, which are then known by their place among them.
+    """
+
+    def __init__(self, known: Sequence[Known], coming: Sequence[np.ndarray]) -> None:
+        self._before = len(known)
+        self._places = differences([*(one.numbers for one in known), *coming])
+        self._known = list(known)
+        self._at = list(range(len(known)))
+
+    def add(self, place: int, known: Known) -> None:
+        """Remember the answer of a problem that was to come."""
+        self._at.append(self._before + place)
+        self._known.append(known)
+
+    def foretell(self, place: int) -> list[tuple[np.ndarray, Curvature | None]]:
+        """Foretell unknowns, and lend what was learned nearest, from the answers with the same bounds active.
+
+        Where families meet, the nearest answers differ in their active bounds, and each family foretells its own.
+        The list is empty where too little is known of one of them.
+        """
+        away = self._places[self._at] - self._places[self._before + place]
+        order = np.linalg.norm(away, axis=1).argsort(kind="stable")
+        enough = away.shape[1] + 2
+        families = dict.fromkeys(self._known[i].active for i in order[:enough])
+        members = [np.array([i for i in order if self._known[i].active == family]) for family in families]
+        if any(alike.size < enough for alike in members):
+            return []
+        return [self._foretold(alike, away[alike]) for alike in members]
+
+    def _foretold(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, Curvature | None]:
+        known = [self._known[i] for i in alike]
+        unknowns = _regression(away, np.array([one.unknowns for one in known]))
+        return unknowns, next((one.learned for one in known if one.learned is not None), None)
+
+
+def _regression(away: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the value at 0 of a parabola through values, nearest first, or of a line where they are too few."""
+    directions = away.shape[1]
+    columns = np.hstack([np.ones((len(away), 1)), away])
+    one, other = np.triu_indices(directions)
+    if len(away) >= 1.5 * (columns.shape[1] + one.size):
+        columns = np.hstack([columns, away[:, one] * away[:, other]])
+    count = 2 * max(columns.shape[1], directions + 2)
+    distance = np.linalg.norm(away[:count], axis=1)
+    weights = 1.0 / (distance + _NEAR * distance[-1])[:, None]
+    return np.linalg.lstsq(columns[:count] * weights, values[:count] * weights)[0][0]

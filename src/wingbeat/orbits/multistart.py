@@ -1,0 +1,117 @@
+"""Many searches of one problem: from its starts, side by side, and from where those of an easier problem ended."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+import numpy as np
+
+from wingbeat.orbits.flight.certify import certify
+from wingbeat.orbits.flight.shooting import fly_part
+from wingbeat.orbits.nlp.local_search import Candidate, search
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.solution import Optimum, families
+from wingbeat.orbits.starts import start_beside, start_point
+
+T = TypeVar("T")
+Progress = Callable[[int, int], None]
+
+
+def load_programs(problem: Transcription, start: np.ndarray) -> None:
+    """Read or compile, side by side, the programs of a search and its certificate, once a process."""
+    if fly_part.loaded:
+        return
+
+    wingbeat = problem.problem.wingbeat(start)
+    with ThreadPoolExecutor(2) as pool:
+        # That of the search first, which takes the longest to compile.
+        searching = pool.submit(problem.closure_jacobian, problem.scaled(start))
+        pool.submit(certify, problem.model, wingbeat, start[:4]).result()
+        searching.result()
+
+
+def first_searches(
+    problem: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+) -> list[Candidate]:
+    """Return where searches end: from a problem's starts, from its optima without limits, from beside least peaks.
+
+    Parameters
+    ----------
+    problem : the programme.
+    starts, seed : how many starts, and what makes the random ones; limits are searched without from as many.
+    threads : searches at a time.
+    progress : called with (searches done, searches in all), those without limits among them.
+    """
+    limited = bool(problem.problem.subject_to)
+    found: list[Candidate] = []
+    for candidate in search_from_starts(problem, range(starts), seed, threads):
+        found.append(candidate)
+        if progress is not None:
+            progress(len(found), starts * (1 + limited))
+    if limited:
+        without = Transcription(dataclasses.replace(problem.problem, subject_to=()))
+        told = None if progress is None else lambda done, total: progress(starts + done, starts + total)
+        found += search_from_optima(problem, first_searches(without, starts, seed, threads, told), threads)
+    if problem.has_level:
+        found += beside_best(problem, found, starts // 2, seed)
+    return found
+
+
+def search_from_optima(problem: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
+    """Return where searches end that start from the optima of an easier problem, the best of each family."""
+    optima = optima_of(easier)
+    starts = [optimum.unknowns for optimum in families(optima, problem.problem.unknowns().scale)]
+    return list(_side_by_side(lambda start: search(problem.anew(), start), starts, threads))
+
+
+def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:
+    """Return the optima among the ends of searches, in SI, the best first."""
+    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in optimal(candidates))
+
+
+def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
+    """Return those ends of searches that are optima, the best first."""
+    return sorted((c for c in candidates if c.closed and c.optimal), key=lambda c: c.objective)
+
+
+def search_from_starts(
+    problem: Transcription, indices: Iterable[int], seed: int, threads: int
+) -> Iterator[Candidate]:
+    """Yield where the searches from starts of these indices end, in order, so many threads at a time.
+
+    All but the first, the stock wingbeat, are brought near closure before the objective counts: who begins far off
+    strays, and where there is no orbit some 30 flights tell so in place of 100.
+    """
+
+    def one(index: int) -> Candidate:
+        start = start_point(problem.problem, index, seed)
+        return search(problem.anew(), start, elastic=index > 0)
+
+    yield from _side_by_side(one, indices, threads)
+
+
+def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: int) -> Iterator[Candidate]:
+    if threads == 1:
+        yield from map(work, items)
+        return
+    # Compiled flights release the interpreter, so threads use the cores there are.
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            yield from pool.map(work, items)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def beside_best(problem: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
+    """Return where searches end that start beside the best optimum so far: least peaks often have better near."""
+    more: list[Candidate] = []
+    for index in range(count):
+        optima = optima_of((*found, *more))
+        if not optima:
+            break
+        start = start_beside(problem.problem, optima[0].unknowns, len(found) + index, seed)
+        more.append(search(problem.anew(), start))
+    return more

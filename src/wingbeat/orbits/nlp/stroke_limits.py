@@ -1,0 +1,50 @@
+"""The limits of the stroke: each wing stays on its own side of the body, and within the range of its shoulder."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wingbeat.mechanics.clearance import has_room
+from wingbeat.orbits.flight.path_maxima import PARTS
+from wingbeat.orbits.flight.shooting import Flown
+from wingbeat.orbits.flight.stroke_distances import ROWS
+from wingbeat.orbits.problem.problem import OrbitProblem
+
+# Corners keep this share of the wing's length off the plane of symmetry, 3 micrometres of 0.3 m: ten times what the
+# search's tolerances leave open.
+_ALLOWANCE = 1e-5
+
+_UPRIGHT = 0.5 * math.pi
+
+
+class StrokeLimits:
+    """How far the stroke of a problem stays inside its limits, as rows of the search.
+
+    Where nothing that is free shapes the stroke, or wings may cross, there are none.
+
+    Attributes
+    ----------
+    names : name and sign of the limit of each row.
+    """
+
+    def __init__(self, problem: OrbitProblem) -> None:
+        limited = problem.shapes_stroke and not problem.wings_may_cross
+        beside = has_room(problem.vehicle)
+        self._kept = slice(0 if beside else 2 * PARTS, None if limited else 0)
+        self.names = ROWS[self._kept]
+        self._free = len(problem.free)
+        if not limited:
+            return
+        low, high = problem.bounds["flap"] if beside else np.clip(problem.bounds["flap"], -_UPRIGHT, _UPRIGHT)
+        self._limits = np.array([*[_ALLOWANCE] * 2 * PARTS, low, low, -high, -high])
+
+    def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
+        """Return how far inside its limit each row of a flight is, and the derivative by the free parameters.
+
+        Corners are in wing lengths, flap angles in radians.
+        """
+        if not self.names:
+            return np.zeros(0), np.zeros((0, self._free))
+        return (flown.stroke - self._limits)[self._kept], flown.stroke_jacobian[self._kept]

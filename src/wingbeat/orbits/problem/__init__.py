@@ -1,0 +1,1 @@
+"""The orbit problem: its objective, limits and parameters, and how they are read off a flight."""

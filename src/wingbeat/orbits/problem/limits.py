@@ -1,0 +1,102 @@
+"""What must not be passed: limits of quantities and of the wingbeat, as values and as texts."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import ANGLES, FREE_NAMES
+from wingbeat.orbits.problem.objectives import NUMBER, Quantity, named_quantity
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """A quantity kept at most, or at least, at a limit.
+
+    Parameters
+    ----------
+    quantity : a `Quantity`, or the name of one.
+    limit : in the quantity's unit.
+    at_most : whether the limit is the largest value allowed; else the smallest. Of a series the largest value
+        counts, so that at most means at every moment, and at least means at some moment.
+
+    Raises
+    ------
+    InvalidInputError : an unknown quantity, a limit that is not finite.
+    """
+
+    quantity: Quantity
+    limit: float
+    at_most: bool = True
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if isinstance(self.quantity, str):
+            object.__setattr__(self, "quantity", named_quantity(self.quantity))
+        if not isinstance(self.quantity, Quantity):
+            faults.add("constraint.quantity", self.quantity, "is not a Quantity", "give one, or its name")
+        faults.number("constraint.limit", self.limit)
+        faults.raise_if_any()
+
+    def __str__(self) -> str:
+        return f"{self.quantity.name}{'<=' if self.at_most else '>='}{self.limit:g}"
+
+
+_EXPRESSION = re.compile(rf"\s*([\w.+-]+(?:\([^()]*\))?)\s*(<=|>=)\s*({NUMBER})\s*(deg)?\s*")
+
+
+def parse_constraint(text: str) -> Constraint:
+    """Return the constraint that a text such as ``peak_power<=30`` or ``body_pitch_range <= 10 deg`` says.
+
+    Raises
+    ------
+    InvalidInputError : not of that form, an unknown quantity, degrees of no angle.
+
+    >>> str(parse_constraint("peak_power <= 30"))
+    'peak_power<=30'
+    """
+    faults = FaultList()
+    found = _EXPRESSION.fullmatch(str(text))
+    if found is None:
+        fix = "for example peak_power<=30 or 'body_pitch_range <= 10 deg'"
+        faults.add("constraint", text, "must be a quantity, <= or >=, and a number", fix)
+        faults.raise_if_any()
+    assert found is not None
+    name, sign, number, degrees = found.groups()
+    quantity = named_quantity(name)
+    if degrees and quantity.unit != "rad":
+        faults.add("constraint", text, f"has degrees for {name}, which is in {quantity.unit}", "leave out deg")
+    faults.raise_if_any()
+    limit = math.radians(float(number)) if degrees else float(number)
+    return Constraint(quantity, limit, sign == "<=")
+
+
+class WingbeatLimit(NamedTuple):
+    """A wingbeat parameter that is held (``=``), or kept at most or at least at a value, SI and radians."""
+
+    name: str
+    sign: str
+    value: float
+
+
+_LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
+
+
+def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
+    """Return what a text says of a wingbeat parameter, None if it is not about one.
+
+    A limit of the frequency that does not hold it is a constraint like any other.
+
+    >>> parse_wingbeat_limit("frequency = 6").value
+    6.0
+    """
+    found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
+    if found is None or found[1] not in FREE_NAMES or (found[4] and found[1] not in ANGLES):
+        return None
+    if found[1] == "frequency" and found[2] != "=":
+        return None
+    value = float(found[3])
+    return WingbeatLimit(found[1], found[2], math.radians(value) if found[4] else value)

@@ -1,0 +1,251 @@
+"""Quantities of a beat that can be made least or kept within limits, and the limits."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat._jax.config import jnp
+from wingbeat.errors import FaultList
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.flight.path_maxima import spread
+from wingbeat.orbits.problem.springs import SpringCost
+
+
+@dataclass(frozen=True)
+class Frequency:
+    """The wingbeat frequency, which Su et al. 2023 (doi 10.48550/arXiv.2302.09602) make least.
+
+    >>> Frequency().value(("body_pitch", "frequency"), [0.1, 6.0])
+    6.0
+    """
+
+    name: str = "frequency"
+    unit: str = "Hz"
+    scale: float = 3.0
+
+    def value(self, names: tuple[str, ...], unknowns: Any) -> float:
+        """Return the frequency [Hz]."""
+        return float(unknowns[names.index("frequency")])
+
+    def gradient(self, names: tuple[str, ...], unknowns: Any) -> Any:
+        """Return the unit vector of the frequency."""
+        return np.eye(len(names))[names.index("frequency")]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number read off one beat, or a series along it, or several in columns, of which the largest value counts.
+
+    Parameters
+    ----------
+    name : what it is called in records and messages.
+    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or (K, m) of K phases.
+    unit : of the value.
+    scale : a difference that matters, so that the optimiser sees numbers near one.
+
+    Raises
+    ------
+    InvalidInputError : an empty name, a function that cannot be called, a scale that is not positive.
+
+    >>> lift = Quantity("mean_lift", lambda beat: beat.mean(beat.lift.sum(axis=1)), unit="N")
+    >>> lift.name
+    'mean_lift'
+    """
+
+    name: str
+    of: Callable[[Beat], Any]
+    unit: str = "1"
+    scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not isinstance(self.name, str) or not self.name.strip():
+            faults.add("quantity.name", self.name, "must be a name", "such as mean_lift")
+        if not callable(self.of):
+            faults.add("quantity.of", self.of, "is not a function", "give a function of a Beat")
+        faults.number("quantity.scale", self.scale, above=0, fix="a difference that matters")
+        faults.raise_if_any()
+
+
+@dataclass(frozen=True)
+class _Series:
+    """A series of the beat itself."""
+
+    name: str
+
+    def __call__(self, beat: Beat) -> Any:
+        return getattr(beat, self.name)
+
+
+@dataclass(frozen=True)
+class _Size(_Series):
+    """The size of a series, whatever its sign."""
+
+    def __call__(self, beat: Beat) -> Any:
+        return jnp.abs(getattr(beat, self.name))
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """The mean of a power, of which the negative part gives back a share."""
+
+    power: str
+    returned: float
+
+    def __call__(self, beat: Beat) -> Any:
+        power = getattr(beat, self.power)
+        positive = beat.mean_positive(power)
+        return positive - self.returned * (positive - beat.mean(power))
+
+
+def PowerCost(returned: float = 0.0) -> Quantity:
+    """Return the mean hinge power of which negative work gives back a share only.
+
+    Parameters
+    ----------
+    returned : 0, negative work is free but lost; 1, it is stored and returned in full, which is the mean power;
+        between, partly; -1, braking costs as much as driving.
+
+    Raises
+    ------
+    InvalidInputError : not a number from -1 to 1.
+
+    >>> PowerCost(0.3).name
+    'power_cost(0.3)'
+    """
+    faults = FaultList()
+    faults.number("returned", returned, at_least=-1, at_most=1, fix="0: negative work is lost; 1: it is returned")
+    faults.raise_if_any()
+    return Quantity(f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), "W")
+
+
+def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
+    """Return the mean positive hinge power that springs at the flap hinges leave to the actuators.
+
+    A spring's torque is ``-k (flap - rest)``; what an actuator gives is the hinge torque less that of the spring.
+    What it brakes is free but lost, as in ``mean_positive_power``, which is this without a spring.
+
+    Parameters
+    ----------
+    stiffness : k of both springs together [N m/rad].
+    rest_angle : flap angle at which they are slack [rad]; the middle of the stroke if not given.
+
+    Raises
+    ------
+    InvalidInputError : a negative stiffness, a rest angle beyond half a turn, not finite.
+
+    >>> SpringPower(0.5).name, SpringPower(0.5, -0.1).name
+    ('spring_power(0.5)', 'spring_power(0.5,-0.1)')
+    """
+    faults = FaultList()
+    faults.number("stiffness", stiffness, at_least=0, unit="N m/rad", fix="of both springs together")
+    if rest_angle is not None:
+        faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit="rad")
+    faults.raise_if_any()
+    numbers = [stiffness] if rest_angle is None else [stiffness, rest_angle]
+    name = f"spring_power({','.join(map(_exactly, numbers))})"
+    return Quantity(name, SpringCost(*map(float, numbers)), "W")
+
+
+def _exactly(number: float) -> str:
+    """Return the shortest text that is read back as the very number."""
+    return repr(float(number)).removesuffix(".0")
+
+
+def _cost_of_transport(beat: Beat) -> Any:
+    return beat.mean_positive(beat.hinge_power) / (beat.weight * beat.speed)
+
+
+def _power_per_mass(beat: Beat) -> Any:
+    return beat.mean_positive(beat.hinge_power) / beat.mass
+
+
+def _force_over_weight(beat: Beat) -> Any:
+    squared = beat.force_x**2 + beat.force_z**2
+    pushed = squared > 0.0  # the root has no derivative at 0
+    return jnp.where(pushed, jnp.sqrt(jnp.where(pushed, squared, 1.0)), 0.0) / beat.weight
+
+
+def _strouhal(beat: Beat) -> Any:
+    return 2.0 * beat.frequency * beat.semi_span * jnp.sin(beat.flap_amplitude) / beat.speed
+
+
+def _pitch_spread(beat: Beat) -> Any:
+    return spread(beat.body_pitch)
+
+
+def _roughness(beat: Beat) -> Any:
+    return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
+
+
+QUANTITIES = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity("frequency", _Series("frequency"), "Hz", 3.0),
+        Quantity("mean_power", _Cost("hinge_power", 1.0), "W"),
+        Quantity("mean_positive_power", _Cost("hinge_power", 0.0), "W"),
+        Quantity("peak_power", _Series("hinge_power"), "W", 5.0),
+        Quantity("mean_actuator_power", _Cost("actuator_power", 1.0), "W"),
+        Quantity("peak_actuator_power", _Series("actuator_power"), "W", 5.0),
+        Quantity("positive_power_per_mass", _power_per_mass, "W/kg", 10.0),
+        Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
+        Quantity("peak_force_over_weight", _force_over_weight, "1", 0.5),
+        Quantity("strouhal", _strouhal, "1", 0.1),
+        Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
+        Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
+        Quantity("body_pitch_range", _pitch_spread, "rad", 0.1),
+        Quantity("roughness", _roughness, "m s-2", 5.0),
+    )
+}
+
+
+# What the command line calls for short.
+_SHORT = {"power": "mean_power", "positive_power": "mean_positive_power"}
+
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_POWER_COST = re.compile(rf"power_cost\(({NUMBER})\)")
+_SPRING_POWER = re.compile(rf"spring_power\(({NUMBER})(?:,\s*({NUMBER}))?\)")
+
+
+def named_quantity(name: str) -> Quantity:
+    """Return the quantity of a name.
+
+    Raises
+    ------
+    InvalidInputError : there is none.
+    """
+    if found := _POWER_COST.fullmatch(str(name)):
+        return PowerCost(float(found[1]))
+    if found := _SPRING_POWER.fullmatch(str(name)):
+        return SpringPower(*(float(number) for number in found.groups() if number is not None))
+    if name not in QUANTITIES:
+        faults = FaultList()
+        close = difflib.get_close_matches(str(name), QUANTITIES, n=1)
+        fix = (
+            f"did you mean {close[0]}?"
+            if close
+            else f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
+        )
+        faults.add("quantity", name, "is not one that wingbeat knows", fix)
+        faults.raise_if_any()
+    return QUANTITIES[name]
+
+
+def named_objective(name: str) -> Frequency | Quantity:
+    """Return the objective of a name, which may be written with hyphens, as on the command line.
+
+    Raises
+    ------
+    InvalidInputError : there is none.
+    """
+    word, bracket, numbers = str(name).partition("(")
+    name = word.replace("-", "_") + bracket + numbers  # a minus in the brackets is one
+    return Frequency() if name == "frequency" else named_quantity(_SHORT.get(name, name))

@@ -1,0 +1,191 @@
+"""The numbers that an orbit hangs on and that the search does not choose: names, spreads, and how to change one."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.species import Species
+from wingbeat.species_schema import FREE_UNITS, KEYS
+
+# Units by the last part of a name: of the numbers of a species file, then of those that none holds.
+_UNITS = {key.name: key.unit for key in KEYS} | FREE_UNITS
+_UNITS |= {"phase_deg": "deg", "decay_rate": "1/deg", "blend_width_deg": "deg"}
+_UNITS |= {"body_pitch": "rad", "flap": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}
+_CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
+_AXES = ("x", "y", "z")
+SIDES = ("lower", "upper")
+
+# The way from a problem to one of its numbers: names of records, places in tuples.
+Place = tuple[str | int, ...]
+
+
+class Parameter(NamedTuple):
+    """One number of a problem.
+
+    Parameters
+    ----------
+    path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
+    unit : of the value, ``1`` if it has none.
+    value : SI and radians, but as published where the name ends in ``_deg``.
+    size : a change of this size is a large one: the value's own, or where that is 0 one of its kind.
+    place : where the problem holds it.
+    plausible : lowest and highest plausible value, where the species file gives them.
+    """
+
+    path: str
+    unit: str
+    value: float
+    size: float
+    place: Place
+    plausible: tuple[float, float] | None = None
+
+    def changed(self, problem: OrbitProblem, value: float) -> OrbitProblem:
+        """Return the problem with this number at another value, all else alike.
+
+        Raises
+        ------
+        InvalidInputError : the impossible, as the records refuse it.
+        """
+        return with_number(problem, self.place, value)
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a number by the last part of its name, ``1`` if it has none."""
+    return _UNITS.get(name, "1")
+
+
+def with_number(record: Any, place: Place, value: float) -> Any:
+    """Return a copy of a problem, or of what it holds, with the number at one place replaced."""
+    if not place:
+        return value
+    head, rest = place[0], place[1:]
+    if isinstance(record, Wingbeat):
+        return with_parameters(record, {str(head): value})
+    if isinstance(record, dict):
+        return record | {head: with_number(record[head], rest, value)}
+    if isinstance(head, int):
+        return (*record[:head], with_number(record[head], rest, value), *record[head + 1 :])
+    changed = with_number(getattr(record, head), rest, value)
+    if isinstance(record, Species):
+        return record.with_record(changed)
+    return dataclasses.replace(record, **{head: changed})
+
+
+def parameters_of(problem: OrbitProblem) -> list[Parameter]:
+    """Return every number that the orbit hangs on: vehicle, held wingbeat, air, coefficients and velocity.
+
+    Left out are the wrist, which does nothing until it jumps over a strip, laws of the wingbeat that are off, and
+    the numbers of coefficients that are not formulas.
+
+    >>> from wingbeat.species import load_species
+    >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
+    >>> [p.path for p in found][:3], found[0].value
+    (['body.mass', 'body.pitch_inertia', 'body.drag_area'], 0.276)
+    """
+    found = [*_vehicle(problem), *_held(problem), *_air(problem), *_aero(problem), *_velocity(problem)]
+    return [_with_plausible(problem, parameter) for parameter in found]
+
+
+def _with_plausible(problem: OrbitProblem, parameter: Parameter) -> Parameter:
+    plausible = _plausible(problem, parameter)
+    if plausible is None:
+        return parameter
+    size = abs(parameter.value) or plausible[1] - plausible[0]
+    return parameter._replace(size=size, plausible=plausible)
+
+
+def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, float] | None:
+    """Return the range that the species file gives; that of the whole mass is the body's, wings as they are.
+
+    A parameter that the species leaves free and the user holds is one that was measured: it has none.
+    """
+    numbers = problem.species.numbers
+    last = str(parameter.place[-1])
+    if last in problem.species.free:
+        return None
+    keys = [str(key) for key in parameter.place if not isinstance(key, int) and key != "species"]
+    harmonic = harmonic_place(last)
+    if harmonic is not None:
+        keys[-1] = harmonic[0]
+    number = numbers.get(".".join(keys))
+    if parameter.path == "body.mass" and (number is None or number.range is None):
+        whole = numbers.get("vehicle.mass")
+        if whole is None or whole.range is None:
+            return None
+        wings = 2 * problem.vehicle.wing.mass
+        return whole.range[0] - wings, whole.range[1] - wings
+    return None if number is None else number.range
+
+
+def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter:
+    names = path.split(".")
+    last = names[-1].split("[")[0]
+    unit = unit_of(last if last not in (*_AXES, *SIDES) else names[-2])
+    return Parameter(path, unit, float(value), abs(value) or size, place)
+
+
+def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
+    body, wing = problem.vehicle.body, problem.vehicle.wing
+    area = wing.semi_span * wing.mean_chord
+    for part, record in (("body", body), ("wing", wing)):
+        for name, value in vars(record).items():
+            path, place = f"{part}.{name}", ("species", "vehicle", part, name)
+            if not isinstance(value, tuple):
+                yield _made(path, value, place, size=area if name == "drag_area" else 1.0)
+                continue
+            for i, item in enumerate(value):
+                here = f"{path}.{_AXES[i]}" if name == "shoulder" else f"{path}[{i}]"
+                yield _made(here, item, (*place, i), size=wing.mean_chord)
+
+
+def _held(problem: OrbitProblem) -> Iterator[Parameter]:
+    wingbeat = problem.species.wingbeat
+    for name in FREE_NAMES:
+        if name not in problem.free and in_use(wingbeat, name):
+            yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", name))
+
+
+def _air(problem: OrbitProblem) -> Iterator[Parameter]:
+    for name, value in vars(problem.air).items():
+        yield _made(f"air.{name}", value, ("air", name))
+
+
+def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
+    coefficients, place = problem.aero.coefficients, ("aero", "coefficients")
+    for curve, field in _CURVES.items():
+        terms = getattr(coefficients, field, None)
+        # Where the force acts at the quarter chord, nobody asks for the centre of pressure.
+        if terms is None or (curve == "centre" and problem.aero.force_point == "quarter-chord"):
+            continue
+        for name, value in vars(terms).items():
+            if value is not None:
+                yield _made(f"aero.{curve}.{name}", value, (*place, field, name))
+    if getattr(coefficients, "blend_width_deg", None) is not None:  # a function has no blends
+        yield _made("aero.blend_width_deg", coefficients.blend_width_deg, (*place, "blend_width_deg"))
+
+
+def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
+    yield _made("speed", problem.speed, ("speed",))
+    yield _made("climb", problem.climb, ("climb",), size=max(problem.speed, 1.0))
+
+
+def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
+    """Return the bound of a free parameter or along the path, such as ``bounds.flap_amplitude.upper``."""
+    pair = problem.bounds[name]
+    size = 1.0 if unit_of(name) == "rad" else pair[1] - pair[0]
+    end = SIDES.index(side)
+    return _made(f"bounds.{name}.{side}", pair[end], ("bounds", name, end))._replace(size=size)
+
+
+def limit_of(problem: OrbitProblem, index: int) -> Parameter:
+    """Return the limit of a constraint: ``limit.peak_power``."""
+    constraint = problem.subject_to[index]
+    quantity = constraint.quantity
+    size = abs(constraint.limit) or quantity.scale
+    place = ("subject_to", index, "limit")
+    return Parameter(f"limit.{quantity.name}", quantity.unit, constraint.limit, size, place)

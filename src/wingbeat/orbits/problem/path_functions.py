@@ -1,0 +1,127 @@
+"""What a problem asks of the beat, read off flights: values with derivatives, in the optimiser's scale.
+
+A quantity that is a number has one row. One that is a series has a row for the largest value in each quarter of the
+beat; one of several series, in columns, has those of each.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat._jax.config import jax, jnp
+from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.orbits.flight.beat import NUMBERS, Beat
+from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.objectives import Quantity
+
+# Of a beat that is only looked at for its shapes.
+_SAMPLES = 1 + 2 * PARTS
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+    return tuple(_of_one(jnp.asarray(function(beat), dtype=float)) for function in functions)
+
+
+def _of_one(value: Any) -> Any:
+    return peaks(value).ravel() if value.ndim else value[None]
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _sampled_rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+    values = [jnp.asarray(function(beat), dtype=float) for function in functions]
+    return tuple(highest(value).ravel() if value.ndim else value[None] for value in values)
+
+
+@functools.partial(jax.jit, static_argnums=0)
+def _change_of_rows(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any, ...]:
+    return jax.vmap(lambda change: jax.jvp(lambda b: _rows(functions, b), (beat,), (change,))[1])(changes)
+
+
+@dataclass(frozen=True)
+class _Lacking:
+    """A quantity with its sign turned, so that at least becomes at most; of a series the largest value counts."""
+
+    of: Callable[[Beat], Any]
+
+    def __call__(self, beat: Beat) -> Any:
+        return -jnp.max(self.of(beat))
+
+
+class Readings:
+    """The rows of several quantities, one after the other, each over its scale."""
+
+    def __init__(self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int) -> None:
+        kept = [c.quantity.of if c.at_most else _Lacking(c.quantity.of) for c in constraints]
+        self._functions = tuple([q.of for q in quantities] + kept)
+        everything = [*quantities, *(c.quantity for c in constraints)]
+        self._names = [q.name for q in everything]
+        self.counts = [row_count(function, strips) for function in self._functions]
+        self._scale = np.repeat([q.scale for q in everything], self.counts)
+        limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
+        self.constraint_counts = self.counts[len(quantities) :]
+        self.limits = np.repeat(limits, self.constraint_counts)
+
+    def of(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
+        """Return the rows, of a series the peaks of a smooth curve through it, or its highest samples.
+
+        Raises
+        ------
+        InvalidInputError : a quantity gives what is no number where the beat is finite.
+        """
+        rows = [np.asarray(a) for a in (_sampled_rows if sampled else _rows)(self._functions, beat)]
+        for name, row in zip(self._names, rows, strict=True):
+            if not np.isfinite(row).all() and all(np.isfinite(a).all() for a in beat):
+                fix = "its function must be finite for every flight"
+                raise InvalidInputError([Fault(f"quantity {name}", float(row[0]), "is not finite", fix)])
+        return np.concatenate(rows) / self._scale
+
+    def changes_of(self, beat: Beat, changes: Beat) -> np.ndarray:
+        """Return the derivatives of the rows, shape (rows, directions)."""
+        found = _change_of_rows(self._functions, beat, changes)
+        return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
+
+
+def row_count(function: Callable[[Beat], Any], strips: int) -> int:
+    """Return how many rows a quantity's function has: 1 if it gives a number."""
+    shape = _given_by(function, strips).shape
+    return PARTS * math.prod(shape[1:]) if shape else 1
+
+
+@functools.lru_cache(256)
+def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
+    """Return what a quantity's function gives, as shapes without numbers."""
+    return jax.eval_shape(function, _any_beat(strips))
+
+
+def _any_beat(strips: int) -> Beat:
+    by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
+    number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
+    shapes: dict[str, Any] = dict.fromkeys(("alpha", "strip_reynolds", "lift", "drag"), by_strip)
+    shapes |= dict.fromkeys(NUMBERS, number)
+    return Beat(*(shapes.get(name, series) for name in Beat._fields))
+
+
+def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]:
+    """Return what is wrong with the quantities' functions: they fail, or give neither a number nor a series."""
+    faults = []
+    for quantity in quantities:
+        where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python: see Beat for what it is given"
+        try:
+            found = _given_by(quantity.of, strips)
+        except Exception as error:  # whatever a user's function raises
+            reason = f"fails: {type(error).__name__}: {error}".split("\n")[0]
+            faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))
+            continue
+        shape = getattr(found, "shape", None)
+        if shape is None or shape[:1] not in ((), (_SAMPLES,)) or len(shape) > 2:
+            rule = "must give a number, or one value or row for each phase"
+            faults.append(Fault(where, shape if shape is not None else type(found).__name__, rule, fix))
+    return faults

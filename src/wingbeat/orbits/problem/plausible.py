@@ -1,0 +1,92 @@
+"""Searching inside what is plausible: bounds drawn in to the species' ranges, limits on what is read off a beat."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import FREE_NAMES, parameter
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.species import Range, Species
+from wingbeat.species.plausibility import JUDGED
+from wingbeat.vehicle import Air
+
+_WAY_OUT = "leave out 'plausible', or give the range of the species file that you know better"
+# A held number or the Reynolds number may pass the end of a range by rounding.
+_ROUNDING = 1e-9
+# By what share of itself a limit lies inside the end of its range. Of three orbits held by a limit (bat at 5 m/s,
+# pigeon at 10 m/s) the record lay at most 7e-5 beyond it.
+_INSET = 2e-4
+
+
+def drawn_in(
+    species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
+) -> dict[str, tuple[float, float]]:
+    """Return the bounds of free parameters drawn in to their plausible ranges.
+
+    Parameters
+    ----------
+    species : whose ranges.
+    free : names of the free parameters.
+    bounds : of each, SI and radians.
+    faults : takes bounds that have nothing in common with what is plausible, and held parameters outside it.
+    """
+    drawn = {}
+    for name in free:
+        number = species.numbers.get(f"wingbeat.{name}")
+        if number is None or number.range is None or name not in bounds:
+            continue
+        pair = max(bounds[name][0], number.range[0]), min(bounds[name][1], number.range[1])
+        if pair[0] < pair[1]:
+            drawn[name] = pair
+        else:
+            rule = f"has nothing in common with the plausible {_words(species.plausible_range(name, 0.0))}"
+            faults.add(f"bounds.{name}", bounds[name], rule, f"widen the bounds, or {_WAY_OUT}")
+    for name in JUDGED:
+        if name in FREE_NAMES and name not in free:
+            value, known = parameter(species.wingbeat, name), species.plausible_range(name, 0.0)
+            if _outside(value, known):
+                faults.add(f"wingbeat.{name}", value, f"is held outside the plausible {_words(known)}", _WAY_OUT)
+    return drawn
+
+
+def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
+    """Return the limits that keep what is read off the beat plausible at a speed [m/s].
+
+    The Reynolds number is none of them: no wingbeat changes it, so a speed at which it is not plausible is a fault.
+    """
+    limits = []
+    for name in JUDGED:
+        known = species.plausible_range(name, speed)
+        if name in FREE_NAMES or (name == "strouhal" and speed == 0):
+            continue
+        if name == "reynolds":
+            reynolds = air.reynolds(speed, species.vehicle.wing.mean_chord)
+            if speed > 0 and _outside(reynolds, known):
+                rule = f"gives a Reynolds number of {reynolds:.3g}, outside the plausible {_words(known)}"
+                faults.add("speed", speed, rule, _WAY_OUT)
+            continue
+        for end, at_most in ((known.low, False), (known.high, True)):
+            if end is not None:
+                # The record samples a certified beat elsewhere than the search does.
+                inset = _INSET * abs(end)
+                limits.append(Constraint(QUANTITIES[name], end - inset if at_most else end + inset, at_most))
+    return tuple(limits)
+
+
+def _outside(value: float, known: Range) -> bool:
+    low = -math.inf if known.low is None else known.low - _ROUNDING * abs(known.low)
+    high = math.inf if known.high is None else known.high + _ROUNDING * abs(known.high)
+    return not low <= value <= high
+
+
+def _words(known: Range) -> str:
+    """Return a range in words, angles in degrees: ``19 to 52 deg``."""
+    angle = known.unit == "rad"
+    unit = "" if known.unit == "1" else " deg" if angle else f" {known.unit}"
+    low, high = (None if end is None else math.degrees(end) if angle else end for end in known[:2])
+    if low is None or high is None:
+        return f"at least {low:.4g}{unit}" if high is None else f"at most {high:.4g}{unit}"
+    return f"{low:.4g} to {high:.4g}{unit}"

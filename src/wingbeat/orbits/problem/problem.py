@@ -1,0 +1,340 @@
+"""The orbit problem: which vehicle, which mean velocity, what is free within which bounds, what is least."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from wingbeat.aero import SuFan
+from wingbeat.aero.blade_element import blade_element_of
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.harmonics import harmonic_place
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.mechanics.flight_model import FlightModel, flight_model
+from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
+from wingbeat.orbits.problem.path_functions import check_quantities, row_count
+from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
+from wingbeat.species import Species
+from wingbeat.vehicle import Air, Vehicle
+
+# What is bounded along the whole path: body pitch as flown, the flap angle of arm and hand as prescribed.
+PATH_NAMES = ("body_pitch", "flap")
+PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
+CLOSURE = ("x", "z", *PITCH_STATE)
+# A miss that matters, in the units of CLOSURE: makes the optimiser see numbers near one.
+CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
+# Free parameters that change when or how fast the wings go through the stroke, or turn the whole of it.
+_NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
+# The fastest flight, and climb or descent, that a problem may ask for [m/s].
+FASTEST = FASTEST_CLIMB = 100.0
+# The derivative of the pitch state at the start by itself.
+_START = np.eye(4)
+
+Bounds = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """Names, bounds and scales of what the search varies: the pitch state at phase 0, then free parameters."""
+
+    names: tuple[str, ...]
+    lower: np.ndarray
+    upper: np.ndarray
+    scale: np.ndarray
+
+
+@dataclass(frozen=True)
+class OrbitProblem:
+    """A periodic orbit at a prescribed mean velocity, of least objective within bounds.
+
+    Parameters
+    ----------
+    species : a `Species` from `load_species`; gives vehicle, stock wingbeat, air, free parameters and bounds.
+    speed : mean horizontal velocity [m/s], 0 for hover.
+    climb : mean vertical velocity, up positive [m/s].
+    aero : a `BladeElement`, which also sets strips and force point; or a coefficient model such as `SuFan()`, its
+        name, the path of its file, or a JAX function of the angle of attack [rad] that returns (C_L, C_D).
+    free : names of the wingbeat parameters that are free; the species' own if not given.
+    bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
+        flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
+        searches inside the species' plausible ranges: bounds are drawn in to them, and what is read off the beat
+        becomes a limit of `subject_to`.
+    minimise : the objective, `Frequency()` as in the paper.
+    air : replaces the species' air.
+    subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
+        wingbeat parameter holds it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
+
+    wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles out of their range.
+
+    By default the whole stroke keeps each wing on its own side. Where every parameter that shapes the stroke is
+    held, there is nothing to choose and an orbit that crosses draws a warning.
+
+    `minimise` may also be a `Quantity`, or the name of one: ``"mean_positive_power"``.
+
+    Raises
+    ------
+    InvalidInputError : speeds not finite or negative, unknown names, bounds missing, crossed or not finite.
+
+    >>> from wingbeat.species import load_species
+    >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
+    'frequency'
+    """
+
+    species: Species
+    speed: float
+    climb: float = 0.0
+    aero: Any = field(default_factory=SuFan)
+    free: tuple[str, ...] = ()
+    bounds: Any = field(default_factory=dict)
+    minimise: Any = field(default_factory=Frequency)
+    air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
+    subject_to: Sequence[Any] = ()
+    wings_may_cross: bool = False
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if not isinstance(self.species, Species):
+            faults.add("species", self.species, "is not a Species", "use load_species(name or path)")
+        faults.number("speed", self.speed, at_least=0, at_most=FASTEST, unit="m/s", fix="0 is hover")
+        limits = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB}
+        faults.number("climb", self.climb, **limits, unit="m/s", fix="0 is level flight")
+        if self.air is not None and not isinstance(self.air, Air):
+            faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
+        if not isinstance(self.wings_may_cross, bool):
+            faults.add("wings_may_cross", self.wings_may_cross, "must be True or False")
+        named = self.bounds if isinstance(self.bounds, str) else None
+        if named is not None:
+            faults.choice("bounds", named, ("plausible",))
+            object.__setattr__(self, "bounds", {})
+        faults.raise_if_any()
+        self._check_asked(faults)
+        if named and not faults.faults:
+            self._draw_in(faults)
+        faults.raise_if_any()
+        aero = blade_element_of(self.aero)
+        faults.faults.extend(check_quantities(self._quantities(), aero.strips))
+        faults.raise_if_any()
+        object.__setattr__(self, "aero", aero)
+        object.__setattr__(self, "air", self.air or self.species.air)
+        given: Bounds = dict(self.bounds or {})  # type: ignore[arg-type]
+        object.__setattr__(self, "bounds", given)
+        free = tuple(self.free or self.species.free)
+        bounds = {**self.species.bounds, **self.species.path_bounds, **given}
+        self._check_free(faults, free, bounds)
+        object.__setattr__(self, "free", free)
+        object.__setattr__(self, "bounds", {name: bounds[name] for name in (*free, *PATH_NAMES)})
+
+    def _check_asked(self, faults: FaultList) -> None:
+        """Turn names and texts into objective and constraints."""
+
+        def understood(meaning: Callable[[str], Any], given: Any) -> Any:
+            try:
+                return meaning(given) if isinstance(given, str) else given
+            except InvalidInputError as error:
+                faults.faults.extend(error.faults)
+                return None
+
+        minimise = understood(named_objective, self.minimise)
+        texts = [self.subject_to] if isinstance(self.subject_to, str | Constraint) else self.subject_to
+        constraints = []
+        for text in texts:
+            limit = parse_wingbeat_limit(text)
+            if limit is None:
+                constraints.append(understood(parse_constraint, text))
+                continue
+            try:
+                self._limit_wingbeat(limit)
+            except InvalidInputError as error:
+                faults.faults.extend(error.faults)
+            if limit.sign == "=" and not self.free:
+                faults.add("subject_to", text, "leaves nothing free", "hold fewer parameters of the wingbeat")
+        if faults.faults:
+            return
+        if not isinstance(minimise, Frequency | Quantity):
+            faults.add("minimise", minimise, "is not an objective", "use Frequency() or a Quantity")
+        for i, constraint in enumerate(constraints):
+            if not isinstance(constraint, Constraint):
+                faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
+        object.__setattr__(self, "minimise", minimise)
+        object.__setattr__(self, "subject_to", tuple(constraints))
+        names = {q.name for q in self._quantities()} if not faults.faults and self.speed == 0 else set()
+        if "cost_of_transport" in names:
+            faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
+        if "strouhal" in names:
+            faults.add("speed", self.speed, "has no Strouhal number", "in hover limit frequency and flap_amplitude")
+
+    def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
+        """Hold a parameter at a value, or tighten its bounds."""
+        species, name = self.species, limit.name
+        if limit.sign == "=":
+            held = species.with_record(with_parameters(species.wingbeat, {name: limit.value}))
+            object.__setattr__(self, "species", held)
+            object.__setattr__(self, "free", tuple(n for n in self.free or species.free if n != name))
+            return
+        bounds = dict(self.bounds or {})
+        lower, upper = bounds.get(name) or species.bounds.get(name) or (-np.inf, np.inf)
+        bounds[name] = (lower, limit.value) if limit.sign == "<=" else (limit.value, upper)
+        object.__setattr__(self, "bounds", bounds)
+
+    @property
+    def shapes_stroke(self) -> bool:
+        """Whether a free parameter changes where the wings go, seen from the body."""
+        return any(name not in _NOT_OF_THE_STROKE for name in self.free)
+
+    def _draw_in(self, faults: FaultList) -> None:
+        """Draw the bounds in to what is plausible, and keep what is read off the beat within it."""
+        bounds = {**self.species.bounds, **self.bounds}
+        free = self.free or self.species.free
+        drawn = drawn_in(self.species, free, bounds, faults)
+        object.__setattr__(self, "bounds", {**self.bounds, **drawn})
+        self._limit_plausibly(self.subject_to, faults)
+
+    def _limit_plausibly(self, others: Sequence[Any], faults: FaultList) -> None:
+        limits = plausible_limits(self.species, self.speed, self.air or self.species.air, faults)
+        object.__setattr__(self, "subject_to", (*others, *limits))
+        object.__setattr__(self, "_plausible_limits", limits)
+
+    def at_speed(self, speed: float) -> OrbitProblem:
+        """Return the problem at another mean horizontal velocity [m/s]; plausible limits are those of that speed.
+
+        Raises
+        ------
+        InvalidInputError : a speed at which nothing is plausible.
+        """
+        moved = dataclasses.replace(self, speed=speed)
+        limits, faults = getattr(self, "_plausible_limits", None), FaultList()
+        if limits is not None:
+            moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)
+            faults.raise_if_any()
+        return moved
+
+    def _quantities(self) -> list[Quantity]:
+        """Return what is read off the beat."""
+        objective = [self.minimise] if isinstance(self.minimise, Quantity) else []
+        return [*objective, *(constraint.quantity for constraint in self.subject_to)]
+
+    @property
+    def reads_beat(self) -> bool:
+        """Whether objective or constraints are read off the beat, not off the unknowns."""
+        return bool(self._quantities())
+
+    @property
+    def asks_cost_of_transport(self) -> bool:
+        """Whether objective or a constraint is the cost of transport, which hover has none of."""
+        return "cost_of_transport" in {quantity.name for quantity in self._quantities()}
+
+    @property
+    def has_own_bounds(self) -> bool:
+        """Whether a free parameter of the wingbeat is bounded otherwise than the species bounds it."""
+        return any(tuple(self.bounds[name]) != self.species.bounds.get(name) for name in self.free)
+
+    @property
+    def lowers_peaks(self) -> bool:
+        """Whether the objective is the largest value of a series."""
+        return isinstance(self.minimise, Quantity) and row_count(self.minimise.of, self.aero.strips) > 1
+
+    def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
+        for name in free:
+            if name not in FREE_NAMES:
+                close = difflib.get_close_matches(str(name), FREE_NAMES, n=1)
+                named = [known for known in FREE_NAMES if harmonic_place(known) is None]
+                fix = f"free can be {', '.join(named)}, or a harmonic such as flap_cos_2"
+                fix = f"did you mean {close[0]}?" if close else fix
+                faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
+            elif name not in bounds:
+                faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
+        ahead, _, above = self.vehicle.wing.shoulder
+        if "stroke_plane_tilt" in free and ahead == 0 and above == 0:
+            rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
+            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it held")
+        if len(set(free)) != len(free):
+            faults.add("free", free, "names a parameter twice")
+        if isinstance(self.minimise, Frequency) and "frequency" not in free:
+            faults.add("free", free, "leaves frequency nothing to change", "minimise something else")
+        asked: Bounds = self.bounds
+        for name, pair in asked.items():
+            if name not in (*PATH_NAMES, *free):
+                faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
+            elif not isinstance(pair, tuple | list) or len(pair) != 2:
+                faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
+            elif all(faults.number(f"bounds.{name}", value) for value in pair):
+                if not pair[0] < pair[1]:
+                    faults.add(f"bounds.{name}", pair, "lower must be below upper")
+                if name not in PATH_NAMES:
+                    self._check_reach(faults, name, pair)
+        faults.raise_if_any()
+
+    def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:
+        """Note a fault where a bound lets the search reach a wingbeat that cannot be."""
+        for value in pair:
+            try:
+                with_parameters(self.species.wingbeat, {name: value})
+            except InvalidInputError as error:
+                faults.add(f"bounds.{name}", pair, f"reaches the impossible: {error.faults[0].rule}")
+                return
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The vehicle that flies."""
+        return self.species.vehicle
+
+    @functools.cached_property
+    def model(self) -> FlightModel:
+        """The flight model: vehicle, air loads, air; joined once, for its coefficients take a flight's time."""
+        return flight_model(self.vehicle, self.aero, self.air)
+
+    def unknowns(self) -> Unknowns:
+        """Return names, bounds and scales of the unknowns.
+
+        The bounds of the start's velocities are generous: they keep the search out of nonsense and are not meant
+        to be met.
+        """
+        free, bounds = self.free, self.bounds
+        wander = 5.0 + 0.5 * self.speed
+        limits = [
+            bounds["body_pitch"],
+            (self.speed - wander, self.speed + wander),
+            (self.climb - wander, self.climb + wander),
+            (-60.0, 60.0),
+            *(bounds[name] for name in free),
+        ]
+        lower, upper = np.array(limits, dtype=float).T
+        scale = np.concatenate([[0.2, 1.0, 1.0, 5.0], 0.2 * (upper - lower)[4:]])
+        return Unknowns((*PITCH_STATE, *free), lower, upper, scale)
+
+    def wingbeat(self, unknowns: np.ndarray) -> Wingbeat:
+        """Return the species' wingbeat with the free parameters taken from the unknowns."""
+        values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
+        return with_parameters(self.species.wingbeat, values)
+
+    def unknowns_of(self, state: np.ndarray, wingbeat: Wingbeat) -> np.ndarray:
+        """Return the unknowns that stand for a state at the start, as in `State`, and a wingbeat."""
+        return np.array([*state[2:], *(parameter(wingbeat, name) for name in self.free)], dtype=float)
+
+    def frequency(self, unknowns: np.ndarray) -> float:
+        """Return the frequency that goes with the unknowns [Hz]."""
+        if "frequency" in self.free:
+            return float(unknowns[4 + self.free.index("frequency")])
+        return self.species.wingbeat.frequency
+
+    def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
+        """Return the miss of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
+        travelled = np.array([self.speed, self.climb]) / frequency
+        return np.asarray(end) - np.concatenate([travelled, unknowns[:4]])
+
+    def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
+        """Return the derivative of the miss from that of the end of the period."""
+        jacobian = np.array(end_jacobian)
+        jacobian[2:, :4] -= _START
+        if "frequency" in self.free:
+            column = 4 + self.free.index("frequency")
+            jacobian[0, column] += self.speed / frequency**2
+            jacobian[1, column] += self.climb / frequency**2
+        return jacobian

@@ -31,8 +31,10 @@ def test_every_quantity_is_what_the_record_says():
     record = orbit.record()
     for name in ("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"):
         assert solution.value_of(QUANTITIES[name]) == pytest.approx(record[name], rel=1e-4)
-    for name in ("cost_of_transport", "body_pitch_range"):
-        assert solution.value_of(QUANTITIES[name]) == pytest.approx(record[name], rel=1e-4)
+    assert solution.value_of(QUANTITIES["body_pitch_range"]) == pytest.approx(record["body_pitch_range"], rel=1e-4)
+    # One definition of the positive part: of a record that had two, one said 9.08288 and the other 9.08345 W.
+    for name in ("mean_positive_power", "cost_of_transport"):
+        assert solution.value_of(QUANTITIES[name]) == pytest.approx(record[name], rel=1e-12)
     series = orbit.dataset
     assert solution.value_of(QUANTITIES["peak_flap_torque"]) == pytest.approx(np.abs(series["flap_torque"]).max())
     assert solution.value_of(QUANTITIES["peak_pitch_torque"]) == pytest.approx(np.abs(series["pitch_torque"]).max())

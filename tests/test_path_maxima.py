@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from wingbeat._jax.config import jax
-from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks, spread
-from wingbeat.orbits.nlp.transcription import peak_weights
+from wingbeat.orbits.flight.path_maxima import PARTS, highest, peak_weights, peaks, spread
 
 PEAKS = jax.jit(peaks)
 PHASE = np.linspace(0.0, 1.0, 33)
@@ -39,6 +38,15 @@ def test_the_weights_are_the_derivative(shift):
 def test_a_level_path_has_its_level_as_peak():
     level = np.full(33, 0.2)
     assert peak_weights(level) @ level == pytest.approx(0.2)
+
+
+def test_the_search_and_what_is_read_off_a_beat_mean_the_same_peak():
+    """They did not: at the ends of a path one took it for closed, the other carried it on."""
+    random = np.random.default_rng(0)
+    angle = 2 * np.pi * PHASE[:, None] * np.arange(1, 5)
+    for _ in range(200):
+        closed = np.cos(angle + random.uniform(0, 2 * np.pi, 4)) @ random.normal(size=4)
+        assert float(PEAKS(closed).max()) == pytest.approx(peak_weights(closed) @ closed, abs=1e-12)
 
 
 def test_peaks_of_quarters_slide_along_the_curve_and_through_the_ends():

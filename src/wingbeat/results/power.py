@@ -46,7 +46,7 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     """
     check_orbit(dataset)
     flap, rate, power = (dataset[name].values for name in ("flap", "flap_rate", "hinge_power"))
-    mean, positive = beat_mean(power), float(mean_positive(power))
+    mean, positive = beat_mean(power), float(mean_positive(power, np))
     flown = bool(np.isfinite(power).all())
     spring = best_spring(flap, rate, power)._asdict() if flown else {"stiffness": None, "rest_angle": None}
     account = {

@@ -11,7 +11,7 @@ from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
@@ -106,7 +106,8 @@ POWERS = (
 def power_summary(solution: Solution, beat: Beat) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
     problem = solution.problem
-    positive = beat_mean(np.maximum(beat.hinge_power, 0.0))
+    with np.errstate(over="ignore", invalid="ignore"):  # of a flight that ran off
+        positive = float(mean_positive(beat.hinge_power, np))
     weight = problem.vehicle.mass * problem.air.gravity
     return {
         "mean_power": beat_mean(beat.hinge_power),

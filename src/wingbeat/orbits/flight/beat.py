@@ -71,16 +71,17 @@ class Beat(NamedTuple):
         return mean_positive(values)
 
 
-def mean_positive(values: Any) -> Any:
+def mean_positive(values: Any, xp: Any = jnp) -> Any:
     """Return the mean of the positive part of samples at equal phases, straight lines between them.
 
-    Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero.
+    Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero. `xp` is the array
+    module of the samples.
     """
     before, after = values[:-1], values[1:]
     crosses = before * after < 0.0
-    part = jnp.maximum(before, after) ** 2 / jnp.where(crosses, jnp.abs(before - after), 1.0)
-    whole = jnp.maximum(before, 0.0) + jnp.maximum(after, 0.0)
-    return 0.5 * jnp.mean(jnp.where(crosses, part, whole))
+    part = xp.maximum(before, after) ** 2 / xp.where(crosses, xp.abs(before - after), 1.0)
+    whole = xp.maximum(before, 0.0) + xp.maximum(after, 0.0)
+    return 0.5 * xp.mean(xp.where(crosses, part, whole))
 
 
 # Numbers of a beat that are no series.

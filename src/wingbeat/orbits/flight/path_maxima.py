@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from wingbeat._jax.config import jax, jnp
 
 PARTS = 4
@@ -20,46 +22,71 @@ def highest(series: Any) -> Any:
 
 
 def peaks(series: Any) -> Any:
-    """Return the peak in each quarter of a smooth curve through the samples along the first axis.
+    """Return the peak in each quarter of a smooth curve through the samples of a closed path, along the first axis.
 
-    The highest sample itself has a kink wherever two samples are level, and optima that lower a peak come to lie in
-    it. The curve is the cubic of Catmull and Rom between each sample and the next. Where the peak lies does not
-    matter to first order.
+    The highest sample itself has a kink wherever two samples are level, and optima that lower a peak, or are at a
+    bound of the path, come to lie in it. The curve between two samples is the cubic of Catmull and Rom.
     """
     part = (series.shape[0] - 1) // PARTS
-    first, last = (3.0 * (a - b) + c for a, b, c in (series[:3], series[:-4:-1]))
-    longer = jnp.concatenate([first[None], series, last[None]])
-    return jnp.stack([_peak(longer, 1 + i * part, 1 + (i + 1) * part) for i in range(PARTS)])
+    around = [_samples_around(series, i * part, (i + 1) * part) for i in range(PARTS)]
+    samples = [jnp.stack([jnp.take_along_axis(series, k[None], axis=0)[0] for k in four]) for four in around]
+    return jnp.stack([jnp.sum(jax.lax.stop_gradient(_weights(four, jnp)) * four, axis=0) for four in samples])
 
 
-def _peak(series: Any, begin: int, end: int) -> Any:
+def _samples_around(series: Any, begin: int, end: int) -> list[Any]:
+    """Return the indices of four samples, between the middle two of which the curve peaks in a quarter."""
+    count = series.shape[0] - 1
     top = begin + jnp.argmax(series[begin : end + 1], axis=0)
 
-    def sample(index: Any) -> Any:
-        return jnp.take_along_axis(series, index[None], axis=0)[0]
+    def beside(way: int) -> Any:
+        return jnp.take_along_axis(series, ((top + way) % count)[None], axis=0)[0]
 
-    way = jnp.where(sample(top + 1) >= sample(top - 1), 1, -1)
+    way = jnp.where(beside(1) >= beside(-1), 1, -1)
     inside = (begin <= top + way) & (top + way <= end)
     # Where the curve would rise out of the quarter, its peak there is the sample at the end.
-    around = [sample(jnp.where(inside, top + way * k, top)) for k in (-1, 0, 1, 2)]
-    at = jax.lax.stop_gradient(_place(*around))
-    before, here, there, after = around
-    return (
-        before * (-0.5 * at + at**2 - 0.5 * at**3)
-        + here * (1.0 - 2.5 * at**2 + 1.5 * at**3)
-        + there * (0.5 * at + 2.0 * at**2 - 1.5 * at**3)
-        + after * (-0.5 * at**2 + 0.5 * at**3)
-    )
+    return [jnp.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)]
 
 
-def _place(before: Any, here: Any, there: Any, after: Any) -> Any:
-    """Return where between the middle two of four samples, the first of them the higher, the curve is highest."""
+def peak_weights(path: np.ndarray) -> np.ndarray:
+    """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`.
+
+    They are those of the peak's derivative, too: where the peak lies does not matter to first order.
+    """
+    count = len(path) - 1
+    begin = np.arange(PARTS) * (count // PARTS)
+    quarters = begin[:, None] + np.arange(count // PARTS + 1)
+    top = begin + path[quarters].argmax(axis=1)
+    way = np.where(path[(top + 1) % count] >= path[(top - 1) % count], 1, -1)
+    inside = (begin <= top + way) & (top + way <= quarters[:, -1])
+    around = np.array([np.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)])
+    four = _weights(path[around], np)
+    highest = (four * path[around]).sum(axis=0).argmax()
+    weights = np.zeros(len(path))
+    np.add.at(weights, around[:, highest], four[:, highest])
+    return weights
+
+
+def _weights(samples: Any, xp: Any) -> Any:
+    """Return the weights of four samples that give the peak of the curve between the middle two.
+
+    The first of those is the higher. Samples and weights are the first axis; `xp` is their array module.
+    """
+    before, here, there, after = samples
+    # Slope, bend and twist of the cubic from the highest sample, at 0, to the one beside it that the path rises to.
     slope, slope_there = 0.5 * (there - before), 0.5 * (after - here)
     bend = 3.0 * (there - here) - 2.0 * slope - slope_there
     twist = 2.0 * (here - there) + slope + slope_there
-    root = jnp.sqrt(jnp.maximum(bend**2 - 3.0 * slope * twist, 0.0))
+    root = xp.sqrt(xp.maximum(bend**2 - 3.0 * slope * twist, 0.0))
     rises = root > bend
-    return jnp.where(rises, jnp.minimum(slope / jnp.where(rises, root - bend, 1.0), 1.0), 0.0)
+    at = xp.where(rises, xp.minimum(slope / xp.where(rises, root - bend, 1.0), 1.0), 0.0)
+    return xp.stack(
+        [
+            -0.5 * at + at**2 - 0.5 * at**3,
+            1.0 - 2.5 * at**2 + 1.5 * at**3,
+            0.5 * at + 2.0 * at**2 - 1.5 * at**3,
+            -0.5 * at**2 + 0.5 * at**3,
+        ]
+    )
 
 
 def spread(series: Any) -> Any:

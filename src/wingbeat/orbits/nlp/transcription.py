@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import copy
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from wingbeat.orbits.flight.certify import Certificate
+from wingbeat.orbits.flight.path_maxima import peak_weights
 from wingbeat.orbits.flight.shooting import Flown, flier
 from wingbeat.orbits.nlp.outputs import AT_BOUND as AT_BOUND
 from wingbeat.orbits.nlp.outputs import Asked
@@ -266,34 +266,6 @@ def highest_sample(values: np.ndarray) -> np.ndarray:
     """Return the weights that give the highest of samples."""
     weights = np.zeros(len(values))
     weights[values.argmax()] = 1.0
-    return weights
-
-
-def peak_weights(values: np.ndarray) -> np.ndarray:
-    """Return the weights of samples along a closed path that give its peak, of a smooth curve through the samples.
-
-    The highest sample itself would have a kink wherever two samples are level, and an optimum that leans on a bound
-    of the path would come to lie in it. The curve is the cubic of Catmull and Rom between each sample and the next.
-    The weights are those of the peak's derivative, too: where the peak lies does not matter to first order.
-    """
-    count = len(values) - 1
-    middle = int(values.argmax()) % count
-    way = 1 if values[(middle + 1) % count] >= values[(middle - 1) % count] else -1
-    around = [(middle + way * k) % count for k in (-1, 0, 1, 2)]
-    before, first, second, after = values[around]
-    # Slope, bend and twist of the cubic from the highest sample, at 0, to the one beside it that the path rises to.
-    slope, slope_there = 0.5 * (second - before), 0.5 * (after - first)
-    bend = 3.0 * (second - first) - 2.0 * slope - slope_there
-    twist = 2.0 * (first - second) + slope + slope_there
-    root = math.sqrt(max(bend**2 - 3.0 * slope * twist, 0.0))
-    at = min(slope / (root - bend), 1.0) if root > bend else 0.0
-    weights = np.zeros(len(values))
-    weights[around] = (
-        -0.5 * at + at**2 - 0.5 * at**3,
-        1.0 - 2.5 * at**2 + 1.5 * at**3,
-        0.5 * at + 2.0 * at**2 - 1.5 * at**3,
-        -0.5 * at**2 + 0.5 * at**3,
-    )
     return weights
 
 

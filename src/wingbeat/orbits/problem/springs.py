@@ -73,7 +73,7 @@ def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
     from scipy.optimize import minimize
 
     series = tuple(np.asarray(a, dtype=float) for a in (flap, flap_rate, hinge_power))
-    without = float(mean_positive(series[2]))
+    without = float(mean_positive(series[2], np))
     # In numbers near one: of the spring that alone would take up a torque typical of this power.
     rate = np.abs(series[1]).max()
     size = np.abs(series[2]).max() / (rate * np.ptp(series[0])) if rate > 0.0 else 0.0

@@ -14,7 +14,7 @@ import pytest
 
 from wingbeat.aero import load_coefficients
 from wingbeat.paper.assumption_page import TRUSTED
-from wingbeat.paper.assumption_study import ORBITS, STARTS
+from wingbeat.paper.assumption_study import ORBITS
 from wingbeat.paper.energy_claims import BATS_NEED
 from wingbeat.paper.experiment_claims import REYNOLDS_FITTED
 from wingbeat.paper.measured_bands import (
@@ -81,9 +81,8 @@ def extension_of(sets, model):
 
 def question(sets, holds):
     head = (DOCS / "assumptions.md").read_text()
-    version, hours = (
-        re.search(pattern, head).group(1) for pattern in (r"version (\d+)\)", r"took ([\d.]+) core-hours")
-    )
+    told = (r"version (\d+)\)", r"took ([\d.]+) core-hours", r"with (\d+) searches an orbit")
+    version, hours, searches = (re.search(pattern, head).group(1) for pattern in told)
     low, high = (spaced(int(reynolds)) for reynolds in REYNOLDS_FITTED)
     plate, fly = (load_coefficients(model, "signed") for model in ("su-fan", "dickinson"))
     plain = [load_coefficients(model) for model in ("su-fan", "dickinson")]
@@ -98,7 +97,7 @@ def question(sets, holds):
         f"which of {holds.shape[1]} claims",
         f"`wingbeat paper assumptions --sets {len(sets)} --piece {PIECE}` (numerical version {version}, {hours} "
         "core-hours)",
-        f"from {WORDS[STARTS]} searches, one of them handed on along speed",
+        f"from {WORDS[int(searches)]} searches, one of them handed on along speed",
         f"at -40 degrees the plate then has {signed} in place of {mirrored}, Dickinson's wing {other} in place of "
         f"{own}",
         f"where it explains under {100 * TRUSTED:.0f} % we make none",

@@ -77,7 +77,7 @@ def test_version_and_no_command() -> None:
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (["specis"], "error: unknown command 'specis'; did you mean 'species'?"),
+        (["specis"], "error: unknown command 'specis'; did you mean species?"),
         (["--jsno"], "error: unknown option '--jsno'; use one of "),
         (["species", "--jsno"], "error: Unknown option: --jsno. Did you mean --json?"),
         (["species", "pigeon", "bat"], "error: "),

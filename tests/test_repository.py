@@ -175,3 +175,22 @@ def test_a_user_gets_no_tool_of_development() -> None:
     assert ran == said
     hooks = re.findall(r"entry: (uv run .*)$", (ROOT / ".pre-commit-config.yaml").read_text("utf-8"), re.MULTILINE)
     assert hooks == said[:4]
+
+
+# What once stood in several modules, each able to drift from the others, and the one module that now holds it.
+ONCE = {
+    '"must be a whole number': "errors.py",
+    'f"did you mean': "errors.py",
+    r"get_close_matches\(": "errors.py",
+    r"quarter-chord\W+(or )?centre-of-pressure[\".]": "aero/blade_element.py",
+    r"FASTEST_CLIMB = 100|at_most\W+100(\.0)?, .*m/s": "orbits/problem/problem.py",
+    r"\bexp\(-[^)]*decay_rate\W* \*": "aero/formula.py",
+    r"\b1\.19, .*1\.74\b": "aero/library.py",
+}
+
+
+@pytest.mark.parametrize("pattern", ONCE)
+def test_what_several_modules_need_is_written_in_one(pattern: str, tracked: list[Path]) -> None:
+    files = [file for file in tracked if file.suffix == ".py" and file.parts[:2] == ("src", "wingbeat")]
+    lines = lines_that_match(re.compile(pattern), files)
+    assert {line.split(":")[0] for line in lines} == {f"src/wingbeat/{ONCE[pattern]}"}, "\n".join(lines)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from numbers import Real
 from typing import Any
 
@@ -60,6 +62,25 @@ def install_extra(extra: str) -> str:
     return f"in the clone run uv sync --inexact --extra {extra}, or pip install '.[{extra}]'"
 
 
+def suggest(word: str, known: Iterable[str], *, most: int = 3, otherwise: str | None = None) -> str:
+    """Return advice on a word that is not known: the nearest known ones, at most so many, or what to say otherwise.
+
+    Without `otherwise` all known words are named.
+
+    >>> suggest("pigon", ["bat", "pigeon"]), suggest("x", ["bat", "pigeon"]), suggest("x", ["bat"], otherwise="no")
+    ('did you mean pigeon?', 'use one of bat, pigeon', 'no')
+    """
+    known = list(known)
+    near = get_close_matches(word[:80], known, n=most, cutoff=0.55)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"use one of {', '.join(known)}" if otherwise is None else otherwise
+
+
+# The rule for counts and seeds; where their range is known, `FaultList.whole` says it too.
+WHOLE = "must be a whole number"
+
+
 class FaultList:
     """Collects faults so that a door reports them all at once."""
 
@@ -102,6 +123,13 @@ class FaultList:
         else:
             return True
         return False
+
+    def whole(self, where: str, value: Any, least: int, most: int, fix: str = "") -> bool:
+        """Note a fault unless `value` is a whole number from `least` to `most`; say whether it is."""
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+            self.add(where, value, f"{WHOLE} from {least} to {most}", fix)
+            return False
+        return True
 
     def choice(self, where: str, value: Any, allowed: tuple[str, ...]) -> None:
         """Note a fault unless `value` is one of the names in `allowed`."""

@@ -1,11 +1,19 @@
 """Fits: forms of the box and of one's own, what is said of their trust, model files, draws."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
-from wingbeat.aero import LIBRARY, FormulaCoefficients, TableCoefficients, load_coefficients
+from wingbeat.aero import (
+    LIBRARY,
+    CentreTerms,
+    FormulaCoefficients,
+    FormulaTerms,
+    TableCoefficients,
+    load_coefficients,
+)
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.experiment import (
     FORMS,
@@ -16,9 +24,10 @@ from wingbeat.experiment import (
     draw,
     fit_curve,
     fit_wing,
+    forms,
 )
 from wingbeat.experiment.campaign import true_coefficients
-from wingbeat.experiment.forms import power_law, wave
+from wingbeat.experiment.forms import BoxForm, value_and_slopes
 
 ALPHA = np.arange(0.0, 111.0, 2.0)
 
@@ -54,22 +63,35 @@ def test_other_published_models_come_back_from_their_own_curves(name):
 
 
 def test_slopes_are_the_derivatives():
-    point = {"constant": 0.2, "amplitude": 1.1, "rate": 1.7, "phase_deg": 20.0, "decay_amplitude": -0.4}
-    for law, terms in (
-        (wave, point | {"decay_rate": 0.3}),
-        (power_law, dict(FORMS["su-fan"].centre.start) | {"exponent": 0.6, "decay_rate": 0.1}),
-    ):
-        slopes = law(ALPHA, terms)[1]
-        for name, value in terms.items():
-            ends = [law(ALPHA, terms | {name: value + step})[0] for step in (1e-6, -1e-6)]
-            np.testing.assert_allclose(slopes[name], (ends[0] - ends[1]) / 2e-6, rtol=1e-5, atol=1e-6)
+    for terms in (FormulaTerms(0.2, 1.1, 1.7, 20.0, -0.4, 0.3), CentreTerms(1.0, 1.0, 0.6, 1.0, 0.1)):
+        slopes = value_and_slopes(terms, ALPHA)[1]
+        for name, value in vars(terms).items():
+            moved = [dataclasses.replace(terms, **{name: value + step}) for step in (1e-6, -1e-6)]
+            ends = [value_and_slopes(one, ALPHA)[0] for one in moved]
+            np.testing.assert_allclose(getattr(slopes, name), (ends[0] - ends[1]) / 2e-6, rtol=1e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_form_of_the_box_is_the_formula_that_a_model_flies_with(name):
+    for form in FORMS[name][1:]:
+        assert isinstance(form, BoxForm)
+        parameters = {term: 0.3 + 0.1 * i for i, term in enumerate(form.names)}
+        terms = form.kind(**form.terms(parameters))
+        flown = terms.in_radians() if form.kind is CentreTerms else terms.in_radians(with_decay=terms.decays)
+        np.testing.assert_allclose(form.value(ALPHA, parameters), flown(np.deg2rad(ALPHA)), rtol=0, atol=1e-13)
+
+
+def test_fits_of_one_form_compile_their_slopes_once(fit):
+    compiled = forms._value_and_slopes._cache_size()
+    fit_wing(noisy(seed=1))
+    assert forms._value_and_slopes._cache_size() == compiled
 
 
 def test_scipy_finds_the_same_parameters_and_covariance(fit):
     from scipy.optimize import curve_fit
 
     def lift(a, *terms):
-        return wave(a, {"constant": 0.0} | dict(zip(fit.lift.parameters, terms, strict=True)))[0]
+        return fit.lift.form.value(a, dict(zip(fit.lift.parameters, terms, strict=True)))
 
     start = list(fit.lift.parameters.values())
     found, covariance = curve_fit(lift, ALPHA, fit.lift.values, p0=np.array(start) * 1.02, sigma=fit.lift.sigma)

@@ -56,8 +56,7 @@ class BladeElement:
             object.__setattr__(self, "coefficients", coefficients_of(self.coefficients))
         except InvalidInputError as error:
             faults.faults.extend(error.faults)
-        if isinstance(self.strips, bool) or not isinstance(self.strips, int) or not 1 <= self.strips <= 1000:
-            faults.add("aero.strips", self.strips, "must be a whole number from 1 to 1000", "the paper has 10")
+        faults.whole("aero.strips", self.strips, 1, 1000, "the paper has 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
         faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
         faults.raise_if_any()

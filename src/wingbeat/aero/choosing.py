@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import load_table
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 
 
 def coefficients_of(given: Any) -> CoefficientModel:
@@ -73,10 +72,9 @@ def load_coefficients(
     if name.lower().endswith(".toml"):
         return load_model(name, extension, blend_width_deg)
     if name not in LIBRARY:
-        close = difflib.get_close_matches(name.lower()[:80], LIBRARY, n=2, cutoff=0.5)
-        guess = f"did you mean {' or '.join(close)}? " if close else ""
+        guess = suggest(name.lower(), LIBRARY, most=2, otherwise="")
         faults = FaultList()
-        fix = f"{guess}The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
-        faults.add("coefficients", name, "is not a known coefficient model", fix)
+        known = f"The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
+        faults.add("coefficients", name, "is not a known coefficient model", f"{guess} {known}".lstrip())
         faults.raise_if_any()
     return LIBRARY[name](extension, blend_width_deg)

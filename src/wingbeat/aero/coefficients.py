@@ -42,13 +42,15 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
     return remainder - 2 * math.pi * np.round(remainder / (2 * math.pi))
 
 
-def _over_angles(function: Any, kernel: Any, alpha: ArrayLike) -> Any:
-    """Apply a compiled kernel function to angles of any shape; a scalar gives a scalar, as in NumPy."""
-    angles = wrapped(alpha)
+def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
+    """Return what a compiled function of numbers and angles gives, for angles of any shape, as NumPy arrays.
+
+    A scalar gives a scalar, as in NumPy.
+    """
     # Padded to a power of two: XLA compiles anew for each length it has not met.
     padded = np.zeros(1 << max(angles.size - 1, 0).bit_length())
     padded[: angles.size] = angles.ravel()
-    result = function(kernel, padded)
+    result = function(numbers, padded)
     return jax.tree.map(lambda leaf: np.array(leaf)[: angles.size].reshape(angles.shape)[()], result)
 
 
@@ -78,16 +80,16 @@ class CoefficientModel:
 
     def lift(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the lift coefficient C_L at `alpha` [rad]."""
-        return _over_angles(_lift_drag, self.kernel(), alpha)[0]
+        return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[0]
 
     def drag(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the drag coefficient C_D at `alpha` [rad]."""
-        return _over_angles(_lift_drag, self.kernel(), alpha)[1]
+        return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[1]
 
     def normal(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the normal force coefficient ``C_N = C_L cos(alpha) + C_D sin(alpha)`` at `alpha` [rad]."""
-        lift, drag = _over_angles(_lift_drag, self.kernel(), alpha)
         angles = wrapped(alpha)
+        lift, drag = at_angles(_lift_drag, self.kernel(), angles)
         return lift * np.cos(angles) + drag * np.sin(angles)
 
     def centre_of_pressure(self, alpha: ArrayLike) -> NDArray[np.float64]:
@@ -100,7 +102,7 @@ class CoefficientModel:
         if not self.has_centre_of_pressure:
             fix = "use su-fan, or a table with the column x_cp"
             raise InvalidInputError([Fault("coefficients", self.name, "has no centre of pressure", fix)])
-        return _over_angles(_centre_of_pressure, self.kernel(), alpha)
+        return at_angles(_centre_of_pressure, self.kernel(), wrapped(alpha))
 
     def moment(self, alpha: ArrayLike, about: float = 0.5) -> NDArray[np.float64]:
         """Return the moment coefficient ``C_M = C_N (about - x_cp)``, nose-up positive, at `alpha` [rad].

@@ -105,6 +105,14 @@ class FormulaTerms:
         """Whether there is an exponential term, which no negative angle may meet."""
         return self.decay_amplitude is not None
 
+    def at(self, alpha_deg: Any) -> Any:
+        """Return the coefficient at angles [deg] by the formula alone: no blend, no extension.
+
+        >>> round(float(FormulaTerms(constant=0.1, amplitude=2.0, rate=2.0, phase_deg=0.0).at(45.0)), 12)
+        2.1
+        """
+        return self.in_radians(with_decay=self.decays)(alpha_deg / _DEG)
+
     def in_radians(self, *, with_decay: bool) -> Wave:
         """Return the same formula of the angle in radians, with an exponential term even if it is nothing."""
         decay_amplitude, decay_rate = self.decay_amplitude, self.decay_rate
@@ -140,6 +148,14 @@ class CentreTerms:
         faults.number("centre.exponent", self.exponent, above=0)
         faults.number("centre.decay_rate", self.decay_rate, at_least=0, unit="1/deg")
         faults.raise_if_any()
+
+    def at(self, alpha_deg: Any) -> Any:
+        """Return the centre of pressure at angles >= 0 [deg] by the formula alone: no blend, no extension.
+
+        >>> round(float(CentreTerms(0.2, 0.1, 0.5, decay_amplitude=0.0, decay_rate=0.0).at(4.0)), 12)
+        0.4
+        """
+        return self.in_radians()(alpha_deg / _DEG)
 
     def in_radians(self) -> PowerLaw:
         """Return the same formula of the angle in radians."""

@@ -7,12 +7,11 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY, BladeElement, load_coefficients
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.orbits.problem.objectives import QUANTITIES
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text
@@ -68,18 +67,18 @@ class Scenario:
             faults.choice("species", self.species, species_names())
         elif len(self.species_file) > LARGEST_FILE:
             faults.add("species_file", f"{len(self.species_file)} characters", f"must be <= {LARGEST_FILE}")
-        faults.number("speed", self.speed, at_least=0, at_most=100, unit="m/s", fix="0 is hover")
-        faults.number("climb", self.climb, at_least=-100, at_most=100, unit="m/s", fix="0 is level flight")
+        faults.number("speed", self.speed, **SPEED_LIMITS, fix="0 is hover")
+        faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
         faults.choice("aero", self.aero, tuple(LIBRARY))
         faults.choice("extension", self.extension, EXTENSIONS)
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
         faults.choice("force_point", self.force_point, FORCE_POINTS)
         faults.choice("airspeed", self.airspeed, AIRSPEEDS)
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
-        _whole(faults, "strips", self.strips, 1, MOST_STRIPS)
-        _whole(faults, "seed", self.seed, 0, 100_000)
+        faults.whole("strips", self.strips, 1, MOST_STRIPS)
+        faults.whole("seed", self.seed, 0, 100_000)
         if self.starts is not None:
-            _whole(faults, "starts", self.starts, 1, MOST_STARTS)
+            faults.whole("starts", self.starts, 1, MOST_STARTS)
         for name, count, most in (
             ("limits", len(self.limits), MOST_LIMITS),
             ("bounds", len(self.bounds), MOST_NUMBERS),
@@ -92,9 +91,9 @@ class Scenario:
 
     def _check_sweep(self, faults: FaultList) -> None:
         first, last, step = self.sweep
-        good = faults.number("sweep.from", first, at_least=0, at_most=100, unit="m/s")
-        good &= faults.number("sweep.to", last, at_least=0, at_most=100, unit="m/s")
-        if faults.number("sweep.step", step, above=0, at_most=100, unit="m/s") and good:
+        good = faults.number("sweep.from", first, **SPEED_LIMITS)
+        good &= faults.number("sweep.to", last, **SPEED_LIMITS)
+        if faults.number("sweep.step", step, above=0, at_most=FASTEST, unit="m/s") and good:
             if not first < last:
                 faults.add("sweep.to", last, f"must be > {first:g} m/s", "the curve runs from slow to fast")
             elif (last - first) / step > MOST_SPEEDS - 1 + 1e-9:
@@ -112,11 +111,6 @@ class Scenario:
     def asks_as(self, other: Scenario) -> bool:
         """Return whether this asks for the same orbit as another; they may differ in the range of the curve."""
         return self == dataclasses.replace(other, sweep=self.sweep)
-
-
-def _whole(faults: FaultList, where: str, value: Any, least: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        faults.add(where, value, f"must be a whole number from {least} to {most}")
 
 
 @functools.lru_cache(maxsize=32)

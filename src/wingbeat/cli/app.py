@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import sys
 from collections.abc import Sequence
-from difflib import get_close_matches
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
@@ -13,7 +12,7 @@ from wingbeat._version import __version__
 from wingbeat.cli.endings import EXIT_INTERRUPTED
 from wingbeat.cli.memory import memory_shortage
 from wingbeat.cli.streams import StdoutError, drop_stdout
-from wingbeat.errors import WingbeatError
+from wingbeat.errors import WingbeatError, suggest
 
 __all__ = ["EXIT_BAD_INPUT", "EXIT_GOOD", "EXIT_NOT_CERTIFIED", "build_app", "main"]
 
@@ -138,10 +137,8 @@ def _message(error: CycloptsError) -> str:
     if isinstance(error, UnknownCommandError) and not error.command_chain and error.unused_tokens:
         # cyclopts would import every command to look for the nearest: seconds for a slip of the finger.
         word = error.unused_tokens[0]
-        near = get_close_matches(word, COMMANDS, n=1)
-        advice = f"did you mean '{near[0]}'?" if near else f"use one of {', '.join(COMMANDS)}"
         kind = "option" if word.startswith("-") else "command"
-        return f"unknown {kind} {word!r}; {advice}"
+        return f"unknown {kind} {word!r}; {suggest(word, COMMANDS, most=1)}"
     return " ".join(str(error).split())
 
 

@@ -23,8 +23,7 @@ def bench(
     from wingbeat.errors import FaultList
 
     faults = FaultList()
-    if not 1 <= batch <= 100_000:
-        faults.add("--batch", batch, "must be a whole number from 1 to 100000")
+    faults.whole("--batch", batch, 1, 100_000)
     faults.raise_if_any()
     with progress_bar("measuring") as progress:
         found = measure(batch, progress)

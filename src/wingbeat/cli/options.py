@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
 from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.files import writing
@@ -45,7 +45,7 @@ AeroName = Annotated[
 ]
 Extension = Annotated[
     str,
-    Parameter(help="How angles beyond the fit are reached: mirrored, signed-drag, signed, clipped-drag."),
+    Parameter(help=f"How angles beyond the fit are reached: {', '.join(EXTENSIONS)}."),
 ]
 BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
 WithinPlausible = Annotated[
@@ -57,7 +57,7 @@ WingsMayCross = Annotated[
     bool,
     Parameter(negative="", help="Let the wings pass through the plane of symmetry, through each other."),
 ]
-ForcePoint = Annotated[str, Parameter(help="Where the force acts: quarter-chord or centre-of-pressure.")]
+ForcePoint = Annotated[str, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}.")]
 Airspeed = Annotated[
     str, Parameter(help="Speed of a strip that makes its loads: planar (across the span) or full (along it, too).")
 ]

@@ -66,10 +66,8 @@ def paper(
     sample = Sample(_SETS if sets is None else sets, seed or 0, _PIECE if piece is None else piece)
     share = processes if processes is not None else core_count()
     for name, count in (("--sets", sample.sets), ("--piece", sample.piece)):
-        if not 1 <= count <= 1_000_000:
-            faults.add(name, count, "must be a whole number from 1 to 1000000")
-    if not 1 <= share <= 1024:
-        faults.add("--processes", share, "must be a whole number from 1 to 1024")
+        faults.whole(name, count, 1, 1_000_000)
+    faults.whole("--processes", share, 1, 1024)
     if seed is not None and seed < 0:
         faults.add("--seed", seed, "must not be negative")
     other = (("--figures", figures), ("--quick", quick or None), ("--before", before))

@@ -13,7 +13,7 @@ from cyclopts import App, Parameter, Token
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs
 from wingbeat.cli.progress import duration, exit_of, say, say_stopping, study_bar
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Tally
@@ -32,8 +32,6 @@ _COMMANDS = ("run", "status", "export", "plot", "salvage")
 
 def _file(kind: Any, tokens: Sequence[Token]) -> Path:
     """Return the path that was given, unless it is a mistyped subcommand."""
-    from wingbeat.species_schema import suggest
-
     word = tokens[0].value
     if word.isalpha() and not Path(word).exists():
         faults = FaultList()

@@ -13,22 +13,23 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat.aero import SuFan
+from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.errors import FaultList
-from wingbeat.experiment.forms import power_law, wave
+from wingbeat.experiment.forms import value_and_slopes
 from wingbeat.experiment.record import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
 from wingbeat.files import write_atomically
 
 __all__ = ["TRUTH", "Campaign", "save_runs", "synthetic_runs", "true_coefficients"]
 
 Array = NDArray[np.float64]
-# The published formulas themselves, without blends, as a fit meets them. Su et al. 2023, arXiv 2302.09602.
-TRUTH: dict[str, dict[str, float]] = {
-    "C_L": {"decay_amplitude": -0.44, "decay_rate": 0.47, "amplitude": 1.19, "rate": 1.74, "phase_deg": 20.0},
-    "C_D": {"constant": 1.04, "amplitude": 1.0, "rate": 1.72, "phase_deg": -70.0},
-    "x_cp": {
-        **{"constant": 0.247, "power_amplitude": 0.016, "exponent": 0.6},
-        **{"decay_amplitude": 0.026, "decay_rate": 0.11},
-    },
+_SU_FAN = SuFan()
+assert _SU_FAN.centre_terms is not None  # the paper has one
+# The published formulas themselves, without blends, as a fit meets them.
+TRUTH: dict[str, FormulaTerms | CentreTerms] = {
+    "C_L": _SU_FAN.lift_terms,
+    "C_D": _SU_FAN.drag_terms,
+    "x_cp": _SU_FAN.centre_terms,
 }
 
 
@@ -92,8 +93,8 @@ def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
     >>> [round(float(c[0]), 4) for c in true_coefficients(np.array([40.0]))]
     [1.19, 1.0191, 0.4061]
     """
-    lift = wave(alpha_deg, {"constant": 0.0} | TRUTH["C_L"])[0]
-    return lift, wave(alpha_deg, TRUTH["C_D"])[0], power_law(alpha_deg, TRUTH["x_cp"])[0]
+    lift, drag, centre = (value_and_slopes(terms, alpha_deg)[0] for terms in TRUTH.values())
+    return lift, drag, centre
 
 
 def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:

@@ -48,8 +48,7 @@ def draw(
     """
     faults = FaultList()
     for name, value, lowest, highest in (("count", count, 1, MAX_COUNT), ("seed", seed, 0, 2**63)):
-        if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:
-            faults.add(name, value, f"must be a whole number from {lowest} to {highest}")
+        faults.whole(name, value, lowest, highest)
     faults.raise_if_any()
     model = source.model() if isinstance(source, WingFit) else read_model(source)
     curves = {"lift_terms": model.lift, "drag_terms": model.drag}

@@ -12,12 +12,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._jax.config import jax, unchecked
+from wingbeat.aero.coefficients import at_angles
+from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.errors import FaultList
 
-__all__ = ["FORMS", "CurveForm", "WingForm", "power_law", "wave"]
+__all__ = ["FORMS", "BoxForm", "CurveForm", "WingForm", "value_and_slopes"]
 
 Array = NDArray[np.float64]
-_RAD = math.pi / 180
+Kind = type[FormulaTerms] | type[CentreTerms]
 # Grids of what a formula is not linear in; the rest follows from linear least squares at each node.
 _RATES = np.concatenate([np.geomspace(0.3, 3.0, 12), [3.6, 4.5]])
 _WAVE_DECAYS = np.geomspace(0.02, 2.0, 10)
@@ -25,54 +28,28 @@ _EXPONENTS = np.linspace(0.2, 2.0, 10)
 _CENTRE_DECAYS = np.geomspace(0.02, 0.6, 10)
 
 
-class WaveGradient(NamedTuple):
-    """Slopes of `wave` in each of its terms, in their order."""
-
-    constant: Array
-    amplitude: Array
-    rate: Array
-    phase_deg: Array
-    decay_amplitude: Array
-    decay_rate: Array
+@jax.jit
+def _value_and_slopes(terms: Any, alpha_deg: Any) -> Any:
+    return terms.at(alpha_deg), jax.jacfwd(type(terms).at)(terms, alpha_deg)
 
 
-def wave(a: Array, terms: dict[str, float]) -> tuple[Array, dict[str, Array]]:
-    """Return ``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)`` and its slopes.
+def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
+    """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and its slopes in its terms.
 
-    The terms are those of `wingbeat.aero.FormulaTerms`, the angle `a` in degrees; the slopes are by term.
+    The slopes are a record like `terms` that holds arrays of shape (n,) in the place of numbers. All forms with the
+    same terms share one compiled function.
 
-    >>> value, _ = wave(np.array([45.0]), {"constant": 0.1, "amplitude": 2.0, "rate": 2.0, "phase_deg": 0.0})
-    >>> round(float(value[0]), 12)
-    2.1
+    >>> value, slopes = value_and_slopes(FormulaTerms(0.1, 2.0, 2.0, 0.0), np.array([45.0]))
+    >>> round(float(value[0]), 12), round(float(slopes.amplitude[0]), 12)
+    (2.1, 1.0)
     """
-    angle = (terms["rate"] * a + terms["phase_deg"]) * _RAD
-    sin, cos = np.sin(angle), np.cos(angle) * terms["amplitude"] * _RAD
-    decay, decay_rate = terms.get("decay_amplitude") or 0.0, terms.get("decay_rate") or 0.0
-    fading = np.exp(-decay_rate * a)
-    slopes = WaveGradient(np.ones_like(a), sin, cos * a, cos, fading, -decay * a * fading)
-    return terms["constant"] + terms["amplitude"] * sin + decay * fading, slopes._asdict()
+    return at_angles(_value_and_slopes, terms, alpha_deg)
 
 
-def power_law(a: Array, terms: dict[str, float]) -> tuple[Array, dict[str, Array]]:
-    """Return ``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)`` and its slopes.
-
-    The terms are those of `wingbeat.aero.CentreTerms`, the angle `a` >= 0 in degrees; the slopes are by term.
-
-    >>> terms = {"constant": 0.2, "power_amplitude": 0.1, "exponent": 0.5, "decay_amplitude": 0, "decay_rate": 0}
-    >>> round(float(power_law(np.array([4.0]), terms)[0][0]), 12)
-    0.4
-    """
-    power, fading = a ** terms["exponent"], a * np.exp(-terms["decay_rate"] * a)
-    logarithm = np.log(np.where(a > 0, a, 1.0))
-    slopes = {
-        "constant": np.ones_like(a),
-        "power_amplitude": power,
-        "exponent": terms["power_amplitude"] * power * logarithm,
-        "decay_amplitude": fading,
-        "decay_rate": -terms["decay_amplitude"] * a * fading,
-    }
-    value = terms["constant"] + terms["power_amplitude"] * power + terms["decay_amplitude"] * fading
-    return value, slopes
+def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
+    """Return terms without the checks of a model's: a search passes through what no model may hold."""
+    # All of them floats: JAX compiles anew for another type of number, and does not differentiate in integers.
+    return unchecked(kind, {name: float(value) for name, value in terms.items()})
 
 
 @dataclass(frozen=True)
@@ -141,9 +118,9 @@ class CurveForm:
 
 @dataclass(frozen=True)
 class BoxForm(CurveForm):
-    """A formula of the box, some of its terms held fixed; its slopes are exact and it finds its own start."""
+    """A formula of `wingbeat.aero`, some terms held fixed; its slopes are exact and it finds its own start."""
 
-    law: Callable[[Array, dict[str, float]], tuple[Array, dict[str, Array]]] = wave
+    kind: Kind = FormulaTerms
     fixed: dict[str, float] = field(default_factory=dict)
     grids: dict[str, Array] = field(default_factory=dict)
 
@@ -151,14 +128,10 @@ class BoxForm(CurveForm):
         """Return all terms of the formula, those held fixed included."""
         return self.fixed | parameters
 
-    def value(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the curve at `alpha_deg`, shape (n,)."""
-        return self.law(alpha_deg, self.terms(parameters))[0]
-
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
         """Return the derivatives in the parameters, shape (n, parameters)."""
-        slopes = self.law(alpha_deg, self.terms(parameters))[1]
-        return np.column_stack([slopes[name] for name in self.names])
+        _, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
+        return np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
         """Return the three best nodes of a grid over the non-linear terms, the others by linear least squares."""
@@ -174,15 +147,15 @@ class BoxForm(CurveForm):
 
     def _linear_basis(self, a: Array, held: dict[str, float]) -> tuple[Array, Callable[[Array], dict[str, float]]]:
         """Return the functions the formula is linear in, and how their factors become parameters."""
-        blank = dict.fromkeys((*self.names, *self.fixed), 0.0) | {"exponent": 1.0} | self.fixed | held
-        one = blank | {"amplitude": 1.0} | held
+        blank = dict.fromkeys(self.names, 0.0) | self.fixed | held
         names = [name for name in self.names if name not in self.grids and name != "phase_deg"]
-        slopes = self.law(a, one)[1]
+        _, slopes = value_and_slopes(_any_terms(self.kind, blank), a)
         # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
-        columns = {name: slopes[name] for name in names}
+        columns = {name: getattr(slopes, name) for name in names}
         if "phase_deg" in self.names:
             for name, phase in (("amplitude", 0.0), ("cosine", 90.0)):
-                columns[name] = self.law(a, one | {"phase_deg": phase})[1]["amplitude"]
+                turned = _any_terms(self.kind, blank | {"phase_deg": phase})
+                columns[name] = value_and_slopes(turned, a)[1].amplitude
 
         def parameters(factors: Array) -> dict[str, float]:
             value = dict(zip(columns, factors.tolist(), strict=True)) | held
@@ -195,11 +168,15 @@ class BoxForm(CurveForm):
         return np.column_stack(list(columns.values())), parameters
 
 
+def _function(kind: Kind, fixed: dict[str, float]) -> Callable[..., Array]:
+    return lambda a, **parameters: value_and_slopes(_any_terms(kind, fixed | parameters), a)[0]
+
+
 def _wave_form(formula: str, free: list[str], fixed: dict[str, float], **grids: Array) -> BoxForm:
     decays = "decay_rate" in free
     return BoxForm(
         formula,
-        lambda a, **terms: wave(a, fixed | terms)[0],
+        _function(FormulaTerms, fixed),
         dict.fromkeys(free, 1.0),
         lowest={"decay_rate": 0.0} if decays else {},
         highest={"decay_rate": 20.0} if decays else {},
@@ -213,12 +190,12 @@ _SINE = ["constant", "amplitude", "rate", "phase_deg"]
 _SINE_FORM = _wave_form("constant + amplitude sin(rate a + phase)", _SINE, {}, rate=_RATES)
 _CENTRE = BoxForm(
     "constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)",
-    lambda a, **terms: power_law(a, terms)[0],
+    _function(CentreTerms, {}),
     dict.fromkeys(["constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate"], 1.0),
     lowest={"exponent": 1e-3, "decay_rate": 0.0},
     highest={"exponent": 5.0, "decay_rate": 5.0},
     only_positive=True,
-    law=power_law,
+    kind=CentreTerms,
     grids={"exponent": _EXPONENTS, "decay_rate": _CENTRE_DECAYS},
 )
 

@@ -47,8 +47,7 @@ def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None
     """Raise `InvalidInputError` unless all are whole numbers in range."""
     faults = FaultList()
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("most_starts", most_starts, 1)):
-        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= 100_000:
-            faults.add(name, value, f"must be a whole number from {least} to 100000")
+        faults.whole(name, value, least, 100_000)
     faults.raise_if_any()
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.many.branches import trace
 from wingbeat.orbits.many.transitions import marks_of
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.results.characteristic import characteristic_speeds
 from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
@@ -156,9 +156,7 @@ def solve_curve(
     check_search(starts, seed)
     faults = FaultList()
     values = list(speeds)
-    good = all(
-        [faults.number(f"speeds[{i}]", u, at_least=0, at_most=100, unit="m/s") for i, u in enumerate(values)]
-    )
+    good = all([faults.number(f"speeds[{i}]", u, **SPEED_LIMITS) for i, u in enumerate(values)])
     if not 2 <= len(values) <= MOST_SPEEDS:
         faults.add("speeds", len(values), f"must be 2 to {MOST_SPEEDS} speeds", "for example 3:20:1")
     elif good and not all(low < high for low, high in itertools.pairwise(values)):

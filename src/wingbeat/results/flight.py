@@ -85,8 +85,7 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     """
     faults = FaultList()
     for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
-        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
-            faults.add(name, value, f"must be a whole number from 1 to {most}")
+        faults.whole(name, value, 1, most)
     faults.raise_if_any()
     check_state(state)
     return Flight(model, wingbeat, *fly_beats(model, wingbeat, state, beats, samples))

@@ -240,8 +240,7 @@ def uncertainty_by_samples(
     InvalidInputError : samples not a whole number from 10 to 100000; what `Sensitivities.error_bar` refuses.
     """
     faults = FaultList()
-    if isinstance(samples, bool) or not isinstance(samples, int) or not 10 <= samples <= 100_000:
-        faults.add("samples", samples, "must be a whole number from 10 to 100000")
+    faults.whole("samples", samples, 10, 100_000)
     faults.raise_if_any()
     bars = [found.error_bar(name, fit, share) for name in quantities]
     spreads = found.spreads(fit, share)

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from numbers import Real
 from typing import Any
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
 from wingbeat.species.loading import species_of
 from wingbeat.species.record import Species
 from wingbeat.species.settings import plain
-from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, suggest, to_si
+from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, to_si
 
 __all__ = ["bat", "bird", "robot"]
 

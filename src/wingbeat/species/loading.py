@@ -7,7 +7,7 @@ import math
 import os
 from pathlib import Path
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.files import read_text
 from wingbeat.species.building import WHOLE, build_records, check_bounds, default_of, derive_body
 from wingbeat.species.record import Species, find_warnings
@@ -19,7 +19,6 @@ from wingbeat.species_schema import (
     packaged_text,
     read_species_text,
     species_names,
-    suggest,
 )
 
 __all__ = ["load_species", "species_of"]

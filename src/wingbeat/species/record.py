@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
 from wingbeat.species.law import OUTSIDE
@@ -23,7 +23,6 @@ from wingbeat.species_schema import (
     Range,
     check_value,
     display,
-    suggest,
     to_si,
 )
 from wingbeat.vehicle import Air, Vehicle

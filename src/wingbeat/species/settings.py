@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat.errors import FaultList, FileError
-from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken, suggest
+from wingbeat.errors import FaultList, FileError, suggest
+from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
 __all__ = ["parse_setting", "plain", "settable"]
 

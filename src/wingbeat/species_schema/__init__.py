@@ -1,7 +1,7 @@
 """Species files: what they may hold, faults in words, and the numbers read from them. No physics."""
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
-from wingbeat.species_schema.faults import check_value, shown, spoken, suggest
+from wingbeat.species_schema.faults import check_value, shown, spoken
 from wingbeat.species_schema.keys import FREE_UNITS, KEYS, PLAUSIBLE, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
@@ -37,7 +37,6 @@ __all__ = [
     "shown",
     "species_names",
     "spoken",
-    "suggest",
     "template",
     "to_si",
 ]

@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
-from difflib import get_close_matches
 from typing import Any
 
 from pydantic import ValidationError
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, RangeTable, SpeciesFile
 
@@ -25,7 +24,6 @@ __all__ = [
     "rule_of",
     "shown",
     "spoken",
-    "suggest",
 ]
 
 MAX_FAULTS = 100
@@ -71,13 +69,6 @@ def spoken(path: Any) -> str:
     """Return a path somebody typed as it is if it can be printed, else in quotes with escapes."""
     text = str(shown(path))
     return text if text.isprintable() and text.strip() and len(text) <= 80 else json.dumps(text)[:80]
-
-
-def suggest(word: str, known: Iterable[str]) -> str:
-    """Return advice: the nearest of the known words, or all of them."""
-    known = list(known)
-    near = get_close_matches(word[:80], known, n=3, cutoff=0.55)
-    return f"did you mean {' or '.join(near)}?" if near else f"use one of {', '.join(known)}"
 
 
 def check_shape(raw: dict[str, Any], faults: FaultList) -> None:

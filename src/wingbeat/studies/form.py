@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import WHOLE, FaultList, suggest
 from wingbeat.files import read_text, toml_tables
-from wingbeat.species_schema import shown, suggest
+from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
 from wingbeat.species_schema.models import LIST, TABLE
 
@@ -164,7 +164,7 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
         elif fault["type"] == "literal_error":
             rule, fix = "is not a known choice", f"use {fault.get('ctx', {}).get('expected')}, or a table of pairs"
         elif fault["type"] == "int_type":
-            rule = "must be a whole number"
+            rule = WHOLE
         elif fault["type"] == "list_type":
             rule = "must be a list"
         elif fault["type"] in ("model_type", "dict_type") and loc[:1] == ("vary",) and len(loc) == 2:
@@ -224,8 +224,8 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
             faults.add("sample", form.sample.method, "has no range to sample", fix)
         faults.choice("sample.method", form.sample.method, METHODS)
         for name, count, least in (("n", form.sample.n, 1), ("seed", form.sample.seed, 0)):
-            if count is not None and not least <= count <= 1_000_000:
-                faults.add(f"sample.{name}", shown(count), f"must be a whole number from {least} to 1000000")
+            if count is not None:
+                faults.whole(f"sample.{name}", shown(count), least, 1_000_000)
     if form.chain is not None and (form.chain not in form.vary or "range" in "".join(form.vary[form.chain].given)):
         gridded = [path for path, vary in form.vary.items() if vary.given in (("grid",), ("relative",))]
         fix = f"chain along {' or '.join(gridded)}" if gridded else "leave chain out"
@@ -248,8 +248,7 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
     """Note counts out of range, and keys whose list names a value twice."""
     for name, least in (("starts", 1), ("seed", 0), ("most_starts", 1)):
         for count in getattr(form, name) or ():
-            if not least <= count <= 100_000:
-                faults.add(name, shown(count), f"must be a whole number from {least} to 100000")
+            faults.whole(name, shown(count), least, 100_000)
     for name in StudyForm.model_fields:
         values = getattr(form, name)
         listed = isinstance(values, list) and name != "free"

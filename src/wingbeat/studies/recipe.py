@@ -10,24 +10,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat.aero import BladeElement
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.provenance import aero_from, inputs_of, species_from
 from wingbeat.species import Species
 from wingbeat.species.settings import settable
-from wingbeat.species_schema import KEYS, Key, shown, spoken, suggest
+from wingbeat.species_schema import KEYS, Key, shown, spoken
 from wingbeat.studies.objective import from_inputs
 
 __all__ = ["MOTION", "Recipe", "recipe_from", "starts_of"]
 
-# Every point says these, whatever is varied; their limits are those of `OrbitProblem` and `Species.with_payload`.
-MOTION = {
-    "speed": {"at_least": 0.0, "at_most": 100.0, "unit": "m/s"},
-    "climb": {"at_least": -100.0, "at_most": 100.0, "unit": "m/s"},
-    "payload": {"at_least": 0.0, "unit": "kg"},
-}
+# Every point says these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
+MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": "kg"}}
 _OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
 _OF_ELEMENTS = ("aero.strips", "aero.force_point", "aero.airspeed")
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)

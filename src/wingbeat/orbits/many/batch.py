@@ -85,8 +85,7 @@ def find_orbits(
 
 def check_processes(faults: FaultList, processes: Any) -> None:
     """Note a fault unless it is a whole number of processes."""
-    if isinstance(processes, bool) or not isinstance(processes, int) or not 1 <= processes <= _MOST_PROCESSES:
-        faults.add("processes", processes, f"must be a whole number from 1 to {_MOST_PROCESSES}")
+    faults.whole("processes", processes, 1, _MOST_PROCESSES)
 
 
 def _in_order(

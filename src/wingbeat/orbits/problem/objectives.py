@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable
@@ -12,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._jax.config import jnp
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, suggest
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.springs import SpringCost
@@ -228,12 +227,8 @@ def named_quantity(name: str) -> Quantity:
         return SpringPower(*(float(number) for number in found.groups() if number is not None))
     if name not in QUANTITIES:
         faults = FaultList()
-        close = difflib.get_close_matches(str(name), QUANTITIES, n=1)
-        fix = (
-            f"did you mean {close[0]}?"
-            if close
-            else f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
-        )
+        others = f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
+        fix = suggest(str(name), QUANTITIES, most=1, otherwise=others)
         faults.add("quantity", name, "is not one that wingbeat knows", fix)
         faults.raise_if_any()
     return QUANTITIES[name]

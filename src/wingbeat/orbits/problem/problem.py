@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +12,7 @@ import numpy as np
 
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.errors import FaultList, InvalidInputError, suggest
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel, flight_model
@@ -34,6 +33,9 @@ CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
 # The fastest flight, and climb or descent, that a problem may ask for [m/s].
 FASTEST = FASTEST_CLIMB = 100.0
+# The same, as `FaultList.number` takes it.
+SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
+CLIMB_LIMITS: dict[str, Any] = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB, "unit": "m/s"}
 # The derivative of the pitch state at the start by itself.
 _START = np.eye(4)
 
@@ -102,9 +104,8 @@ class OrbitProblem:
         faults = FaultList()
         if not isinstance(self.species, Species):
             faults.add("species", self.species, "is not a Species", "use load_species(name or path)")
-        faults.number("speed", self.speed, at_least=0, at_most=FASTEST, unit="m/s", fix="0 is hover")
-        limits = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB}
-        faults.number("climb", self.climb, **limits, unit="m/s", fix="0 is level flight")
+        faults.number("speed", self.speed, **SPEED_LIMITS, fix="0 is hover")
+        faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
         if not isinstance(self.wings_may_cross, bool):
@@ -243,10 +244,9 @@ class OrbitProblem:
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:
             if name not in FREE_NAMES:
-                close = difflib.get_close_matches(str(name), FREE_NAMES, n=1)
                 named = [known for known in FREE_NAMES if harmonic_place(known) is None]
                 fix = f"free can be {', '.join(named)}, or a harmonic such as flap_cos_2"
-                fix = f"did you mean {close[0]}?" if close else fix
+                fix = suggest(str(name), FREE_NAMES, most=1, otherwise=fix)
                 faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
             elif name not in bounds:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")

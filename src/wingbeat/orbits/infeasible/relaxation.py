@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from wingbeat.errors import InvalidInputError
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
+from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.parameters import Place, unit_of, with_number
+from wingbeat.orbits.problem.parameters import Place, with_number
 from wingbeat.orbits.problem.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
@@ -135,7 +136,7 @@ _PLACES: dict[str, Place] = {
 
 def _unit(problem: OrbitProblem, change: Change) -> str:
     limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
-    return limits[0] if limits else unit_of(change.name)
+    return limits[0] if limits else plain_unit(change.name)
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:

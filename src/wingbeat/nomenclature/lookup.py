@@ -77,14 +77,17 @@ def attributes_of(term: Term) -> dict[str, str]:
     return {key: value for key, value in known.items() if value}
 
 
-def axis_label(name: str, unit: str | None = None) -> str:
-    """Return a figure's axis label for a quantity, in another unit if one is given.
+def axis_label(name: str, full: bool = False) -> str:
+    """Return a figure's axis label for a quantity: short, or in full with its symbol.
 
-    >>> axis_label("mean_power"), axis_label("frequency"), axis_label("hinge_power")
-    ('hinge power, mean [W]', 'wingbeat frequency [Hz]', 'hinge power, both wings [W]')
+    >>> axis_label("mean_power"), axis_label("frequency")
+    ('hinge power, mean [W]', 'wingbeat frequency [Hz]')
+    >>> axis_label("speed"), axis_label("speed", full=True)
+    ('speed [m/s]', 'mean horizontal speed U [m/s]')
     """
     term = NOMENCLATURE[name]
-    return f"{term.short_label} [{plain(term.unit) if unit is None else unit}]"
+    words = (term.label, term.symbol) if full else (term.short_label,)
+    return " ".join(word for word in (*words, f"[{plain(term.unit)}]") if word)
 
 
 def _named_parts(path: str) -> list[str]:

@@ -19,20 +19,26 @@ def cf(unit: str) -> str:
     above, *below = unit.split("/")
     factors = [above] if above != "1" or not below else []
     for part in " ".join(below).split():
-        base, power = re.fullmatch(r"(\D+)(\d*)", part).groups()  # type: ignore[union-attr]
-        factors.append(f"{base}-{power or 1}")
+        found = re.fullmatch(r"(\D+)(\d*)", part)
+        if found is None:  # a user's own unit, which we leave as it is
+            return unit
+        factors.append(f"{found[1]}-{found[2] or 1}")
     return " ".join(factors)
 
 
 def plain(unit: str) -> str:
     """Return a unit of a data set as species files and messages write it, with a stroke.
 
-    >>> plain("m s-2"), plain("kg m2 s-1"), plain("deg-1"), plain("N m")
-    ('m/s2', 'kg m2/s', '1/deg', 'N m')
+    >>> plain("m s-2"), plain("kg m2 s-1"), plain("deg-1"), plain("N m"), plain("foot-pounds")
+    ('m/s2', 'kg m2/s', '1/deg', 'N m', 'foot-pounds')
     """
-    parts = unit.split()
-    above = [part for part in parts if "-" not in part]
-    below = [part.replace("-1", "").replace("-", "") for part in parts if "-" in part]
+    above, below = [], []
+    for part in unit.split():
+        found = re.fullmatch(r"(\D+)-(\d+)", part)
+        if found is None:
+            above.append(part)
+        else:
+            below.append(found[1] + ("" if found[2] == "1" else found[2]))
     return "/".join([" ".join(above) or "1", *below]) if below else unit
 
 

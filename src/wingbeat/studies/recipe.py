@@ -11,6 +11,7 @@ from typing import Any
 
 from wingbeat.aero import BladeElement
 from wingbeat.errors import FaultList
+from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.starts import usual_starts
@@ -24,9 +25,9 @@ __all__ = ["MOTION", "Recipe", "recipe_from", "starts_of"]
 
 # Every point says these, whatever is varied; their limits are those of `OrbitProblem` and `Species.with_payload`.
 MOTION = {
-    "speed": {"at_least": 0.0, "at_most": 100.0, "unit": "m/s"},
-    "climb": {"at_least": -100.0, "at_most": 100.0, "unit": "m/s"},
-    "payload": {"at_least": 0.0, "unit": "kg"},
+    "speed": {"at_least": 0.0, "at_most": 100.0, "unit": plain_unit("speed")},
+    "climb": {"at_least": -100.0, "at_most": 100.0, "unit": plain_unit("climb")},
+    "payload": {"at_least": 0.0, "unit": plain_unit("payload")},
 }
 _OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
 _OF_ELEMENTS = ("aero.strips", "aero.force_point", "aero.airspeed")

@@ -19,7 +19,7 @@ from wingbeat.results.columns import flat
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE
 
 SOURCE = Path(wb.__file__).parent
-# Lists of units that are no list of ours: spellings met in other people's files, and what the paper's claims are in.
+# Lists that are not ours: spellings met in other people's files, and units of the paper's claims.
 EXCEPTIONS = {"experiment/headings.py", "paper/flight_claim_list.py"}
 UNITS = {term.unit for term in NOMENCLATURE.values()} - {"", "1"}
 SPELLED = UNITS | {plain(unit) for unit in UNITS} | {"deg", "deg/s"}

@@ -9,6 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.errors import FileError, InvalidInputError
+from wingbeat.nomenclature import find, label_of
 from wingbeat.orbits.many.branches import LEAP, Branches, Join, carry, trace
 from wingbeat.orbits.many.transitions import families, marks_of, unmarked_jumps
 from wingbeat.orbits.solve import find_optima
@@ -189,3 +190,17 @@ def test_the_command_line_tells_when_nothing_is_certified(capsys):
 def test_bad_words_exit_with_2(words, capsys):
     assert main(["curve", "pigeon", *words]) == 2
     assert "error: " in capsys.readouterr().err
+
+
+def test_every_column_of_a_curve_is_said_by_the_table(curve):
+    dataset = curve.dataset
+    for name, variable in dataset.variables.items():
+        name = str(name)
+        if name.startswith("constraint_"):
+            continue  # of a quantity, which may be the user's own
+        path = name.replace("initial_", "initial_state.").replace("closure_", "closure.")
+        term = find(path)
+        assert term is not None, name
+        assert variable.attrs["long_name"] == label_of(path), name
+        if name != "objective_value":  # its unit is that of the objective
+            assert variable.attrs.get("units", "") == term.unit, name

@@ -9,7 +9,7 @@ import xarray as xr
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.nomenclature import NOMENCLATURE
+from wingbeat.nomenclature.series import SERIES
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset
 
@@ -48,11 +48,12 @@ def test_saved_twice_it_is_the_same(saved, tmp_path):
 
 def test_every_variable_has_a_unit_a_name_and_a_place_in_the_nomenclature(saved):
     series = wb.load_orbit(saved[1]).dataset
-    assert series.variables.keys() == NOMENCLATURE.keys()
+    terms = {term.name: term for term in SERIES}
+    assert series.variables.keys() == terms.keys()
     for name, variable in series.variables.items():
-        term = NOMENCLATURE[name]
-        assert variable.dims == term.dims, name
-        assert variable.attrs["long_name"] == term.long_name, name
+        term = terms[name]
+        assert variable.dims[0] == ("phase" if name not in series.dims else name), name
+        assert variable.attrs["long_name"] == term.label, name
         if name not in ("axis", "corner"):  # labels, not quantities
             assert variable.attrs["units"] == term.unit != "", name
             assert np.isfinite(variable.values).all(), name
@@ -64,7 +65,7 @@ def test_the_file_is_plain_netcdf(saved):
     orbit, path = saved
     record = orbit.record()
     with h5netcdf.File(path, "r") as file:
-        assert {*file.variables} == {*NOMENCLATURE}
+        assert {*file.variables} == {term.name for term in SERIES}
         assert file.variables["hinge_power"].attrs["units"] == "W"
         # Series and record come of two compiled programs: one equation, but on some processors another last bit.
         assert float(np.max(file.variables["hinge_power"][:])) == pytest.approx(record["peak_power"], rel=1e-12)

@@ -12,11 +12,13 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
+from wingbeat.nomenclature import find, label_of
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.studies import work
 from wingbeat.studies.store import Store
+from wingbeat.studies.table import to_dataset
 from wingbeat.studies.units import Task, Unit
 
 FORM = {
@@ -105,6 +107,25 @@ def test_the_table_has_the_names_of_the_record(done, tmp_path):
         assert list(dataset["status"].values) == ["converged"] * 8
         assert (dataset.attrs["wingbeat_kind"], dataset.attrs["numerical_version"]) == ("study", NUMERICAL_VERSION)
         assert list(dataset.attrs["varied"]) == ["speed", "wing.mass"]
+        for name, variable in dataset.variables.items():
+            term, text = find(str(name)), variable.dtype.kind not in "fiub"
+            assert term is not None, name
+            assert variable.attrs["long_name"] == label_of(str(name)), name
+            if name != "objective_value":  # its unit is that of the objective
+                assert variable.attrs.get("units") == (None if text else term.unit), name
+        labels = {name: dataset[name].attrs["long_name"] for name in ("mean_power", "wing.mass", "closure.u")}
+        assert labels == {
+            "mean_power": "mean hinge power, both wings",
+            "wing.mass": "mass of one wing",
+            "closure.u": "miss of the forward velocity of the body, when re-flown",
+        }
+        assert (dataset["speed"].attrs["units"], dataset["mean_power"].attrs["units"]) == ("m s-1", "W")
+
+
+def test_a_study_of_two_objectives_in_two_units_gives_their_values_no_unit():
+    frame = pd.DataFrame({"objective": ["frequency", "mean_power"], "objective_value": [6.0, 25.0]})
+    assert "units" not in to_dataset(frame, {})["objective_value"].attrs
+    assert to_dataset(frame[:1], {})["objective_value"].attrs["units"] == "Hz"
 
 
 def test_parquet(done, tmp_path):

@@ -11,6 +11,7 @@ from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
 from wingbeat.app.words import from_shown, sentence
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.species import species_names
 
@@ -165,6 +166,5 @@ class Controls:
 
 
 def _quantity(name: str) -> str:
-    unit = QUANTITIES[name].unit
-    shown = {"1": "", "rad": " [deg]", "m s-2": " [m/s²]"}.get(unit, f" [{unit}]")
-    return name.replace("_", " ") + shown
+    _, unit = for_people(NOMENCLATURE[name].unit)
+    return name.replace("_", " ") + (f" [{unit.replace('s2', 's²')}]" if unit else "")

@@ -7,13 +7,12 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from wingbeat.nomenclature import axis_label
+
 __all__ = ["chart"]
 
 _WIDTH, _PANEL, _GAP, _LEFT, _TOP, _RIGHT, _FOOT = 560, 150, 34, 52, 22, 14, 40
-_PANELS = (
-    ("frequency", "wingbeat frequency [Hz]"),
-    ("mean_positive_power", "hinge power, mean of positive part [W]"),
-)
+_PANELS = ("frequency", "mean_positive_power")
 
 
 def chart(points: Sequence[dict[str, Any]], speeds: Sequence[float], now: float | None) -> str:
@@ -28,13 +27,13 @@ def chart(points: Sequence[dict[str, Any]], speeds: Sequence[float], now: float 
     height = _TOP + len(_PANELS) * (_PANEL + _GAP) - _GAP + _FOOT
     low, high = min(speeds), max(speeds)
     parts = []
-    for i, (name, title) in enumerate(_PANELS):
-        parts += _panel(points, (low, high), name, title, _TOP + i * (_PANEL + _GAP), now)
+    for i, name in enumerate(_PANELS):
+        parts += _panel(points, (low, high), name, _TOP + i * (_PANEL + _GAP), now)
     bottom = height - _FOOT
     for value in _ticks(low, high):
         x = _across(value, low, high)
         parts.append(_text(x, bottom + 16, f"{value:g}", "middle"))
-    parts.append(_text(_LEFT + _plot_width() / 2, bottom + 33, "speed [m/s]", "middle"))
+    parts.append(_text(_LEFT + _plot_width() / 2, bottom + 33, axis_label("speed"), "middle"))
     certified = sum(point["status"] == "converged" for point in points)
     label = f"Frequency and power against speed, {certified} certified points; the table below holds the numbers"
     head = f'<svg viewBox="0 0 {_WIDTH} {height}" role="img" aria-label="{label}" class="chart">'
@@ -53,14 +52,13 @@ def _panel(
     points: Sequence[dict[str, Any]],
     ends: tuple[float, float],
     name: str,
-    title: str,
     top: float,
     now: float | None,
 ) -> list[str]:
     known = [p for p in points if p["status"] == "converged" and p[name] is not None]
     tallest = max((float(p[name]) for p in known), default=1.0) * 1.08 or 1.0
     bottom = top + _PANEL
-    parts = [_text(_LEFT, top - 7, title, "start", "title")]
+    parts = [_text(_LEFT, top - 7, axis_label(name), "start", "title")]
     for value in _ticks(0.0, tallest):
         y = bottom - _PANEL * value / tallest
         parts.append(f'<line class="grid" x1="{_LEFT}" x2="{_WIDTH - _RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>')

@@ -10,6 +10,7 @@ from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import Field, button, number_field, tag
 from wingbeat.app.words import from_shown, range_text, shown_text, spoken_path, unit_of
 from wingbeat.kinematics import ANGLES
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
 
 __all__ = ["Numbers"]
@@ -61,10 +62,8 @@ class Numbers:
         )
 
     def _build_bound(self, name: str) -> None:
-        unit, tip = (
-            "deg" if self._is_angle(name) else "Hz" if name == "frequency" else "",
-            self._species.reasons.get(name, ""),
-        )
+        _, unit = for_people(NOMENCLATURE[name].unit)
+        tip = self._species.reasons.get(name, "")
         guess = "a guess" if name in self._species.guessed_bounds else ""
         with tag("div", classes="pair", role="group", aria_label=f"Bounds of {name.replace('_', ' ')}"):
             tag("span", name.replace("_", " "), "pair-name")

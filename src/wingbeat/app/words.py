@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species_schema import Number, display
 
 __all__ = ["from_shown", "number", "range_text", "sentence", "shown_text", "spoken_path", "tiles", "unit_of"]
@@ -65,10 +66,15 @@ def tiles(record: dict[str, Any]) -> list[tuple[str, str, str, str]]:
     amplitude = math.degrees(record["wingbeat"]["flap_amplitude"])
     cost = record.get("cost_of_transport")
     found = [
-        ("Wingbeat frequency", number(frequency), "Hz", repr(frequency)),
-        ("Mean positive power", number(power), "W", repr(power)),
-        ("Power per mass", number(None if power is None else power / mass, 3), "W/kg", repr(power)),
-        ("Flap amplitude", number(amplitude, 3), "deg", repr(amplitude)),
-        ("Cost of transport", number(cost, 3), "", repr(cost)),
+        ("frequency", "Wingbeat frequency", number(frequency), repr(frequency)),
+        ("mean_positive_power", "Mean positive power", number(power), repr(power)),
+        (
+            "positive_power_per_mass",
+            "Power per mass",
+            number(None if power is None else power / mass, 3),
+            repr(power),
+        ),
+        ("flap_amplitude", "Flap amplitude", number(amplitude, 3), repr(amplitude)),
+        ("cost_of_transport", "Cost of transport", number(cost, 3), repr(cost)),
     ]
-    return found
+    return [(label, value, for_people(NOMENCLATURE[name].unit)[1], exact) for name, label, value, exact in found]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.experiment import FilmedBeat
-from wingbeat.species_schema import FREE_UNITS
+from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit
+from wingbeat.results.rows import power_label
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -25,11 +26,7 @@ Kinematics = Annotated[
         help="A filmed wingbeat (.csv): phase, or time and '# frequency = ..', with flap_deg, pitch_deg, ..."
     ),
 ]
-_POWERS = {
-    "mean_power": "hinges, mean",
-    "mean_positive_power": "hinges, mean of the positive part",
-    "peak_power": "hinges, peak",
-}
+_POWERS = ("mean_power", "mean_positive_power", "peak_power")
 
 
 def film_record(beat: FilmedBeat) -> dict[str, Any]:
@@ -62,16 +59,17 @@ def spread_record(spread: Spread) -> dict[str, Any]:
 def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
     """Return powers and trims of an orbit with their standard errors, a line each."""
     record, lines = orbit.record(), []
-    for name, label in _POWERS.items():
-        lines.append(f"{label}: {plus_minus(record[name], spread.standard_error(name))} W")
+    for name in _POWERS:
+        shown, unit = plus_minus(record[name], spread.standard_error(name)), plain_unit(name)
+        lines.append(f"{power_label(name)}: {shown} {unit}")
     for name in orbit.problem.free:
         error = spread.standard_error(f"wingbeat.{name}") if f"wingbeat.{name}" in spread.values else None
-        value, unit = record["wingbeat"].get(name), FREE_UNITS[name]
+        value = record["wingbeat"].get(name)
         if value is None:
             continue  # a harmonic, which stands in a list
-        factor, unit = (math.degrees(1.0), "deg") if unit == "rad" else (1.0, unit)
+        factor, unit = for_people(NOMENCLATURE[name].unit)
         shown = plus_minus(factor * value, None if error is None else factor * error)
-        lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}")
+        lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
     edge = "; the others do not, so the beat is near the edge of what flies and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
     return [*lines, f"one standard error; {spread.certified} of {spread.asked} draws of the film fly{ending}"]

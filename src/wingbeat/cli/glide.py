@@ -30,11 +30,19 @@ from wingbeat.cli.options import (
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.mechanics.glide import Glide
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.plots import glide_page, save_figure
 from wingbeat.results.glide import GlidePolar, glide_polar
 
-_HEADS = {"alpha": "deg", "speed": "m/s", "sink": "m/s", "ratio": "-", "path": "deg", "body": "deg", "wing": "deg"}
-_HEADS |= {"flap": "deg", "tail": "N m", "hold": "N m"}
+# The head of each column, and what of a glide stands in it.
+_HEADS = {
+    "alpha": "angle_of_attack",
+    "speed": "speed",
+    "sink": "sink",
+    "ratio": "glide_ratio",
+    "path": "glide_angle",
+}
+_HEADS |= {"body": "body_pitch", "wing": "wing_pitch", "flap": "flap", "tail": "tail_moment", "hold": "flap_torque"}
 
 
 def glide(
@@ -98,7 +106,8 @@ def _print(polar: GlidePolar) -> None:
     # Names come from files, and as markup [deg] would vanish.
     console = Console(markup=False, highlight=False, emoji=False)
     table = Table(box=None, pad_edge=False)
-    for head, unit in _HEADS.items():
+    for head, name in _HEADS.items():
+        unit = for_people(NOMENCLATURE[name].unit)[1] or "-"
         table.add_column(Text(f"{head}\n[{unit}]"), justify="right", no_wrap=True)
     for one in polar.glides:
         table.add_row(*_cells(one))

@@ -229,11 +229,12 @@ def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
 
 def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
     """Return a table of what is plausible of a beat; the ranges of the wingbeat stand with its numbers."""
+    from wingbeat.nomenclature import cf, for_people
+
     table = _table("plausible of a beat", "quantity", "least>r", "most>r", "unit", "at [m/s]>r", "source>r")
     for name, known in animal.plausible.items():
-        angle = known.unit == "rad"
-        ends = ["" if end is None else f"{math.degrees(end) if angle else end:g}" for end in known[:2]]
-        unit = {"rad": "deg", "1": ""}.get(known.unit, known.unit)
+        factor, unit = for_people(cf(known.unit))
+        ends = ["" if end is None else f"{factor * end:g}" for end in known[:2]]
         speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
         mark = f"[{sources.setdefault(known.source, len(sources) + 1)}]" if known.source else ""
         table.add_row(name, *ends, unit, speeds, mark)
@@ -241,13 +242,13 @@ def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
 
 
 def _free_table(animal: Species) -> Table:
-    from wingbeat.species_schema import FREE_UNITS, Number, display
+    from wingbeat.nomenclature import plain_unit
+    from wingbeat.species_schema import Number, display
 
     table = _table("free in an orbit, and the limits of its path", "quantity", "bounds>r", "unit", "reason")
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
     for path, limits in (bounds | animal.path_bounds).items():
-        unit = FREE_UNITS.get(path.removeprefix("wingbeat."), "rad")
-        name, shown = display(path, Number(0.0, unit, range=limits))
+        name, shown = display(path, Number(0.0, plain_unit(path), range=limits))
         low, high = shown.range or limits
         short = path.removeprefix("wingbeat.")
         guess = "guess: " if short in animal.guessed_bounds else ""

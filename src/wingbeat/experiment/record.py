@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
+from wingbeat.nomenclature import plain_unit
 
 __all__ = ["LoadCellRun", "read_run", "refuse_radians"]
 
@@ -19,9 +20,9 @@ MIN_SAMPLES = 32
 # Beyond this spread within one record the plate was still turning.
 MAX_TURN_DEG = 1.0
 CHANNELS = ("normal_force", "tangential_force", "moment")
-COLUMN_UNITS = {"time": "s", "normal_force": "N", "tangential_force": "N", "moment": "N m", "alpha_deg": "deg"}
-CONSTANT_UNITS = {"speed": "m/s", "density": "kg/m3", "viscosity": "m2/s", "chord": "m", "span": "m"}
-OPTIONAL_UNITS = {"thickness": "m", "channel_width": "m"}
+COLUMN_UNITS = {name: plain_unit(name) for name in ("time", *CHANNELS, "alpha_deg")}
+CONSTANT_UNITS = {name: plain_unit(name) for name in ("speed", "density", "viscosity", "chord", "span")}
+OPTIONAL_UNITS = {name: plain_unit(name) for name in ("thickness", "channel_width")}
 TARE_UNITS = {f"tare_{name}": COLUMN_UNITS[name] for name in CHANNELS}
 
 

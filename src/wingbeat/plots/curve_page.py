@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.nomenclature import axis_label
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,20 +73,20 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
         faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no curve of wingbeat", "give curve.dataset")
     faults.raise_if_any()
     curve = Curve(dataset)
-    powers = {"mean_positive_power": "hinge power, mean of positive part [W]"}
+    powers = ["mean_positive_power"]
     if dataset.attrs["objective"] == "mean_power":
-        powers = {"mean_power": "hinge power, mean [W]", **powers}
-    panels = {**powers, "frequency": "wingbeat frequency [Hz]"}
+        powers = ["mean_power", *powers]
+    panels = [*powers, "frequency"]
     with rc_context(_STYLE):  # type: ignore[arg-type]
         figure = Figure(figsize=(_WIDTH / _INCH, (_HEIGHT + 45 * (len(panels) - 2)) / _INCH), layout="constrained")
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-        for axes, (name, label) in zip(all_axes, panels.items(), strict=True):
-            axes.set_ylabel(label)
+        for axes, name in zip(all_axes, panels, strict=True):
+            axes.set_ylabel(axis_label(name))
             _draw_optima(axes, dataset, curve.marks, name)
             _draw_published(axes, published, name)
             _draw_marks(axes, curve.marks, curve.gaps, dataset["speed"].values)
-        _draw_speeds(all_axes[0], curve, next(iter(powers)))
-        all_axes[-1].set_xlabel("mean horizontal speed U [m/s]")
+        _draw_speeds(all_axes[0], curve, powers[0])
+        all_axes[-1].set_xlabel(axis_label("speed", full=True))
         for axes in all_axes:
             axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=6.5)
         figure.suptitle(_title(dataset), fontsize=8, x=0.01, ha="left")

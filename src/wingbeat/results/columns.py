@@ -1,4 +1,4 @@
-"""Nested records as flat columns: their dotted names, and the unit of each."""
+"""Nested records as flat columns: their dotted names, and the unit of each beside a data set."""
 
 from __future__ import annotations
 
@@ -8,19 +8,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import InvalidInputError
-from wingbeat.orbits.problem import parameters
-from wingbeat.orbits.problem.objectives import QUANTITIES, named_objective, named_quantity
+from wingbeat.nomenclature import cf, plain_unit
+from wingbeat.orbits.problem.objectives import named_objective, named_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["cf_unit", "flat", "leaves", "result_unit", "unit_of"]
-
-# Units of a record's numbers that nobody chooses, by the last part of their names.
-_UNITS = {
-    **{"u": "m/s", "w": "m/s", "x": "m", "z": "m", "pitch_rate": "rad/s"},
-    **{"run_seconds": "s", "solve_seconds": "s"},
-}
+__all__ = ["flat", "leaves", "result_unit"]
 
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -51,41 +45,6 @@ def _numeric(value: list[Any]) -> bool:
     return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
 
 
-def unit_of(column: str) -> str:
-    """Return the unit of a column of numbers, ``1`` where it has none or nobody told.
-
-    >>> unit_of("wing.mass"), unit_of("mean_power"), unit_of("wingbeat.frequency"), unit_of("strouhal")
-    ('kg', 'W', 'Hz', '1')
-    """
-    parts = [part for part in column.split(".") if not part.isdigit()]
-    name = parts[-1]
-    if parts[0] in ("bounds", "limit"):
-        name = parts[1]
-    if name in QUANTITIES:
-        return QUANTITIES[name].unit
-    if name in ("x", "y", "z") and "shoulder" in parts:
-        return "m"
-    if name.endswith("_deg"):
-        return "deg"
-    if name.startswith("alpha_"):
-        return "rad"
-    return _UNITS.get(name) or parameters.unit_of(name)
-
-
-def cf_unit(unit: str) -> str:
-    """Return a unit as data sets write it, without a stroke.
-
-    >>> cf_unit("m/s2"), cf_unit("kg/m3"), cf_unit("N m"), cf_unit("1/deg")
-    ('m s-2', 'kg m-3', 'N m', 'deg-1')
-    """
-    above, *below = unit.split("/")
-    factors = [above] if above != "1" or not below else []
-    for part in " ".join(below).split():
-        base, power = re.fullmatch(r"(\D+)(\d*)", part).groups()  # type: ignore[union-attr]
-        factors.append(f"{base}-{power or 1}")
-    return " ".join(factors)
-
-
 def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
     """Return the unit of a single value beside a data set's series, nothing where it is none that could have one.
 
@@ -101,9 +60,9 @@ def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: 
         return dataset[last].attrs["units"]
     try:
         if path == "objective_value":
-            return cf_unit(named_objective(results["objective"]).unit)
+            return cf(named_objective(results["objective"]).unit)
         if head == "constraints":
-            return cf_unit(named_quantity(re.split("[<>=]", path.partition(".")[2])[0]).unit)
+            return cf(named_quantity(re.split("[<>=]", path.partition(".")[2])[0]).unit)
     except InvalidInputError:  # a function of the user's, whose unit no record holds
         return ""
-    return cf_unit(unit_of(path))
+    return cf(plain_unit(path))

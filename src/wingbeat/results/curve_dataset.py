@@ -14,6 +14,7 @@ from wingbeat._version import __version__
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
+from wingbeat.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat.orbits.many.branches import Branches
 from wingbeat.orbits.many.transitions import Mark, certified, families
 from wingbeat.orbits.problem.objectives import QUANTITIES
@@ -25,46 +26,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POINTS = ("speed", "optimum")
-# Of numbers of the orbit record that stand along the curve: unit and meaning.
-_NUMBERS = {
-    "objective_value": ("", "what was made least"),
-    "mean_power": ("W", "mean hinge power, both wings"),
-    "mean_positive_power": ("W", "mean of the positive part of the hinge power, both wings"),
-    "peak_power": ("W", "largest hinge power, both wings"),
-    "mean_actuator_power": ("W", "mean actuator power, both wings"),
-    "peak_actuator_power": ("W", "largest actuator power, both wings"),
-    "cost_of_transport": ("1", "mean positive power over weight times speed"),
-    "body_pitch_range": ("rad", "largest less smallest body pitch"),
-    "strouhal": ("1", "Strouhal number"),
-    "reduced_frequency": ("1", "reduced frequency"),
-    "reynolds": ("1", "Reynolds number of the mean chord"),
-    "optimality": ("1", "largest residual of the optimality conditions, scaled"),
-}
-_WINGBEAT = {
-    "frequency": ("Hz", "wingbeat frequency"),
-    "flap_mean": ("rad", "mean flap angle"),
-    "flap_amplitude": ("rad", "flap amplitude, half of peak to peak"),
-    "pitch_mean": ("rad", "mean wing pitch"),
-    "pitch_amplitude": ("rad", "wing pitch amplitude, half of peak to peak"),
-    "span_retraction": ("1", "span retraction at mid-upstroke"),
-    "twist_ratio": ("1", "pitch at the tip over that at the root"),
-    "fold_amplitude": ("rad", "largest fold of the hand"),
-    "wrist": ("1", "span fraction of the wrist"),
-    "pitch_phase": ("rad", "by how much of a turn pitch runs ahead of flap"),
-    "downstroke_fraction": ("1", "share of the beat that the downstroke takes"),
-    "sweep_mean": ("rad", "mean sweep of the span ahead of the stroke plane"),
-    "sweep_amplitude": ("rad", "sweep amplitude, half of peak to peak"),
-    "sweep_phase": ("rad", "by how much of a turn sweep runs ahead of the downstroke"),
-    "stroke_plane_tilt": ("rad", "tilt added to the stroke-plane angle"),
-}
-_STATE = {
-    "x": ("m", "forward position"),
-    "z": ("m", "height"),
-    "body_pitch": ("rad", "body pitch, nose up positive,"),
-    "u": ("m s-1", "forward velocity"),
-    "w": ("m s-1", "upward velocity"),
-    "pitch_rate": ("rad s-1", "pitch rate"),
-}
+# Numbers of the orbit record that stand along the curve.
+_NUMBERS = (
+    "objective_value",
+    *("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"),
+    *("cost_of_transport", "body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "optimality"),
+)
 
 
 def _harmonic(wingbeat: dict[str, Any], law: str, place: int) -> float:
@@ -89,58 +56,54 @@ def curve_dataset(
     good = [[r if certified(s) else None for r, s in zip(*row, strict=True)] for row in _rows(records, branches)]
     widest = max(map(len, good))
     table = _Table(good, widest)
-    for name, (unit, meaning) in _NUMBERS.items():
-        table.add(
-            name, problem.minimise.unit if name == "objective_value" else unit, meaning, lambda r, n=name: r[n]
-        )
+    for name in _NUMBERS:
+        unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
+        table.add(name, unit, label_of(name), lambda r, n=name: r[n])
     for name in PARAMETER_NAMES:
-        harmonic = harmonic_place(name)
+        harmonic, unit, label = harmonic_place(name), NOMENCLATURE[name].unit, label_of(name)
         if harmonic is None:
-            table.add(name, *_WINGBEAT[name], lambda r, n=name: r["wingbeat"][n])
+            table.add(name, unit, label, lambda r, n=name: r["wingbeat"][n])
         elif in_use(problem.species.wingbeat, name) or name in problem.free:
-            unit = "1" if name.startswith("span_") else "rad"
-            table.add(
-                name, unit, f"harmonic {name} of the wingbeat", lambda r, at=harmonic: _harmonic(r["wingbeat"], *at)
-            )
+            table.add(name, unit, label, lambda r, at=harmonic: _harmonic(r["wingbeat"], *at))
     for name in State._fields:
-        unit, meaning = _STATE[name]
-        table.add(
-            f"initial_{name}", unit, f"{meaning} at the top of the stroke", lambda r, n=name: r["initial_state"][n]
-        )
-        table.add(
-            f"closure_{name}", unit, f"miss of the {meaning} when re-flown", lambda r, n=name: r["closure"][n]
-        )
+        for column, table_of in (("initial", "initial_state"), ("closure", "closure")):
+            label, unit = label_of(f"{table_of}.{name}"), NOMENCLATURE[name].unit
+            table.add(f"{column}_{name}", unit, label, lambda r, t=table_of, n=name: r[t][n])
     for i, constraint in enumerate(problem.subject_to):
         text = str(constraint)
         about = f"{constraint.quantity.name}, kept to {text}"
-        table.add(f"constraint_{i}", constraint.quantity.unit, about, lambda r, n=text: r["constraints"][n])
-    table.add("largest_multiplier", "1", "largest modulus of the Floquet multipliers", _largest_multiplier)
-    table.texts("active_bounds", "bounds that the orbit leans on", lambda r: ", ".join(r["active_bounds"]))
+        table.add(f"constraint_{i}", cf(constraint.quantity.unit), about, lambda r, n=text: r["constraints"][n])
+    table.add("largest_multiplier", "1", label_of("largest_multiplier"), _largest_multiplier)
+    table.texts("active_bounds", label_of("active_bounds"), lambda r: ", ".join(r["active_bounds"]))
     family = np.full((len(speeds), widest), -1)
     for i, row in enumerate(labels):
         family[i, : len(row)] = [n if r is not None else -1 for n, r in zip(row, good[i], strict=True)]
-    table.columns["family"] = (POINTS, family, {"long_name": "number of the family of orbits, -1 where none"})
+    table.columns["family"] = (POINTS, family, _about("family"))
     steps = np.zeros((len(speeds) - 1, widest, widest), dtype=int)
     for join in branches.joins:
         steps[join.interval, join.lower, join.upper] = join.steps
-    about = "steps of the continuation from an optimum of one speed to one of the next, 0 where none leads there"
-    table.columns["continued"] = (("interval", "optimum", "optimum_above"), steps, {"long_name": about})
+    table.columns["continued"] = (("interval", "optimum", "optimum_above"), steps, _about("continued"))
     first = [row[0] for row in records]
     for name in ("status", "message"):
-        table.columns[name] = (("speed",), np.array([r[name] for r in first], dtype=object), {})
-    listed = ["\n".join(r["warnings"]) for r in first]
-    table.columns["warnings"] = (("speed",), np.array(listed, dtype=object), {"long_name": "of the best orbit"})
+        table.columns[name] = (("speed",), np.array([r[name] for r in first], dtype=object), _about(name))
+    listed = np.array(["\n".join(r["warnings"]) for r in first], dtype=object)
+    table.columns["warnings"] = (("speed",), listed, _about("warnings"))
     for name in ("starts", "distinct_optima"):
         counts = [r[name] if g[0] is not None or name == "starts" else 0 for r, g in zip(first, good, strict=True)]
-        table.columns[name] = (("speed",), np.array(counts), {})
-    meaning = {"units": "m s-1", "long_name": "mean horizontal speed", "standard_name": "platform_speed_wrt_air"}
-    ranks = {"long_name": "rank at its speed, 0 the best"}
+        table.columns[name] = (("speed",), np.array(counts), _about(name))
+    meaning = {"units": NOMENCLATURE["speed"].unit, "long_name": label_of("speed")}
+    meaning["standard_name"] = "platform_speed_wrt_air"
+    ranks = _about("optimum")
     attributes = _attributes(problem, first, marks, inputs, seconds)
     return xr.Dataset(
         table.columns,
         {"speed": ("speed", speeds, meaning), "optimum": ("optimum", np.arange(widest), ranks)},
         attributes,
     )
+
+
+def _about(name: str) -> dict[str, str]:
+    return attributes_of(NOMENCLATURE[name])
 
 
 def _rows(records: Any, branches: Branches) -> Any:

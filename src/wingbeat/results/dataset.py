@@ -11,12 +11,21 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_loads import Loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
-from wingbeat.nomenclature import NOMENCLATURE
+from wingbeat.nomenclature import NOMENCLATURE, attributes_of
+from wingbeat.nomenclature.series import SERIES
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _BLOCK = 257
+_STRIP, _VECTOR = ("phase", "station"), ("phase", "station", "axis")
+# Along what each variable stands; a variable of one number a phase is not here.
+_DIMS = {
+    **{name: (name,) for name in ("station", "axis", "corner")},
+    **dict.fromkeys(("strip_position", "strip_velocity", "strip_force"), _VECTOR),
+    **dict.fromkeys(("strip_speed", "strip_reynolds", "alpha", "lift", "drag"), _STRIP),
+    "strip_corner": ("phase", "station", "corner", "axis"),
+}
 
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
@@ -47,7 +56,7 @@ def flight_dataset(
 
     by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
     by_name["time"] = phase / wingbeat.frequency
-    by_name |= {name: value for name, value in found._asdict().items() if name in NOMENCLATURE}
+    by_name |= {name: value for name, value in found._asdict().items()}
     corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
     by_name["strip_corner"] = corners[: len(phase)]
     by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
@@ -62,11 +71,11 @@ def flight_dataset(
     }
     return xr.Dataset(
         {
-            name: (term.dims, by_name[name], _attributes(name))
-            for name, term in NOMENCLATURE.items()
-            if name not in coordinates
+            term.name: (_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
+            for term in SERIES
+            if term.name not in coordinates
         },
-        {name: (name, value, _attributes(name)) for name, value in coordinates.items()},
+        {name: (name, value, attributes_of(NOMENCLATURE[name])) for name, value in coordinates.items()},
         {"Conventions": "CF-1.11", **attributes},
     )
 
@@ -78,9 +87,3 @@ def flown(dataset: xr.Dataset) -> np.ndarray:
 
 def _columns(values: np.ndarray, *names: str) -> dict[str, np.ndarray]:
     return {name: values[..., i] for i, name in enumerate(names)}
-
-
-def _attributes(name: str) -> dict[str, str]:
-    term = NOMENCLATURE[name]
-    known = {"units": term.unit, "long_name": term.long_name, "symbol": term.symbol}
-    return {key: value for key, value in known.items() if value}

@@ -18,7 +18,7 @@ from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList
 from wingbeat.mechanics.flight_model import flight_model
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
-from wingbeat.nomenclature import Term
+from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
 from wingbeat.results.saving import save_result
 from wingbeat.results.storage import KIND
@@ -27,21 +27,6 @@ from wingbeat.species import Species
 if TYPE_CHECKING:
     import xarray as xr
 
-_ALONG = ("angle_of_attack",)
-TERMS = {
-    "angle_of_attack": Term("α", "rad", "angle of attack of the root chord, were the wing not flapped", _ALONG),
-    "speed": Term("V", "m s-1", "speed along the path", _ALONG),
-    "sink": Term("V_s", "m s-1", "sinking speed", _ALONG),
-    "glide_angle": Term("γ", "rad", "angle of the path below the horizontal", _ALONG),
-    "glide_ratio": Term("L/D", "1", "glide ratio, way forward over way down", _ALONG),
-    "body_pitch": Term("ψ", "rad", "body pitch, nose up positive", _ALONG),
-    "wing_pitch": Term("θ", "rad", "wing pitch at the root, leading edge up positive", _ALONG),
-    "flap": Term("φ", "rad", "flap angle, wing up positive", _ALONG),
-    "tail_moment": Term("M_t", "N m", "moment that a tail would have to give, nose up positive", _ALONG),
-    "flap_torque": Term("τ_φ", "N m", "flap torque that holds the wings, both wings", _ALONG),
-    "pitch_torque": Term("τ_θ", "N m", "wing pitch torque that holds the wings, both wings", _ALONG),
-    "trimmed": Term("", "1", "whether the pitching moment vanishes without a tail", _ALONG),
-}
 DEFAULT_ALPHA_DEG = np.arange(1.0, 31.0)
 
 
@@ -86,9 +71,10 @@ class GlidePolar:
 
         columns = dict(zip(Glide._fields, np.array(self.glides, dtype=float).T, strict=True))
         columns["trimmed"] = columns["trimmed"].astype("int8")
+        terms = {name: NOMENCLATURE.get(f"glide.{name}") or NOMENCLATURE[name] for name in columns}
         variables = {
-            name: (term.dims, columns[name], {"units": term.unit, "long_name": term.long_name})
-            for name, term in TERMS.items()
+            name: (("angle_of_attack",), columns[name], {"units": term.unit, "long_name": term.label})
+            for name, term in terms.items()
         }
         about = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self._about().items()}
         attributes = {"Conventions": "CF-1.11", KIND: "glide", **about}

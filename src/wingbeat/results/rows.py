@@ -5,11 +5,22 @@ from __future__ import annotations
 import math
 from typing import Any
 
-__all__ = ["Rows", "change_rows", "orbit_groups", "power_rows", "stability_rows", "state_rows", "wingbeat_rows"]
+from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
+
+__all__ = [
+    "Rows",
+    "change_rows",
+    "orbit_groups",
+    "power_label",
+    "power_rows",
+    "stability_rows",
+    "state_rows",
+    "wingbeat_rows",
+]
 
 Rows = list[tuple[str, str]]
 
-_RATIOS = ("span_retraction", "twist_ratio", "wrist", "downstroke_fraction", "span_harmonics")
+_STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 # What says that a wingbeat goes without one of the laws beyond the paper's; none of them needs a line then.
 _OFF: dict[str, Any] = {
     **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
@@ -21,9 +32,9 @@ _OFF: dict[str, Any] = {
 def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     """Return every group of numbers that an orbit record holds, by its title; empty ones have no rows."""
     aero = record.get("aero", {})
-    place = f"{record.get('species')} at {_of(record, 'speed', 'm/s')}"
+    place = f"{record.get('species')} at {_of(record, 'speed')}"
     if record.get("climb"):
-        place += f", climbing {_of(record, 'climb', 'm/s')}"
+        place += f", climbing {_of(record, 'climb')}"
     named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
     loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else [])])
     return {
@@ -41,14 +52,15 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
 
 def flight_rows(record: dict[str, Any]) -> Rows:
     """Return the numbers of the flight as a whole."""
-    names = {"strouhal": "Strouhal number", "reduced_frequency": "reduced frequency", "reynolds": "Reynolds number"}
-    rows = [(label, _of(record, name)) for name, label in names.items() if name in record]
-    for name, label in (("alpha_quarter_span", "1/4"), ("alpha_three_quarter_span", "3/4")):
+    names = ("strouhal", "reduced_frequency", "reynolds")
+    rows = [(_label(name), _of(record, name)) for name in names if name in record]
+    for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
         if name in record:
-            low, high = (_number(v, "deg", math.degrees(1.0)) for v in record[name])
-            rows.append((f"effective alpha at {label} span", f"{low.removesuffix(' deg')} to {high}"))
+            factor, unit = for_people(NOMENCLATURE[name].unit)
+            low, high = (_number(v, unit, factor) for v in record[name])
+            rows.append((_label(name), f"{low.removesuffix(f' {unit}')} to {high}"))
     if "body_pitch_range" in record:
-        rows.append(("range of body pitch", _of(record, "body_pitch_range", "deg")))
+        rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range")))
     return rows
 
 
@@ -56,8 +68,7 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
     """Return each number that is judged, with its range and whether it lies within."""
     rows = []
     for one in judged:
-        unit = {"rad": "deg", "1": ""}.get(one["unit"]) or str(one["unit"]).removeprefix("1")
-        factor = math.degrees(1.0) if unit == "deg" else 1.0
+        factor, unit = for_people(cf(str(one["unit"])))
         low, high = (None if end is None else _number(end, unit, factor) for end in (one["low"], one["high"]))
         known = "no range is known"
         if low and high:
@@ -72,13 +83,11 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
 def shortage_rows(shortages: list[dict[str, Any]]) -> Rows:
     """Return which laws of balance fail, and by how much."""
     share = {"N m": "of weight times chord"}
-    return [
-        (
-            s["law"],
-            f"{_of(s, 'amount', s['unit'])}, {100 * s['share']:.2g} % {share.get(s['unit'], 'of the weight')}",
-        )
-        for s in shortages
-    ]
+    rows = []
+    for short in shortages:
+        amount, of = _number(short["amount"], short["unit"], 1.0), share.get(short["unit"], "of the weight")
+        rows.append((short["law"], f"{amount}, {100 * short['share']:.2g} % {of}"))
+    return rows
 
 
 def change_rows(changes: list[dict[str, Any]]) -> Rows:
@@ -88,44 +97,35 @@ def change_rows(changes: list[dict[str, Any]]) -> Rows:
 
 def wingbeat_rows(beat: dict[str, Any]) -> Rows:
     """Return the numbers of a wingbeat, those of laws that are off left out."""
-    units = {"frequency": "Hz", **dict.fromkeys(_RATIOS, "")}
     shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
-    rows = [(name.replace("_", " "), _of(beat, name, units.get(name, "deg"))) for name in shown]
+    rows = [(name.replace("_", " "), _of(beat, name)) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
 
 
 def state_rows(state: dict[str, Any]) -> Rows:
     """Return the numbers of a state."""
-    labels = {
-        "x": ("forward position x", "m"),
-        "z": ("height z", "m"),
-        "body_pitch": ("body pitch, nose up", "deg"),
-        "u": ("forward velocity u", "m/s"),
-        "w": ("upward velocity w", "m/s"),
-        "pitch_rate": ("pitch rate", "deg/s"),
-    }
-    return [(labels[name][0], _of(state, name, labels[name][1])) for name in state if name in labels]
+    return [(_label(name), _of(state, name)) for name in state if name in _STATE]
+
+
+def power_label(name: str) -> str:
+    """Return what to call a power beside the word power: "hinges, mean" for "hinge power, mean"."""
+    return _label(name).replace(" power,", "s,")
 
 
 def power_rows(record: dict[str, Any]) -> Rows:
     """Return means and peaks of power, and per mass where the record tells it."""
-    labels = {
-        "mean_power": "hinges, mean",
-        "mean_positive_power": "hinges, mean of the positive part",
-        "peak_power": "hinges, peak",
-        "mean_actuator_power": "actuators, mean",
-        "peak_actuator_power": "actuators, peak",
-    }
+    hinges = ("mean_power", "mean_positive_power", "peak_power")
     vehicle = record.get("vehicle")
     mass = vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"] if vehicle else None
     rows = []
-    for name, label in labels.items():
+    for name in (*hinges, "mean_actuator_power", "peak_actuator_power"):
         if name in record:
             # The animal's mass is that of body and wings together.
-            each = f" ({_number(record[name], 'W/kg', 1 / mass)})" if mass and record[name] is not None else ""
-            rows.append((label, _of(record, name, "W") + each))
+            unit = plain_unit("positive_power_per_mass")
+            each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
+            rows.append((power_label(name), _of(record, name) + each))
     if "cost_of_transport" in record:
-        rows.append(("cost of transport", _of(record, "cost_of_transport")))
+        rows.append((_label("cost_of_transport"), _of(record, "cost_of_transport")))
     return rows
 
 
@@ -138,10 +138,9 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     for constraint, value in (record.get("constraints") or {}).items():
         rows.append((f"kept to {constraint}", _number(value, "", 1.0)))
     if closure:
-        units = {"x": "m", "z": "m", "body_pitch": "rad", "u": "m/s", "w": "m/s", "pitch_rate": "rad/s"}
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))
-        miss = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {units.get(worst, '')}"
-        rows.append(("largest miss when re-flown", f"{miss.strip()}, in {worst}"))
+        miss = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"
+        rows.append(("largest miss when re-flown", f"{miss}, in {worst}"))
     if record.get("optimality") is not None:
         rows.append(("optimality (largest KKT residual)", f"{record['optimality']:.1e}"))
     if "starts" in record:
@@ -169,9 +168,14 @@ def stability_rows(record: dict[str, Any]) -> Rows:
     return rows
 
 
-def _of(numbers: dict[str, Any], name: str, unit: str = "") -> str:
-    """Return one number of a record in the unit shown."""
-    return _number(numbers.get(name), unit, math.degrees(1.0) if unit.startswith("deg") else 1.0)
+def _label(name: str) -> str:
+    return NOMENCLATURE[name].short_label
+
+
+def _of(numbers: dict[str, Any], name: str) -> str:
+    """Return one number of a record in the unit that people like."""
+    factor, unit = for_people(NOMENCLATURE[name].unit)
+    return _number(numbers.get(name), unit, factor)
 
 
 def _number(value: Any, unit: str, factor: float) -> str:

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat.nomenclature import plain_unit
 from wingbeat.species import scaling
 from wingbeat.species.building import default_of
 from wingbeat.species.plausibility import plausible_of_bats, plausible_of_birds, plausible_of_robots
 from wingbeat.species.scaling import Law
-from wingbeat.species_schema import KEYS, Alternative, Bound, Number, Numbers, Range, SpeciesText
+from wingbeat.species_schema import Alternative, Bound, Number, Numbers, Range, SpeciesText
 from wingbeat.vehicle import Air
 
-_UNITS = {key.path: key.unit for key in KEYS}
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
 # The bounds of a search, times the lower and the higher of the stock frequency and the cruising law of birds, which
 # knows size, weight and air: 1 to 30 Hz for a pigeon. Of 63 flights of derived animals and robots (1 g to 10 kg, at
@@ -147,7 +147,7 @@ def _air() -> dict[str, Number]:
     standard, limits = Air(), {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
     source = "guess: standard air at sea level"
     return {
-        f"air.{name}": Number(value, _UNITS[f"air.{name}"], source, limits[name])
+        f"air.{name}": Number(value, plain_unit(name), source, limits[name])
         for name, value in dataclasses.asdict(standard).items()
     }
 
@@ -163,7 +163,7 @@ def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, g
             amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
     ranges = {"span_retraction": (0.0, 0.5), "twist_ratio": (1.0, 2.0), "fold_amplitude": (0.0, math.radians(30))}
     found = {
-        f"wingbeat.{name}": Number(value, _UNITS[f"wingbeat.{name}"], kind.recovery_source, ranges[name])
+        f"wingbeat.{name}": Number(value, plain_unit(name), kind.recovery_source, ranges[name])
         for name, value in kind.recovery.items()
     }
     return found | {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from wingbeat.species import scaling
-from wingbeat.species_schema import Number, Range
+from wingbeat.species_schema import PLAUSIBLE, Number, Range
 
 __all__ = ["JUDGED", "UNKNOWN", "plausible_of_bats", "plausible_of_birds", "plausible_of_robots"]
 
@@ -102,9 +102,7 @@ def plausible_of_bats(mass: float, chord: float, viscosity: float) -> dict[str, 
 
 def plausible_of_robots(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
     """Return ranges that are open at both ends, and say so: motors differ too much for a law."""
-    units = {"positive_power_per_mass": "W/kg", "body_pitch_range": "rad"}
-    names = ("positive_power_per_mass", "peak_force_over_weight", "body_pitch_range", "strouhal", "reynolds")
-    return {name: Range(None, None, units.get(name, "1"), _NO_LAW) for name in names}
+    return {key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE}
 
 
 def range_of(number: Number) -> Range:

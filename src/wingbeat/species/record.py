@@ -10,13 +10,12 @@ from typing import Any, cast
 
 from wingbeat.errors import FaultList, suggest
 from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.nomenclature import plain_unit
 from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
 from wingbeat.species.law import OUTSIDE
 from wingbeat.species.plausibility import UNKNOWN, range_of
 from wingbeat.species.settings import plain, settable
 from wingbeat.species_schema import (
-    FREE_UNITS,
-    PLAUSIBLE,
     Alternative,
     Number,
     Numbers,
@@ -31,7 +30,6 @@ __all__ = ["DERIVED", "Species", "find_warnings"]
 
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 
-_UNITS = {key.name: key.unit for key in PLAUSIBLE}
 _SET_BY_HAND = "set by hand in place of"
 
 
@@ -96,7 +94,7 @@ class Species:
             return range_of(self.numbers[f"wingbeat.{name}"])
         known = self.plausible.get(name)
         if known is None:
-            return Range(None, None, _UNITS[name], UNKNOWN)
+            return Range(None, None, plain_unit(name), UNKNOWN)
         if known.speeds is None or known.speeds[0] <= speed <= known.speeds[1]:
             return known
         slowest, fastest = known.speeds
@@ -234,7 +232,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         value = parameter(species.wingbeat, name)
         if not low <= value <= high:
             path = f"wingbeat.{name}"
-            guess = words(path, Number(value, FREE_UNITS[name]))
+            guess = words(path, Number(value, plain_unit(name)))
             found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer one")
     derived = [
         path.removeprefix("vehicle.")

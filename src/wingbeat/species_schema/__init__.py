@@ -2,7 +2,7 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken
-from wingbeat.species_schema.keys import FREE_UNITS, KEYS, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import KEYS, PLAUSIBLE, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
@@ -18,7 +18,6 @@ from wingbeat.species_schema.reading import (
 )
 
 __all__ = [
-    "FREE_UNITS",
     "KEYS",
     "PLAUSIBLE",
     "Alternative",

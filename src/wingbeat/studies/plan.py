@@ -17,7 +17,7 @@ import numpy as np
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat.orbits.problem.parameters import unit_of
+from wingbeat.nomenclature import plain_unit
 from wingbeat.species import load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown
@@ -285,7 +285,7 @@ def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
     for name, (low, high) in given.items():
         own = name.removesuffix("_deg")
         degrees = name != own
-        if degrees and unit_of(own) != "rad":
+        if degrees and plain_unit(own) != "rad":
             faults.add(
                 f"bounds.{name}", [low, high], "is not the name of an angle", f"give bounds.{own} in its unit"
             )

@@ -11,6 +11,7 @@ from typing import Any
 
 from wingbeat.aero import BladeElement
 from wingbeat.errors import FaultList, suggest
+from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts
@@ -23,7 +24,7 @@ from wingbeat.studies.objective import from_inputs
 __all__ = ["MOTION", "Recipe", "recipe_from", "starts_of"]
 
 # Every point says these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
-MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": "kg"}}
+MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
 _OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
 _OF_ELEMENTS = ("aero.strips", "aero.force_point", "aero.airspeed")
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
+from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
-from wingbeat.results.columns import unit_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.species_schema import shown
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
@@ -263,13 +263,13 @@ class Study:
         if not varied:
             varied = [name for name in MOTION if len(getattr(form, name) or ()) > 1]
         if quantity is not None:
-            label = f"{quantity} [{unit_of(quantity)}]"
+            label = f"{quantity} [{plain_unit(quantity)}]"
         elif len(least) == 1:
             name = named(least[0])
-            label = f"least {name.replace('_', ' ')} [{unit_of(name)}]"
+            label = f"least {name.replace('_', ' ')} [{plain_unit(name)}]"
         else:
             label = "what was made least"
-        return frame, varied, quantity or "objective_value", label, [unit_of(path) for path in varied]
+        return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FaultList, WingbeatError, install_extra
 from wingbeat.files import write_atomically
+from wingbeat.nomenclature import cf, label_of, plain_unit
 from wingbeat.results.columns import flat
 from wingbeat.studies.store import Row, Store
 
@@ -107,20 +108,32 @@ def _kept(row: Row) -> dict[str, Any]:
 
 
 def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
-    """Return a table as a dataset along ``point``; what is text or missing becomes text."""
+    """Return a table as a labelled dataset along ``point``; what is text or missing becomes text."""
     import numpy as np
     import xarray as xr
 
     columns = {}
     for name in frame.columns:
         values = frame[name]
-        if values.dtype.kind not in "fiub":
+        is_text = values.dtype.kind not in "fiub"
+        if is_text:
             values = np.array(
                 ["" if value is None or value != value else str(value) for value in values], dtype=str
             )
-        columns[name] = ("point", np.asarray(values))
+        columns[name] = ("point", np.asarray(values), _attributes(frame, str(name), is_text))
     dataset = xr.Dataset(columns)
     return dataset.assign_attrs(wingbeat_kind=KIND, numerical_version=NUMERICAL_VERSION, **about)
+
+
+def _attributes(frame: pd.DataFrame, name: str, is_text: bool) -> dict[str, str]:
+    """Return label and unit of a column; a text has no unit, nor have numbers whose rows are in several units."""
+    label = label_of(name)
+    if is_text:
+        return {"long_name": label}
+    units = {plain_unit(name)}
+    if name == "objective_value" and "objective" in frame:
+        units = {plain_unit(objective) for objective in frame["objective"] if isinstance(objective, str)}
+    return {"units": cf(units.pop()), "long_name": label} if len(units) == 1 else {"long_name": label}
 
 
 def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:

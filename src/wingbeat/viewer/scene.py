@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList, FileError
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.dataset import flown
 from wingbeat.results.record import at_station
 from wingbeat.results.storage import KIND
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 
 MOST_SAMPLES = 5000
 
+
+def _unit(name: str) -> str:
+    return for_people(NOMENCLATURE[name].unit)[1]
+
+
 _PANELS: list[dict[str, Any]] = [
     {
         "title": "Air load over weight",
@@ -29,11 +35,11 @@ _PANELS: list[dict[str, Any]] = [
     },
     {
         "title": "Effective alpha",
-        "unit": "deg",
+        "unit": _unit("alpha"),
         "curves": [{"array": "alpha_arm", "label": "1/4 span"}, {"array": "alpha_hand", "label": "3/4 span"}],
     },
-    {"title": "Hinge power", "unit": "W", "curves": [{"array": "power", "label": "hinge power"}]},
-    {"title": "Body pitch", "unit": "deg", "curves": [{"array": "pitch_deg", "label": "body pitch"}]},
+    {"title": "Hinge power", "unit": _unit("hinge_power"), "curves": [{"array": "power", "label": "hinge power"}]},
+    {"title": "Body pitch", "unit": _unit("body_pitch"), "curves": [{"array": "pitch_deg", "label": "body pitch"}]},
 ]
 
 

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from wingbeat.errors import InvalidInputError
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
+from wingbeat.nomenclature import cf, for_people, plain_unit
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.parameters import Place, unit_of, with_number
+from wingbeat.orbits.problem.parameters import Place, with_number
 from wingbeat.orbits.problem.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
 
 # How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
@@ -124,7 +125,6 @@ class Relaxation:
         return with_change(problem, self.name, self.sign, self.new)
 
 
-_SHOWN = {"rad": (math.degrees(1.0), "deg"), "m": (1e3, "mm")}
 _PLACES: dict[str, Place] = {
     "mass": ("species", "vehicle", "body", "mass"),
     "shoulder": ("species", "vehicle", "wing", "shoulder", 0),
@@ -135,7 +135,7 @@ _PLACES: dict[str, Place] = {
 
 def _unit(problem: OrbitProblem, change: Change) -> str:
     limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
-    return limits[0] if limits else unit_of(change.name)
+    return limits[0] if limits else plain_unit(change.name)
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
@@ -148,10 +148,10 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     more : further steps of the last digit.
     """
     unit = _unit(problem, change)
-    factor, shown = _SHOWN.get(unit, (1.0, unit))
+    factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
     new = rounded_outward(change, value, factor, more)
     text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
-    text += "" if shown == "1" else f" {shown}"
+    text += f" {shown}" if shown else ""
     if change.name == "mass":
         text += f" ({100 * (new / change.old - 1):.2g} %, off the body)"
     return Relaxation(change.name, change.sign, change.old, new, unit, text)

@@ -12,6 +12,7 @@ import numpy as np
 
 from wingbeat._jax.config import jnp
 from wingbeat.errors import FaultList, suggest
+from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.springs import SpringCost
@@ -26,7 +27,7 @@ class Frequency:
     """
 
     name: str = "frequency"
-    unit: str = "Hz"
+    unit: str = plain_unit("frequency")
     scale: float = 3.0
 
     def value(self, names: tuple[str, ...], unknowns: Any) -> float:
@@ -122,7 +123,9 @@ def PowerCost(returned: float = 0.0) -> Quantity:
     faults = FaultList()
     faults.number("returned", returned, at_least=-1, at_most=1, fix="0: negative work is lost; 1: it is returned")
     faults.raise_if_any()
-    return Quantity(f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), "W")
+    return Quantity(
+        f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), plain_unit("power_cost")
+    )
 
 
 def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
@@ -144,13 +147,13 @@ def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
     ('spring_power(0.5)', 'spring_power(0.5,-0.1)')
     """
     faults = FaultList()
-    faults.number("stiffness", stiffness, at_least=0, unit="N m/rad", fix="of both springs together")
+    faults.number("stiffness", stiffness, at_least=0, unit=plain_unit("stiffness"), fix="of both springs together")
     if rest_angle is not None:
-        faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit="rad")
+        faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit=plain_unit("rest_angle"))
     faults.raise_if_any()
     numbers = [stiffness] if rest_angle is None else [stiffness, rest_angle]
     name = f"spring_power({','.join(map(_exactly, numbers))})"
-    return Quantity(name, SpringCost(*map(float, numbers)), "W")
+    return Quantity(name, SpringCost(*map(float, numbers)), plain_unit("spring_power"))
 
 
 def _exactly(number: float) -> str:
@@ -184,23 +187,28 @@ def _roughness(beat: Beat) -> Any:
     return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
 
 
+def _known(name: str, of: Callable[[Beat], Any], scale: float = 1.0) -> Quantity:
+    """Return a quantity with the unit that the table of names gives it."""
+    return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale)
+
+
 QUANTITIES = {
     quantity.name: quantity
     for quantity in (
-        Quantity("frequency", _Series("frequency"), "Hz", 3.0),
-        Quantity("mean_power", _Cost("hinge_power", 1.0), "W"),
-        Quantity("mean_positive_power", _Cost("hinge_power", 0.0), "W"),
-        Quantity("peak_power", _Series("hinge_power"), "W", 5.0),
-        Quantity("mean_actuator_power", _Cost("actuator_power", 1.0), "W"),
-        Quantity("peak_actuator_power", _Series("actuator_power"), "W", 5.0),
-        Quantity("positive_power_per_mass", _power_per_mass, "W/kg", 10.0),
-        Quantity("cost_of_transport", _cost_of_transport, "1", 0.1),
-        Quantity("peak_force_over_weight", _force_over_weight, "1", 0.5),
-        Quantity("strouhal", _strouhal, "1", 0.1),
-        Quantity("peak_flap_torque", _Size("flap_torque"), "N m", 0.1),
-        Quantity("peak_pitch_torque", _Size("pitch_torque"), "N m", 0.01),
-        Quantity("body_pitch_range", _pitch_spread, "rad", 0.1),
-        Quantity("roughness", _roughness, "m s-2", 5.0),
+        _known("frequency", _Series("frequency"), 3.0),
+        _known("mean_power", _Cost("hinge_power", 1.0)),
+        _known("mean_positive_power", _Cost("hinge_power", 0.0)),
+        _known("peak_power", _Series("hinge_power"), 5.0),
+        _known("mean_actuator_power", _Cost("actuator_power", 1.0)),
+        _known("peak_actuator_power", _Series("actuator_power"), 5.0),
+        _known("positive_power_per_mass", _power_per_mass, 10.0),
+        _known("cost_of_transport", _cost_of_transport, 0.1),
+        _known("peak_force_over_weight", _force_over_weight, 0.5),
+        _known("strouhal", _strouhal, 0.1),
+        _known("peak_flap_torque", _Size("flap_torque"), 0.1),
+        _known("peak_pitch_torque", _Size("pitch_torque"), 0.01),
+        _known("body_pitch_range", _pitch_spread, 0.1),
+        _known("roughness", _roughness, 5.0),
     )
 }
 

@@ -8,14 +8,10 @@ from typing import Any, NamedTuple
 
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species
-from wingbeat.species_schema import FREE_UNITS, KEYS
 
-# Units by the last part of a name: of the numbers of a species file, then of those that none holds.
-_UNITS = {key.name: key.unit for key in KEYS} | FREE_UNITS
-_UNITS |= {"phase_deg": "deg", "decay_rate": "1/deg", "blend_width_deg": "deg"}
-_UNITS |= {"body_pitch": "rad", "flap": "rad", "speed": "m/s", "climb": "m/s", "payload": "kg"}
 _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
@@ -52,11 +48,6 @@ class Parameter(NamedTuple):
         InvalidInputError : the impossible, as the records refuse it.
         """
         return with_number(problem, self.place, value)
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a number by the last part of its name, ``1`` if it has none."""
-    return _UNITS.get(name, "1")
 
 
 def with_number(record: Any, place: Place, value: float) -> Any:
@@ -123,10 +114,7 @@ def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, floa
 
 
 def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter:
-    names = path.split(".")
-    last = names[-1].split("[")[0]
-    unit = unit_of(last if last not in (*_AXES, *SIDES) else names[-2])
-    return Parameter(path, unit, float(value), abs(value) or size, place)
+    return Parameter(path, plain_unit(path), float(value), abs(value) or size, place)
 
 
 def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
@@ -177,7 +165,7 @@ def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
 def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
     """Return the bound of a free parameter or along the path, such as ``bounds.flap_amplitude.upper``."""
     pair = problem.bounds[name]
-    size = 1.0 if unit_of(name) == "rad" else pair[1] - pair[0]
+    size = 1.0 if plain_unit(name) == "rad" else pair[1] - pair[0]
     end = SIDES.index(side)
     return _made(f"bounds.{name}.{side}", pair[end], ("bounds", name, end))._replace(size=size)
 

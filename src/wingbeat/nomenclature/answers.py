@@ -1,0 +1,97 @@
+"""Names of what is found: numbers of one beat, what a search says of its answer, and a study's own columns."""
+
+from __future__ import annotations
+
+from wingbeat.nomenclature.term import Term
+
+__all__ = ["ANSWER", "BEAT", "STUDY"]
+
+BEAT = (
+    Term("mean_power", "W", "mean hinge power, both wings", short="hinge power, mean"),
+    Term(
+        *("mean_positive_power", "W", "mean of the positive part of the hinge power, both wings"),
+        short="hinge power, mean of the positive part",
+    ),
+    Term("peak_power", "W", "largest hinge power, both wings", short="hinge power, peak"),
+    Term("mean_actuator_power", "W", "mean actuator power, both wings", short="actuator power, mean"),
+    Term("peak_actuator_power", "W", "largest actuator power, both wings", short="actuator power, peak"),
+    Term("positive_power_per_mass", "W kg-1", "mean positive hinge power over the whole mass"),
+    Term("power_cost", "W", "mean hinge power of which a share of the negative work comes back"),
+    Term("spring_power", "W", "mean positive hinge power that springs at the flap hinges leave to the actuators"),
+    Term("stiffness", "N m rad-1", "stiffness of the springs at both flap hinges together", "k"),
+    Term("rest_angle", "rad", "flap angle at which the springs are slack"),
+    Term("cost_of_transport", "1", "mean positive power over weight times speed", short="cost of transport"),
+    Term("peak_force_over_weight", "1", "largest air load on the whole vehicle over its weight"),
+    Term("peak_flap_torque", "N m", "largest size of the flap torque, both wings"),
+    Term("peak_pitch_torque", "N m", "largest size of the wing pitch torque, both wings"),
+    Term(
+        *("body_pitch_range", "rad", "largest less smallest body pitch", ""),
+        *("largest less smallest body pitch within a beat", "range of body pitch"),
+    ),
+    Term("roughness", "m s-2", "root mean square of the body's acceleration"),
+    Term("strouhal", "1", "Strouhal number", "St", "2 f semi_span sin(flap_amplitude) / U"),
+    Term("reduced_frequency", "1", "reduced frequency", "k"),
+    Term(
+        *("reynolds", "1", "Reynolds number of the mean chord", "Re"),
+        *("U times mean chord over viscosity", "Reynolds number"),
+    ),
+    Term(
+        "alpha_quarter_span",
+        "rad",
+        "least and largest effective angle of attack at 1/4 span",
+        short="effective alpha at 1/4 span",
+    ),
+    Term(
+        "alpha_three_quarter_span",
+        "rad",
+        "least and largest effective angle of attack at 3/4 span",
+        short="effective alpha at 3/4 span",
+    ),
+)
+ANSWER = (
+    Term("status", "", "how the search ended"),
+    Term("message", "", "what the search says of its end"),
+    Term("species", "", "name of the species"),
+    Term("objective", "", "name of what was made least"),
+    Term("objective_value", "1", "what was made least"),
+    Term("optimality", "1", "largest residual of the optimality conditions, scaled"),
+    Term("starts", "1", "number of searches"),
+    Term("distinct_optima", "1", "number of distinct optima met"),
+    Term("starts_at_best", "1", "number of searches that ended at the best optimum"),
+    Term("active_bounds", "", "bounds that the orbit leans on"),
+    Term("failed_balance", "", "laws of balance that fail, and by how much"),
+    Term("relaxations", "", "nearest changes that fly"),
+    Term("plausibility", "", "what was judged plausible, with its ranges"),
+    Term("floquet_multipliers", "1", "Floquet multipliers of the orbit"),
+    Term("largest_multiplier", "1", "largest modulus of the Floquet multipliers"),
+    Term("stable", "1", "whether every Floquet multiplier lies within the unit circle"),
+    Term("warnings", "", "what to know before trusting the orbit"),
+    Term("solve_seconds", "s", "time that the solution took"),
+    Term("version", "", "version of wingbeat"),
+    Term("optimum", "", "rank at its speed, 0 the best"),
+    Term("family", "", "number of the family of orbits, -1 where none"),
+    Term(
+        "continued",
+        "",
+        "steps of the continuation from an optimum of one speed to one of the next, 0 where none leads there",
+    ),
+)
+STUDY = (
+    Term("key", "", "digest that names the point"),
+    Term(
+        "certificate",
+        "1",
+        "largest miss of the certifier's own flight, of lengths, angles and velocities in SI units",
+    ),
+    Term("error", "", "why the point has no answer"),
+    Term("run_seconds", "s", "time that the point took"),
+    Term("run_finished", "", "when the point was finished, UTC"),
+    Term("run_worker", "", "who solved the point"),
+    Term("run_attempt", "1", "number of attempts at the point"),
+    Term("species_given", "", "species as the study names it"),
+    Term("aero_given", "", "coefficients as the study names them"),
+    Term("minimise", "", "what the study asked to make least"),
+    Term("subject_to", "", "limits that the study asked for"),
+    Term("seed", "1", "seed of the searches"),
+    Term("most_starts", "1", "number of searches at most"),
+)

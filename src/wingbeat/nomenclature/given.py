@@ -1,0 +1,120 @@
+"""Names of what is given: the animal, its wingbeat, the air, the coefficients, a run in a tunnel."""
+
+from __future__ import annotations
+
+from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
+from wingbeat.nomenclature.term import Term
+
+__all__ = ["AERO", "GIVEN", "RUN", "WINGBEAT"]
+
+_ORDERS = f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}"
+_HALF = "half of peak to peak"
+GIVEN = (
+    Term("mass", "kg", "whole mass", "M", "whole mass, body and both wings; in place of body.mass"),
+    Term("body.mass", "kg", "mass without the wings", "", "mass without the wings; in place of vehicle.mass"),
+    Term(
+        "pitch_inertia",
+        "kg m2",
+        "pitch inertia of the body",
+        "",
+        "of the body alone, pitch axis, own centre of mass",
+    ),
+    Term("drag_area", "m2", "drag area of the body", "", "drag coefficient times frontal area; 0 is no body drag"),
+    Term("semi_span", "m", "semi-span of the wing", "L₀", "shoulder to tip at mid-downstroke"),
+    Term("chord", "m", "chord of the wing", "c", "one number, or stations from root to tip"),
+    Term("wing.mass", "kg", "mass of one wing"),
+    Term(
+        "mass_exponent", "1", "exponent of the strip masses", "p", "p in the strip masses (1 - s/L)^p; 0 is uniform"
+    ),
+    Term("shoulder", "m", "place of the shoulder", "", "forward, left, up of the body's centre of mass"),
+    Term("stroke_plane_angle", "rad", "stroke-plane angle", "β", "from the body axis; a quarter turn is vertical"),
+    Term("density", "kg m-3", "density of the air", "ρ"),
+    Term("viscosity", "m2 s-1", "kinematic viscosity of the air", "ν"),
+    Term("gravity", "m s-2", "pull of the planet", "g"),
+    Term("payload", "kg", "load that the body carries"),
+    Term("speed", "m s-1", "mean horizontal speed", "U", short="speed"),
+    Term("climb", "m s-1", "mean vertical speed"),
+    Term("path.body_pitch", "rad", "body pitch along the path", "ψ", "body pitch, nose up, along the whole path"),
+    Term(
+        *("path.flap", "rad", "flap angle along the stroke", "φ"),
+        "flap angle of arm and hand, wing up positive, along the whole stroke",
+    ),
+)
+WINGBEAT = (
+    Term("frequency", "Hz", "wingbeat frequency", "f", "wingbeats per second"),
+    Term("flap_mean", "rad", "mean flap angle", "", "mean flap angle, wing up positive"),
+    Term("flap_amplitude", "rad", f"flap amplitude, {_HALF}", "", _HALF, "flap amplitude"),
+    Term("pitch_mean", "rad", "mean wing pitch", "", "mean wing pitch at the root, leading edge up positive"),
+    Term("pitch_amplitude", "rad", f"wing pitch amplitude, {_HALF}", "", _HALF),
+    Term(
+        "span_retraction", "1", "span retraction at mid-upstroke", "", "share of the span drawn in at mid-upstroke"
+    ),
+    Term(
+        *("twist_ratio", "1", "pitch at the tip over that at the root", ""),
+        "pitch at the tip over that at the root; 1 is no twist",
+    ),
+    Term("fold_amplitude", "rad", "largest fold of the hand", "", "drop of the hand below the arm at mid-upstroke"),
+    Term("wrist", "1", "span fraction of the wrist"),
+    Term("pitch_phase", "rad", "by how much of a turn wing pitch runs ahead of flap"),
+    Term("downstroke_fraction", "1", "share of the beat that the downstroke takes"),
+    Term(
+        *("sweep_mean", "rad", "mean sweep of the span ahead of the stroke plane", ""),
+        "mean angle of the span ahead of the stroke plane",
+    ),
+    Term(
+        *("sweep_amplitude", "rad", f"sweep amplitude, {_HALF}", ""),
+        f"{_HALF}; ahead at mid-downstroke (protraction)",
+    ),
+    Term(
+        *("sweep_phase", "rad", "by how much of a turn sweep runs ahead of the downstroke", ""),
+        "by how much of a turn sweep runs ahead of that",
+    ),
+    Term(
+        "stroke_plane_tilt",
+        "rad",
+        "tilt added to the stroke-plane angle",
+        "",
+        "is added to the wing's stroke-plane angle",
+    ),
+    Term("flap_harmonics", "rad", "harmonics of the flap angle", "", _ORDERS),
+    Term("pitch_harmonics", "rad", "harmonics of the wing pitch", "", _ORDERS),
+    Term(
+        *("span_harmonics", "1", "harmonics of the span over full span", ""),
+        f"of span over full span: order 1, 2, .. {HIGHEST_ORDER}",
+    ),
+    *(
+        Term(
+            name,
+            "1" if name.startswith("span") else "rad",
+            f"harmonic {name} of the wingbeat",
+            "",
+            "one number of the harmonics",
+        )
+        for name in HARMONIC_NAMES
+    ),
+)
+AERO = (
+    Term("coefficients", "", "name of the coefficients"),
+    Term("extension", "", "extension of the coefficients to all angles of attack"),
+    Term("blend_width_deg", "deg", "half width of the blends where pieces of the coefficients meet"),
+    Term("strips", "1", "number of strips of a wing"),
+    Term("force_point", "", "where on the chord the air load acts"),
+    Term("airspeed", "", "airspeed of a strip that makes its loads"),
+    Term("function", "", "digest of a coefficient function"),
+    Term("constant", "1", "constant of a coefficient formula"),
+    Term("amplitude", "1", "amplitude of a coefficient formula's sine"),
+    Term("rate", "1", "factor of the angle of attack in a coefficient formula's sine"),
+    Term("phase_deg", "deg", "phase of a coefficient formula's sine"),
+    Term("decay_amplitude", "1", "amplitude of a coefficient formula's decaying part"),
+    Term("decay_rate", "deg-1", "rate of a coefficient formula's decay"),
+    Term("power_amplitude", "1", "amplitude of a coefficient formula's power law"),
+    Term("exponent", "1", "exponent of a coefficient formula's power law"),
+)
+RUN = (
+    Term("normal_force", "N", "force normal to the plate"),
+    Term("tangential_force", "N", "force along the plate"),
+    Term("moment", "N m", "moment on the plate"),
+    Term("span", "m", "span of the plate"),
+    Term("thickness", "m", "thickness of the plate"),
+    Term("channel_width", "m", "width of the channel"),
+)

@@ -1,0 +1,102 @@
+"""Find what the table of names says of a dotted name, as records, studies and ``--set`` write it."""
+
+from __future__ import annotations
+
+import re
+
+from wingbeat.nomenclature.table import NOMENCLATURE
+from wingbeat.nomenclature.term import Term
+from wingbeat.nomenclature.units import plain
+
+__all__ = ["attributes_of", "axis_label", "find", "label_of", "plain_unit"]
+
+_AXES = ("x", "y", "z")
+# What stands before or behind a name and says which of its numbers is meant.
+_ABOUT = {
+    "initial_state": "{}, at the top of the stroke",
+    "closure": "miss of the {}, when re-flown",
+    "limit": "limit of the {}",
+    "lower": "lower bound of the {}",
+    "upper": "upper bound of the {}",
+}
+
+
+def find(path: str) -> Term | None:
+    """Return the entry of a dotted name, None if the table has none.
+
+    The longest end of the name that stands in the table counts, so that ``wing.mass`` and ``body.mass`` differ. A
+    ``_deg`` at the end of an angle's name gives its entry in degrees.
+
+    >>> find("vehicle.wing.mass").label, find("wingbeat.flap_mean_deg").unit, find("nonsense")
+    ('mass of one wing', 'deg', None)
+    """
+    parts = _named_parts(path)
+    for start in range(len(parts)):
+        end = ".".join(parts[start:])
+        if end in NOMENCLATURE:
+            return NOMENCLATURE[end]
+        angle = NOMENCLATURE.get(end.removesuffix("_deg"))
+        if angle is not None and angle.unit == "rad":
+            return angle._replace(name=end, unit="deg")
+    return None
+
+
+def plain_unit(path: str) -> str:
+    """Return the unit of a dotted name in plain text, ``1`` where it has none or the table does not hold it.
+
+    >>> plain_unit("wing.mass"), plain_unit("mean_power"), plain_unit("air.gravity"), plain_unit("wing.shoulder.x")
+    ('kg', 'W', 'm/s2', 'm')
+    """
+    term = find(path)
+    return plain(term.unit) if term is not None and term.unit else "1"
+
+
+def label_of(path: str) -> str:
+    """Return what to call the number at a dotted name; the name itself where the table does not hold it.
+
+    >>> label_of("closure.u"), label_of("floquet_multipliers.0.1")
+    ('miss of the forward velocity of the body, when re-flown', 'Floquet multipliers of the orbit, item 0.1')
+    """
+    term, parts = find(path), path.split(".")
+    if term is None:
+        return path
+    if parts[0] == "constraints":
+        return f"{term.label}, kept to {path.partition('.')[2]}"
+    label = term.label
+    for part in (parts[0], parts[-1]) if len(parts) > 1 else ():
+        label = _ABOUT.get(part, "{}").format(label)
+    items = ".".join(part for part in parts[1:] if part.isdigit())
+    if items:
+        label += f", item {items}"
+    return f"{label}, {parts[-1]}" if parts[-1] in _AXES and "shoulder" in parts else label
+
+
+def attributes_of(term: Term) -> dict[str, str]:
+    """Return the attributes of a variable of a data set; a text has no unit, and not every name a symbol."""
+    known = {"units": term.unit, "long_name": term.label, "symbol": term.symbol}
+    return {key: value for key, value in known.items() if value}
+
+
+def axis_label(name: str, full: bool = False) -> str:
+    """Return a figure's axis label for a quantity: short, or in full with its symbol.
+
+    >>> axis_label("mean_power"), axis_label("frequency")
+    ('hinge power, mean [W]', 'wingbeat frequency [Hz]')
+    >>> axis_label("speed"), axis_label("speed", full=True)
+    ('speed [m/s]', 'mean horizontal speed U [m/s]')
+    """
+    term = NOMENCLATURE[name]
+    words = (term.label, term.symbol) if full else (term.short_label,)
+    return " ".join(word for word in (*words, f"[{plain(term.unit)}]") if word)
+
+
+def _named_parts(path: str) -> list[str]:
+    """Return the parts of a dotted name that name something, without places in lists, ends of bounds and limits."""
+    if path.startswith("constraints."):
+        path = re.split("[<>=]", path.partition(".")[2])[0]
+    # The numbers in the brackets of power_cost(0.5) may hold dots.
+    parts = re.sub(r"\(.*\)|\[.*\]", "", path).split(".")
+    parts = [part for part in parts if not part.isdigit()]
+    if parts[0] == "bounds" and parts[-1] in ("lower", "upper"):
+        return parts[1:-1]
+    return parts[:-1] if parts[-1] in _AXES and "shoulder" in parts else parts

@@ -1,0 +1,38 @@
+"""What is known of one name."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["Term"]
+
+
+class Term(NamedTuple):
+    """One quantity.
+
+    Parameters
+    ----------
+    name : as in records, data sets and species files.
+    unit : SI, as the CF conventions write it; ``1`` for a plain number, empty for a text.
+    label : what to call it; the ``long_name`` in data sets.
+    symbol : as in the theory, empty if it has none.
+    meaning : how it is defined, as species files say it; the label if nothing is given.
+    short : the label where there is little room, in rows and on axes; the label if nothing is given.
+    """
+
+    name: str
+    unit: str
+    label: str
+    symbol: str = ""
+    meaning: str = ""
+    short: str = ""
+
+    @property
+    def definition(self) -> str:
+        """The meaning, or what stands for it."""
+        return self.meaning or self.label
+
+    @property
+    def short_label(self) -> str:
+        """The short label, or what stands for it."""
+        return self.short or self.label

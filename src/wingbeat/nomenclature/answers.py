@@ -9,7 +9,9 @@ __all__ = ["ANSWER", "BEAT", "STUDY"]
 BEAT = (
     Term("mean_power", "W", "mean hinge power, both wings", short="hinge power, mean"),
     Term(
-        *("mean_positive_power", "W", "mean of the positive part of the hinge power, both wings"),
+        "mean_positive_power",
+        "W",
+        "mean of the positive part of the hinge power, both wings",
         short="hinge power, mean of the positive part",
     ),
     Term("peak_power", "W", "largest hinge power, both wings", short="hinge power, peak"),
@@ -25,15 +27,23 @@ BEAT = (
     Term("peak_flap_torque", "N m", "largest size of the flap torque, both wings"),
     Term("peak_pitch_torque", "N m", "largest size of the wing pitch torque, both wings"),
     Term(
-        *("body_pitch_range", "rad", "largest less smallest body pitch", ""),
-        *("largest less smallest body pitch within a beat", "range of body pitch"),
+        "body_pitch_range",
+        "rad",
+        "largest less smallest body pitch",
+        "",
+        "largest less smallest body pitch within a beat",
+        "range of body pitch",
     ),
     Term("roughness", "m s-2", "root mean square of the body's acceleration"),
     Term("strouhal", "1", "Strouhal number", "St", "2 f semi_span sin(flap_amplitude) / U"),
     Term("reduced_frequency", "1", "reduced frequency", "k"),
     Term(
-        *("reynolds", "1", "Reynolds number of the mean chord", "Re"),
-        *("U times mean chord over viscosity", "Reynolds number"),
+        "reynolds",
+        "1",
+        "Reynolds number of the mean chord",
+        "Re",
+        "U times mean chord over viscosity",
+        "Reynolds number",
     ),
     Term(
         "alpha_quarter_span",

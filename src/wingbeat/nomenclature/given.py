@@ -36,7 +36,10 @@ GIVEN = (
     Term("climb", "m s-1", "mean vertical speed"),
     Term("path.body_pitch", "rad", "body pitch along the path", "ψ", "body pitch, nose up, along the whole path"),
     Term(
-        *("path.flap", "rad", "flap angle along the stroke", "φ"),
+        "path.flap",
+        "rad",
+        "flap angle along the stroke",
+        "φ",
         "flap angle of arm and hand, wing up positive, along the whole stroke",
     ),
 )
@@ -50,7 +53,10 @@ WINGBEAT = (
         "span_retraction", "1", "span retraction at mid-upstroke", "", "share of the span drawn in at mid-upstroke"
     ),
     Term(
-        *("twist_ratio", "1", "pitch at the tip over that at the root", ""),
+        "twist_ratio",
+        "1",
+        "pitch at the tip over that at the root",
+        "",
         "pitch at the tip over that at the root; 1 is no twist",
     ),
     Term("fold_amplitude", "rad", "largest fold of the hand", "", "drop of the hand below the arm at mid-upstroke"),
@@ -58,15 +64,24 @@ WINGBEAT = (
     Term("pitch_phase", "rad", "by how much of a turn wing pitch runs ahead of flap"),
     Term("downstroke_fraction", "1", "share of the beat that the downstroke takes"),
     Term(
-        *("sweep_mean", "rad", "mean sweep of the span ahead of the stroke plane", ""),
+        "sweep_mean",
+        "rad",
+        "mean sweep of the span ahead of the stroke plane",
+        "",
         "mean angle of the span ahead of the stroke plane",
     ),
     Term(
-        *("sweep_amplitude", "rad", f"sweep amplitude, {_HALF}", ""),
+        "sweep_amplitude",
+        "rad",
+        f"sweep amplitude, {_HALF}",
+        "",
         f"{_HALF}; ahead at mid-downstroke (protraction)",
     ),
     Term(
-        *("sweep_phase", "rad", "by how much of a turn sweep runs ahead of the downstroke", ""),
+        "sweep_phase",
+        "rad",
+        "by how much of a turn sweep runs ahead of the downstroke",
+        "",
         "by how much of a turn sweep runs ahead of that",
     ),
     Term(
@@ -79,7 +94,10 @@ WINGBEAT = (
     Term("flap_harmonics", "rad", "harmonics of the flap angle", "", _ORDERS),
     Term("pitch_harmonics", "rad", "harmonics of the wing pitch", "", _ORDERS),
     Term(
-        *("span_harmonics", "1", "harmonics of the span over full span", ""),
+        "span_harmonics",
+        "1",
+        "harmonics of the span over full span",
+        "",
         f"of span over full span: order 1, 2, .. {HIGHEST_ORDER}",
     ),
     *(

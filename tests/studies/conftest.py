@@ -35,14 +35,14 @@ class Cheap:
     def write(self, speeds):
         self.file.write_text(FORM.format(speeds=[float(u) for u in speeds]))
 
-    def start(self, *words, seconds=0.0, log=None, **popen):
+    def start(self, *words, program=PROGRAM, seconds=0.0, log=None, **popen):
         """Start the program; its processes and their workers carry this study's mark in their environment."""
         environment = os.environ | popen.pop("env", {}) | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
         environment["PYTHONPATH"] = os.pathsep.join([str(HERE), *sys.path])
         if log is not None:
             environment["STANDIN_LOG"] = str(log)
         popen = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment} | popen
-        return subprocess.Popen([sys.executable, "-c", PROGRAM, *map(str, words)], **popen)
+        return subprocess.Popen([sys.executable, "-c", program, *map(str, words)], **popen)
 
     def run(self, *words):
         """Run the program to its end, in this process; return exit code, stdout and stderr, blanks as one."""

@@ -62,6 +62,23 @@ def test_killed_drivers_lose_nothing_and_repeat_nothing_that_was_kept(cheap, und
     assert study.points() == undisturbed
 
 
+BY_LIBRARY = (
+    "import sys; from wingbeat.studies.engine import LocalProcesses; LocalProcesses.work = 'standin:solve'; "
+    "import wingbeat as wb; wb.study(sys.argv[1]).run(processes=1)"
+)
+
+
+def test_a_driver_killed_before_its_log_was_ever_emptied_leaves_a_sound_store(cheap):
+    study = cheap(GRID)
+    driver = study.start(study.file, program=BY_LIBRARY, seconds=0.02)
+    wait_for_points(study, 3)
+    driver.kill()
+    driver.communicate()
+    study.wait_gone()
+    code, _, err = study.run("status", study.file)
+    assert (code, err) == (0, "")
+
+
 def test_killed_workers_lose_nothing(cheap, undisturbed):
     study = cheap(GRID)
     driver = study.start("run", study.file, "-j", 2, seconds=0.02)

@@ -83,6 +83,8 @@ class Store:
             if not begun:
                 store._note(form=FORM, numerical_version=NUMERICAL_VERSION, made_by=__version__, runs=0)
                 connection.execute("COMMIT")
+                # Out of the log: a file whose head says nothing yet, beside a log with answers, looks damaged.
+                connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
             yield store
             with suppress(sqlite3.OperationalError):  # a reader is at work: what stands in the log is as safe
                 connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")

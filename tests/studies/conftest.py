@@ -86,7 +86,7 @@ class Cheap:
 def cheap(tmp_path, capsys, monkeypatch):
     """Return a maker of cheap studies, each in a folder of its own."""
     monkeypatch.setattr(LocalProcesses, "work", "standin:solve")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HERE), *sys.path]))
+    monkeypatch.syspath_prepend(HERE)
 
     def make(speeds, name="here"):
         folder = tmp_path / name

@@ -136,7 +136,7 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     assert code == 3, err
     for line in ("converged 20", "infeasible 1", "error 1", "crashed 2", "timeout 1"):
         assert line in out
-    assert "crashed: speed = 90: its process was ended by SIGKILL" in out
+    assert "crashed: speed = 90: its process ended with SIGKILL" in out
     assert "crashed: speed = 95: its process ended with exit code 7" in out
     assert "timeout: speed = 91: no answer within 1 s" in out
     assert "error: speed = 92: ValueError: no such speed" in out

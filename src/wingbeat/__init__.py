@@ -32,6 +32,16 @@ if TYPE_CHECKING:
     from wingbeat.mechanics.flight_model import flight_model as flight_model
     from wingbeat.mechanics.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.orbits.flight.beat import Beat as Beat
+    from wingbeat.orbits.options.certificate import CertificateOptions as CertificateOptions
+    from wingbeat.orbits.options.certificate import NewtonOptions as NewtonOptions
+    from wingbeat.orbits.options.continuation import ContinuationOptions as ContinuationOptions
+    from wingbeat.orbits.options.continuation import SensitivityOptions as SensitivityOptions
+    from wingbeat.orbits.options.diagnosis import ChangeOptions as ChangeOptions
+    from wingbeat.orbits.options.diagnosis import DiagnosisOptions as DiagnosisOptions
+    from wingbeat.orbits.options.least_squares import LeastSquaresOptions as LeastSquaresOptions
+    from wingbeat.orbits.options.search import SearchOptions as SearchOptions
+    from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
+    from wingbeat.orbits.options.start_families import StartFamily as StartFamily
     from wingbeat.orbits.problem.limits import Constraint as Constraint
     from wingbeat.orbits.problem.objectives import Frequency as Frequency
     from wingbeat.orbits.problem.objectives import PowerCost as PowerCost
@@ -73,9 +83,13 @@ _HOME = {
     "Air": "vehicle",
     "Beat": "orbits.flight.beat",
     "Body": "vehicle",
+    "CertificateOptions": "orbits.options.certificate",
+    "ChangeOptions": "orbits.options.diagnosis",
     "ClusterError": "errors",
     "Constraint": "orbits.problem.limits",
+    "ContinuationOptions": "orbits.options.continuation",
     "Curve": "results.curve",
+    "DiagnosisOptions": "orbits.options.diagnosis",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "mechanics.flight_model",
@@ -83,13 +97,19 @@ _HOME = {
     "Frequency": "orbits.problem.objectives",
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
+    "LeastSquaresOptions": "orbits.options.least_squares",
+    "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
     "PowerCost": "orbits.problem.objectives",
     "Quantity": "orbits.problem.objectives",
+    "SearchOptions": "orbits.options.search",
+    "SensitivityOptions": "orbits.options.continuation",
+    "SolverOptions": "orbits.options.solver",
     "Species": "species",
     "Spread": "results.spread",
     "SpringPower": "orbits.problem.objectives",
+    "StartFamily": "orbits.options.start_families",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
     "Study": "studies.study",

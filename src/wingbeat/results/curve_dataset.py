@@ -80,7 +80,7 @@ def curve_dataset(
         family[i, : len(row)] = [n if r is not None else -1 for n, r in zip(row, good[i], strict=True)]
     table.columns["family"] = (POINTS, family, _about("family"))
     steps = np.zeros((len(speeds) - 1, widest, widest), dtype=int)
-    for join in branches.joins:
+    for join in branches.links:
         steps[join.interval, join.lower, join.upper] = join.steps
     table.columns["continued"] = (("interval", "optimum", "optimum_above"), steps, _about("continued"))
     first = [row[0] for row in records]

@@ -70,7 +70,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
-        "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.shortages],
+        "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.deficits],
         "relaxations": [dict(vars(r)) for r in solution.relaxations],
         "optimality": solution.optimality,
         "starts": solution.starts,

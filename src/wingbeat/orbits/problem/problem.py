@@ -18,7 +18,7 @@ from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel, flight_model
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
 from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
-from wingbeat.orbits.problem.path_functions import check_quantities, row_count
+from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
@@ -222,7 +222,7 @@ class OrbitProblem:
         return [*objective, *(constraint.quantity for constraint in self.subject_to)]
 
     @property
-    def reads_beat(self) -> bool:
+    def has_outputs(self) -> bool:
         """Whether objective or constraints are read off the beat, not off the unknowns."""
         return bool(self._quantities())
 
@@ -237,9 +237,9 @@ class OrbitProblem:
         return any(tuple(self.bounds[name]) != self.species.bounds.get(name) for name in self.free)
 
     @property
-    def lowers_peaks(self) -> bool:
+    def minimises_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
-        return isinstance(self.minimise, Quantity) and row_count(self.minimise.of, self.aero.strips) > 1
+        return isinstance(self.minimise, Quantity) and value_count(self.minimise.of, self.aero.strips) > 1
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:

@@ -1,5 +1,6 @@
 """Many problems at once: the answers of one by one, whoever computes them."""
 
+import dataclasses
 import gc
 import math
 
@@ -8,13 +9,12 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
-from wingbeat.orbits import solve as solving
 from wingbeat.orbits.many import batch
 from wingbeat.orbits.many.batch import find_orbits, in_processes
 from wingbeat.orbits.nlp import defect_correction
 from wingbeat.orbits.nlp.defect_correction import correct
 from wingbeat.orbits.nlp.local_search import optimise, search
-from wingbeat.orbits.nlp.newton_kkt import Conditions, Polish
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solve import find_beside, find_optima, find_orbit
 from wingbeat.orbits.starts import start_point, usual_starts
@@ -39,18 +39,18 @@ def same(one, other):
     assert one.record()["closure"] == other.record()["closure"]
 
 
-def test_a_batch_gives_the_answers_of_single_orbits_in_their_order(monkeypatch):
-    monkeypatch.setattr(solving, "MOST_STARTS", 2)  # of 50: each takes seconds
-    told = []
-    found = wb.solve_orbits(problems(), starts=1, progress=lambda *done: told.append(done))
-    assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
+def test_a_batch_gives_the_answers_of_single_orbits_in_their_order():
+    few = wb.SolverOptions(search=wb.SearchOptions(most_starts=2))  # of 50: each takes seconds
+    seen = []
+    found = wb.solve_orbits(problems(), starts=1, progress=lambda *done: seen.append(done), options=few)
+    assert seen == [(1, 4), (2, 4), (3, 4), (4, 4)]
     assert [orbit.status.value for orbit in found] == ["converged", "converged", "infeasible", "converged"]
     for orbit, problem in zip(found, problems(), strict=True):
-        same(orbit, wb.solve_orbit(problem, starts=1))
+        same(orbit, wb.solve_orbit(problem, starts=1, options=few))
 
 
 def test_processes_give_the_same_bits():
-    chosen = list(mixed_problems(32))  # in groups large enough that some answers are foretold
+    chosen = list(mixed_problems(32))  # in groups large enough that some answers are predicted
     alone, shared = (wb.solve_orbits(chosen, starts=1, processes=n) for n in (1, 2))
     for one, other in zip(alone, shared, strict=True):
         same(one, other)
@@ -82,19 +82,24 @@ def test_no_problems_are_no_orbits():
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_polish_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
+def test_newtons_method_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(index):
     programme = Transcription(problems()[index])
     found = search(programme, start_point(programme.problem, 0, 0))
     assert found.closed
     assert found.optimal
     scaled = found.scaled
-    polish = Polish(programme, scaled)
-    programme._shift = np.full(6, 1e-3)
-    polished = polish.follow(polish.follow(scaled))
-    assert np.abs(programme.closure(polished)).max() <= 1e-8
-    again, _ = optimise(programme, scaled, tolerance=1e-14)
-    assert programme.objective(polished) == pytest.approx(programme.objective(again), rel=1e-7)
-    np.testing.assert_allclose(polished, again, rtol=0, atol=2e-3)
+    newton = NewtonKKT(programme, scaled)
+    programme = offset(programme, closure_offset=np.full(6, 1e-3))
+    found = newton.converge(programme, newton.converge(programme, scaled))
+    assert np.abs(programme.closure(found)).max() <= 1e-8
+    again, _ = optimise(programme, scaled, 60, 1e-14)
+    assert programme.objective(found) == pytest.approx(programme.objective(again), rel=1e-7)
+    np.testing.assert_allclose(found, again, rtol=0, atol=2e-3)
+
+
+def offset(programme, **offsets):
+    """Return the programme with offsets taken off what it evaluates."""
+    return programme._corrected(dataclasses.replace(programme._no_correction, **offsets))
 
 
 def optimum(index):
@@ -106,42 +111,40 @@ def test_conditions_that_say_the_same_twice_are_met_all_the_same():
     rows = np.random.default_rng(0).normal(size=(6, 9))
     rows[5] = 2 * rows[4]
     values = rows @ np.arange(9.0)
-    conditions = Conditions(rows)
-    np.testing.assert_allclose(rows @ conditions.shortest(values), values, rtol=1e-10)
-    np.testing.assert_allclose(rows @ conditions.null, 0, atol=1e-12)
-    np.testing.assert_allclose(conditions.multipliers(rows[0]) @ rows, rows[0], atol=1e-12)
+    null_space = NullSpace(rows, 1e-13)
+    np.testing.assert_allclose(rows @ null_space.least_norm_step(values), values, rtol=1e-10)
+    np.testing.assert_allclose(rows @ null_space.basis, 0, atol=1e-12)
+    np.testing.assert_allclose(null_space.multipliers(rows[0]) @ rows, rows[0], atol=1e-12)
 
 
-def test_polish_gives_up_far_from_closure():
+def test_newtons_method_gives_up_far_from_closure():
     programme, scaled = optimum(0)
-    polish = Polish(programme, scaled)
-    programme._shift = np.full(6, 30.0)
-    assert polish.follow(scaled) is None
+    newton = NewtonKKT(programme, scaled)
+    assert newton.converge(offset(programme, closure_offset=np.full(6, 30.0)), scaled) is None
 
 
-def test_polish_gives_up_where_it_leaves_the_bounds():
+def test_newtons_method_gives_up_where_it_leaves_the_bounds():
     programme, scaled = optimum(0)
-    polish = Polish(programme, scaled)
-    programme._shift = np.full(6, 1e-2)
-    assert polish.follow(scaled) is not None
+    newton = NewtonKKT(programme, scaled)
+    programme = offset(programme, closure_offset=np.full(6, 1e-2))
+    assert newton.converge(programme, scaled) is not None
     programme.lower, programme.upper = scaled - 1e-7, scaled + 1e-7
-    assert polish.follow(scaled) is None
+    assert newton.converge(programme, scaled) is None
 
 
-def test_polish_gives_up_where_the_path_breaks_a_bound_that_was_not_met():
+def test_newtons_method_gives_up_where_the_path_exceeds_a_limit_that_was_not_active():
     programme, scaled = optimum(0)
-    polish = Polish(programme, scaled)
-    programme._shift = np.full(6, 1e-3)
-    programme._inside_shift = np.full(len(programme.path_limits), 10.0)
-    assert not polish.on_path.any()
-    assert polish.follow(scaled) is None
+    newton = NewtonKKT(programme, scaled)
+    offsets = {"closure_offset": np.full(6, 1e-3), "path_offset": np.full(len(programme.path_limits), 10.0)}
+    assert not newton.active.any()
+    assert newton.converge(offset(programme, **offsets), scaled) is None
 
 
-def test_polish_has_nothing_to_do_with_too_few_unknowns():
+def test_newtons_method_has_nothing_to_do_with_too_few_unknowns():
     programme, scaled = optimum(0)
     programme.lower = scaled.copy()
-    assert not Polish(programme, scaled).fits
-    assert Polish(programme, scaled).follow(scaled) is None
+    assert not NewtonKKT(programme, scaled).fits
+    assert NewtonKKT(programme, scaled).converge(programme, scaled) is None
 
 
 def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
@@ -179,11 +182,11 @@ def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
 def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):
     asked = []
 
-    def seen(problem, known, starts, *rest):
+    def seen(problem, known, starts, *rest, **options):
         asked.append(starts)
         return find_orbit(problem, 1, threads=1)
 
-    monkeypatch.setattr(batch, "find_helped", seen)
+    monkeypatch.setattr(batch, "find_with_known", seen)
     bat = wb.load_species("bat")
     both = [wb.OrbitProblem(bat, 9.0), wb.OrbitProblem(bat, 9.0, minimise="mean_power")]
     found = wb.solve_orbits(both)

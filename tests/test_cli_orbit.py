@@ -256,7 +256,8 @@ def test_figures_by_their_suffix(asked: list[Any], tmp_path: Path, capsys: Any) 
 def test_an_infeasible_problem_exits_with_3(
     run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    monkeypatch.setattr("wingbeat.orbits.solve.MOST_STARTS", 1)  # the other 49 find nothing either
+    few = wb.SolverOptions(search=wb.SearchOptions(most_starts=1))  # the other 49 find nothing either
+    monkeypatch.setattr("wingbeat.cli.orbit.solve_orbit", functools.partial(wb.solve_orbit, options=few))
     words = ("pigeon", "--speed", 12, "--flap-amplitude-max", 6, "-o", tmp_path / "orbit.nc")
     ended = run(*words, "--json", "--plot", tmp_path / "page.png")
     record = json.loads(ended.out)

@@ -10,8 +10,9 @@ import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.nomenclature import find, label_of
-from wingbeat.orbits.many.branches import LEAP, Branches, Join, carry, trace
+from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
 from wingbeat.orbits.many.transitions import families, marks_of, unmarked_jumps
+from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
 from wingbeat.results.characteristic import characteristic_speeds
@@ -56,11 +57,11 @@ def test_the_change_of_family_is_marked_and_nothing_jumps_beside_the_marks(bat):
 
 
 def test_a_jump_put_into_a_smooth_curve_is_found_or_marked(bat):
-    # At 5 m/s another optimum poses as the best, with the joins of the true one.
+    # At 5 m/s another optimum poses as the best, with the links of the true one.
     worse = tuple(reversed(bat.optima[0]))
-    planted = Branches((worse, *bat.optima[1:]), bat.joins)
+    planted = Branches((worse, *bat.optima[1:]), bat.links)
     assert (5.0, 6.0) in unmarked_jumps(planted, marks_of(planted))
-    untold = [j for j in bat.joins if (j.interval, j.lower, j.upper) != (0, 0, 0)]
+    untold = [j for j in bat.links if (j.interval, j.lower, j.upper) != (0, 0, 0)]
     marks = marks_of(Branches(bat.optima, tuple(untold)))
     assert (5.0, 6.0) in [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"]
 
@@ -73,9 +74,9 @@ def test_a_gap_is_marked(bat):
 
 def test_a_family_has_one_optimum_at_a_speed_where_two_are_continued_into_one(bat):
     two = (bat.optima[0][0], bat.optima[0][1])
-    joins = (Join(0, 0, 0, 5), Join(0, 1, 0, 2))
-    assert families(Branches((two, bat.optima[1][:1]), joins)) == [[1, 0], [0]] or families(
-        Branches((two, bat.optima[1][:1]), joins)
+    links = (BranchLink(0, 0, 0, 5), BranchLink(0, 1, 0, 2))
+    assert families(Branches((two, bat.optima[1][:1]), links)) == [[1, 0], [0]] or families(
+        Branches((two, bat.optima[1][:1]), links)
     ) == [[0, 1], [1]]
 
 
@@ -83,7 +84,7 @@ def test_continuing_goes_in_steps_and_comes_back():
     there = find_optima(problem_at("pigeon"), 1)[0]
     up = carry(there, dataclasses.replace(there.problem, speed=9.0))
     assert up.optimum is not None
-    assert up.steps >= np.abs(up.optimum.place - there.place).max() / LEAP
+    assert up.steps >= np.abs(up.optimum.place - there.place).max() / DEFAULTS.continuation.max_step
     back = carry(up.optimum, there.problem)
     assert back.optimum is not None
     assert back.steps
@@ -92,7 +93,7 @@ def test_continuing_goes_in_steps_and_comes_back():
 
 def test_the_answer_does_not_hang_on_the_threads():
     one, two = (trace(problem_at("pigeon"), [8.0, 9.0], 2, 0, threads=n) for n in (1, 2))
-    assert one.joins == two.joins
+    assert one.links == two.links
     assert [[o.objective for o in row] for row in one.optima] == [[o.objective for o in row] for row in two.optima]
 
 

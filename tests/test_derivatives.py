@@ -151,7 +151,7 @@ def test_closure_margins_and_objective_of_the_programme(solved):
 
     compare(programme.closure_jacobian(point), programme.closure)
     # Where in the beat a wing is nearest to a limit is found by two steps of Newton's method.
-    compare(programme.margins_jacobian(point), programme.margins, 1e-6)
+    compare(programme.inequalities_jacobian(point), programme.inequalities, 1e-6)
     gradient = programme.objective_gradient(point)
     compare(gradient[None], lambda x: np.array([programme.objective(x)]))
 
@@ -228,7 +228,7 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     programme = Transcription(solved.problem)
     fly = programme.fly
     programme.fly = lambda values, start, blocks=1: fly(values, start, 4 * blocks)
-    scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)))
+    scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)), 60, 1e-6)
     found = correct(programme, scaled)
     assert np.abs(found.miss).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-7)

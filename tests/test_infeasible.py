@@ -9,7 +9,7 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.mechanics.flight_loads import flight_loads
-from wingbeat.orbits.infeasible.deficit import LAWS, Balance, Closest, Shortage
+from wingbeat.orbits.infeasible.deficit import LAWS, Balance, Deficit, Unbalanced
 from wingbeat.orbits.infeasible.diagnosis import Nearest, nearest_beat
 from wingbeat.orbits.infeasible.relaxation import Change, is_limit, possible_changes, relaxation, with_change
 from wingbeat.orbits.infeasible.without_orbit import unexplained, without_orbit
@@ -40,8 +40,8 @@ def test_there_are_thirty_cases_of_six_kinds():
 def test_the_right_law_is_named_and_the_smallest_change_flies(case, solved):
     found = solved[case.kind]
     assert found.status is wb.Status.INFEASIBLE
-    assert found.shortages[0].law in case.laws
-    assert str(found.shortages[0]) in found.message
+    assert found.deficits[0].law in case.laws
+    assert str(found.deficits[0]) in found.message
     assert all(str(limit) in found.message for limit in case.problem.subject_to)
     change = found.relaxations[0]
     assert change.text in found.message
@@ -52,7 +52,7 @@ def test_the_right_law_is_named_and_the_smallest_change_flies(case, solved):
 @pytest.mark.parametrize("kind", ["too slow", "amplitude too small"])
 def test_with_the_force_that_is_short_it_flies(kind, solved):
     """A steady force on all mass is another gravity: told shares and one percent more do, half of them do not."""
-    problem, shares = solved[kind].problem, {s.law: s.share for s in solved[kind].shortages}
+    problem, shares = solved[kind].problem, {s.law: s.share for s in solved[kind].deficits}
     assert len(shares) == 1
 
     def helped(part):
@@ -74,7 +74,7 @@ def test_with_the_force_that_is_short_it_flies(kind, solved):
 def test_the_closest_beat_misses_by_the_force_that_is_told(solved):
     """Certified: what the flight lacks in vertical momentum over a beat is the lift that is short."""
     found = solved["too slow"]
-    (short,) = found.shortages
+    (short,) = found.deficits
     mass = found.problem.vehicle.mass
     force = -found.closure["w"] * mass * found.wingbeat.frequency
     assert short.amount == pytest.approx(force, rel=0.02)
@@ -129,7 +129,7 @@ def test_the_closest_beat_is_sought_from_ends_that_differ(monkeypatch):
 
     def failing(self, starts):
         asked.extend(starts)
-        return Closest(middle, {LIFT: 0.5}, True)
+        return Unbalanced(middle, {LIFT: 0.5}, True, 1e-3)
 
     monkeypatch.setattr(Balance, "failing", failing)
     nearest_beat(programme, ends)
@@ -140,12 +140,12 @@ def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatc
     balance = Balance(Transcription(wb.OrbitProblem(PIGEON, speed=10.0)))
     flown = []
 
-    def closest(self, scaled, broken=LAWS, evaluations=150):
-        share = float(scaled[0]) * (0.9 if evaluations > 25 else 1.0)
-        flown.append((round(share, 3), tuple(broken), evaluations))
-        return Closest(scaled, dict.fromkeys(broken, share), True)
+    def nearest(self, scaled, broken=LAWS, evaluations=None):
+        share = float(scaled[0]) * (0.9 if evaluations is None else 1.0)
+        flown.append((round(share, 3), tuple(broken), evaluations or 150))
+        return Unbalanced(scaled, dict.fromkeys(broken, share), True, 1e-3)
 
-    monkeypatch.setattr(Balance, "closest", closest)
+    monkeypatch.setattr(Balance, "nearest", nearest)
     ends = [np.array([share]) for share in (0.3, 0.1, 0.2)]
     assert balance.failing(ends).shares == pytest.approx({THRUST: 0.09})
     together = [(share, LAWS, evaluations) for share, evaluations in ((0.3, 25), (0.1, 25), (0.2, 25), (0.09, 150))]
@@ -158,7 +158,7 @@ def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatc
 def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypatch):
     problem = wb.OrbitProblem(PIGEON, speed=10.0)
     programme = Transcription(problem)
-    closed = search(programme.anew(), start_point(problem, 0, 0))
+    closed = search(programme.uncorrected(), start_point(problem, 0, 0))
     astray = Candidate(programme, 0.5 * (programme.lower + programme.upper), 1.0, False, False, 9.0)
     monkeypatch.setattr(
         "wingbeat.orbits.infeasible.without_orbit.nearest_beat", lambda *_: Nearest(closed.scaled, (), True)
@@ -169,7 +169,7 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
     assert "beats that almost close were met in 1 searches, but none could be certified" in failure.message
-    assert (failure.shortages, failure.relaxations) == ((), ())
+    assert (failure.deficits, failure.relaxations) == ((), ())
     np.testing.assert_array_equal(beat.scaled, closed.scaled)
     # Of those that close the one that closes best is told.
     rough, best = (
@@ -185,20 +185,20 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
 def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_the_search_for_why(solved):
     problem = solved["too slow"].problem
     found = find_orbit(problem, 2, most_starts=2, threads=1, advise=False, explain=False)
-    assert (found.status, found.shortages, found.relaxations) == (Status.INFEASIBLE, (), ())
+    assert (found.status, found.deficits, found.relaxations) == (Status.INFEASIBLE, (), ())
     assert found.message == "no orbit within the bounds in 2 searches; which law of balance fails was not asked"
     explained = find_orbit(problem, 2, most_starts=2, threads=1, advise=False)
-    assert explained.shortages
+    assert explained.deficits
 
 
 @pytest.mark.parametrize(
     ("shortage", "words"),
     [
-        (Shortage(LIFT, 0.123, 0.4), "lift is 12 % of the weight short"),
-        (Shortage(LIFT, -0.05, -0.2), "lift is 5 % of the weight too much"),
-        (Shortage(THRUST, 1.234, 4.0), "thrust is short of drag by 120 % of the weight"),
-        (Shortage(THRUST, -0.02, -0.1), "thrust is more than drag by 2 % of the weight"),
-        (Shortage(MOMENT, -0.5, -0.17), "a nose-down pitching moment of 0.17 N m is lacking"),
+        (Deficit(LIFT, 0.123, 0.4), "lift is 12 % of the weight short"),
+        (Deficit(LIFT, -0.05, -0.2), "lift is 5 % of the weight too much"),
+        (Deficit(THRUST, 1.234, 4.0), "thrust is short of drag by 120 % of the weight"),
+        (Deficit(THRUST, -0.02, -0.1), "thrust is more than drag by 2 % of the weight"),
+        (Deficit(MOMENT, -0.5, -0.17), "a nose-down pitching moment of 0.17 N m is lacking"),
     ],
 )
 def test_a_shortage_in_words(shortage, words):
@@ -267,8 +267,8 @@ def test_every_law_of_the_wingbeat_can_be_advised_on():
         "span_cos_1": (-0.1, 0.1),
     }
     problem = wb.OrbitProblem(PIGEON, speed=10.0, free=(*PIGEON.free, *bounds), bounds=bounds)
-    leaning = [(name, sign) for name in bounds for sign in ("<=", ">=")]
-    changes = [c for c in possible_changes(problem, leaning, {}) if c.name in bounds]
+    at_bounds = [(name, sign) for name in bounds for sign in ("<=", ">=")]
+    changes = [c for c in possible_changes(problem, at_bounds, {}) if c.name in bounds]
     assert {c.name for c in changes} == bounds.keys()
     for change in changes:
         applied = with_change(problem, change.name, change.sign, change.reach)

@@ -66,7 +66,7 @@ def test_derivatives_of_objective_and_margins(name):
     point = start_point(problem, 0, 0)
     point[4] = 9.0
     scaled = programme.scaled(point)
-    programme.tilt_at(scaled, 2)
+    programme = programme.linearised_at(scaled, 2)
     scaled = scaled + 0.01 * np.random.default_rng(1).normal(size=scaled.size)
     step = 1e-6
 
@@ -76,9 +76,9 @@ def test_derivatives_of_objective_and_margins(name):
         )
         return ((ahead - behind) / (2 * step)).T
 
-    gradient, margins = programme.objective_gradient(scaled), programme.margins_jacobian(scaled)
+    gradient, inside = programme.objective_gradient(scaled), programme.inequalities_jacobian(scaled)
     assert np.abs(gradient - differences(programme.objective)).max() <= 1e-5 * np.abs(gradient).max()
-    assert np.abs(margins - differences(programme.margins)).max() <= 1e-5 * np.abs(margins).max()
+    assert np.abs(inside - differences(programme.inequalities)).max() <= 1e-5 * np.abs(inside).max()
 
 
 @pytest.fixture(scope="module")

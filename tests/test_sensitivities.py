@@ -16,7 +16,7 @@ from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_or
 from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.sensitivity import OptimumSlopes
-from wingbeat.orbits.solve import find_orbit, settle
+from wingbeat.orbits.solve import correct_guess, find_orbit
 from wingbeat.results.sensitivities import Comparison
 
 POWER = QUANTITIES["mean_positive_power"]
@@ -86,7 +86,7 @@ def test_the_derivative_is_that_of_certified_orbits():
         if parameter.path in ("wing.mass", "air.density", "aero.drag.constant"):
             step = SHARE * parameter.size
             pair = [parameter.changed(solution.problem, parameter.value + sign * step) for sign in (1, -1)]
-            anew = [settle(problem, solution.unknowns).objective for problem in pair]
+            anew = [correct_guess(problem, solution.unknowns).objective for problem in pair]
             slope = optimum.by(parameter).objective
             assert slope == pytest.approx((anew[0] - anew[1]) / (2 * step), rel=0.01)
 

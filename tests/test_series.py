@@ -9,7 +9,7 @@ import wingbeat as wb
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.many.series import find_series
-from wingbeat.orbits.solve import find_orbit, follow
+from wingbeat.orbits.solve import find_orbit, search_near
 from wingbeat.orbits.status import Status
 
 
@@ -43,9 +43,9 @@ def test_a_poor_answer_is_replaced_by_what_the_neighbour_leads_to(row, monkeypat
 
 def test_following_an_answer_finds_it_again_and_only_what_is_better(row):
     found = next(find_orbits(row[:1], starts=1))
-    again = follow(row[0], found.unknowns)
+    again = search_near(row[0], found.unknowns)
     assert again.objective == pytest.approx(found.objective, rel=1e-6)
-    assert follow(row[0], found.unknowns, below=0.9 * found.objective) is None
+    assert search_near(row[0], found.unknowns, below=0.9 * found.objective) is None
 
 
 def test_a_row_in_which_nothing_flies_is_data(row):
@@ -64,11 +64,11 @@ def test_orbits_of_a_row_have_records_and_bad_counts_are_refused(row):
 def test_an_answer_is_handed_to_a_neighbour_once(row, monkeypatch):
     handed = []
 
-    def counted(problem, start, below):
+    def counted(problem, start, *given):
         handed.append((problem.speed, start.tobytes()))
-        return follow(problem, start, below)
+        return search_near(problem, start, *given)
 
-    monkeypatch.setattr("wingbeat.orbits.many.series.follow", counted)
+    monkeypatch.setattr("wingbeat.orbits.many.series.search_near", counted)
     find_series(row)
     assert len(handed) == len(set(handed)) >= 2 * (len(row) - 1)
 

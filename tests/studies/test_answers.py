@@ -217,7 +217,7 @@ def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(names, done
     found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
     closure = {**found.closure, **dict.fromkeys(names, np.nan)}
     lost = dataclasses.replace(found, status=Status.INFEASIBLE, closure=closure)
-    monkeypatch.setattr(work, "find_helped", lambda *given: lost)
+    monkeypatch.setattr(work, "find_with_known", lambda *given: lost)
     recipe = json.dumps(done.plan.bases[0].recipe.inputs())
     (outcome,) = work.solve_unit(Unit(recipe, (Task(point.key, point.changes),)))
     assert (outcome.status, outcome.certificate) == ("infeasible", None)
@@ -227,7 +227,7 @@ def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(names, done
 def test_a_record_that_no_json_holds_is_told_beside_its_point(done, monkeypatch):
     points = list(done.plan.points())[:2]
     found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
-    monkeypatch.setattr(work, "find_helped", lambda *given: found)
+    monkeypatch.setattr(work, "find_with_known", lambda *given: found)
     record = work.orbit_record
     odd = iter([{"mean_power": np.inf}, {}])
     monkeypatch.setattr(work, "orbit_record", lambda solution: record(solution) | next(odd))
@@ -241,7 +241,7 @@ def test_a_record_that_no_json_holds_is_told_beside_its_point(done, monkeypatch)
 @pytest.mark.parametrize("least", ["frequency", "mean_power", "peak_power"])
 def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_path, monkeypatch):
     asked = []
-    monkeypatch.setattr(work, "find_helped", lambda *given: asked.append(given))
+    monkeypatch.setattr(work, "find_with_known", lambda *given: asked.append(given))
     study = wb.study(species="bat", speed=9.0, minimise=least, store=tmp_path / "x.study.sqlite")
     (point,) = study.plan.points()
     recipe = json.dumps(study.plan.bases[0].recipe.inputs())

@@ -45,15 +45,14 @@ def start_point(
     if index < len(given):
         return given[index]
     random = np.random.default_rng([seed, index])
-    point = random.uniform(
-        unknowns.lower + 0.1 * (unknowns.upper - unknowns.lower),
-        unknowns.upper - 0.1 * (unknowns.upper - unknowns.lower),
-    )
-    # Near the mean velocity and a moderate attitude; frequencies spread over two octaves.
-    point[:4] = given[0][:4] + random.uniform([-0.2, -0.5, -1.0, -2.0], [0.3, 0.5, 1.0, 2.0])
+    margin = options.random_margin * (unknowns.upper - unknowns.lower)
+    point = random.uniform(unknowns.lower + margin, unknowns.upper - margin)
+    # Near the mean velocity and a moderate attitude.
+    point[:4] = given[0][:4] + random.uniform(-np.array(options.random_below), options.random_above)
     if "frequency" in unknowns.names:
         column = unknowns.names.index("frequency")
-        point[column] = given[0][column] * 2.0 ** random.uniform(-1.2, 0.8)
+        slower, faster = options.random_octaves
+        point[column] = given[0][column] * 2.0 ** random.uniform(-slower, faster)
     return np.clip(point, unknowns.lower, unknowns.upper)
 
 

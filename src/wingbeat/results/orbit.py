@@ -282,8 +282,9 @@ def solve_orbits(
     """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
 
     Of problems that differ in numbers only, the first are searched as `solve_orbit` does. The first search of a
-    later one starts from what their answers predict, and counts if it ends in a certified orbit. Where a problem has
-    several optima, that may be another than a search by itself would find. `processes` do not change the answers.
+    later one starts from what their answers predict, and counts if it ends in a certified orbit. Where a problem
+    has several optima, that may be another than a search by itself would find. The answers do not depend on
+    `processes`.
 
     Records and time series are made when asked for, so that thousands of orbits can be held and few looked at.
 

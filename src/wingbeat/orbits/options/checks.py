@@ -27,8 +27,8 @@ def check_options(options: Any) -> None:
             if not isinstance(value, tuple) or not value:
                 faults.add(where, value, "must be a tuple of numbers", f"the default is {default}")
                 continue
-            for i, (part, like) in enumerate(zip(value, (default[0],) * len(value), strict=True)):
-                _check_number(faults, f"{where}[{i}]", part, like, may_be_zero=True)
+            for i, part in enumerate(value):
+                _check_number(faults, f"{where}[{i}]", part, default[0], may_be_zero=True)
         elif isinstance(default, int | float):
             _check_number(faults, where, value, default)
         elif not isinstance(value, type(default)):

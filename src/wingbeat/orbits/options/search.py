@@ -26,6 +26,10 @@ class SearchOptions:
         bat's least peak pitch torque at 14 m/s, which 12 missed by half.
     most_starts : as long as none can be certified, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
+    random_margin : random starts keep this share of their range off the bounds.
+    random_below, random_above : how far they go from the stock start in body pitch, u, w [rad, m/s, m/s] and pitch
+        rate [rad/s].
+    random_octaves : how far they go below and above the stock start's frequency.
     start_spread : how far from the best optimum the starts beside it are, in the optimiser's scale.
     iterations, tolerance : of SLSQP, and its tolerance of the objective.
     local_iterations : from the answer of a neighbouring problem.
@@ -52,6 +56,10 @@ class SearchOptions:
     starts_of_many_optima: int = 24
     most_starts: int = 50
     start_families: tuple[StartFamily, ...] = START_FAMILIES
+    random_margin: float = 0.1
+    random_below: tuple[float, ...] = (0.2, 0.5, 1.0, 2.0)
+    random_above: tuple[float, ...] = (0.3, 0.5, 1.0, 2.0)
+    random_octaves: tuple[float, ...] = (1.2, 0.8)
     start_spread: float = 0.5
     iterations: int = 60
     tolerance: float = 1e-6

@@ -34,7 +34,7 @@ START = np.array([0.2, 10.0, 0.0, 0.0])
 def flight(strips: int = 10, free: int = 5, blocks: int = 1) -> float:
     """Return the time of a flight with its derivatives [s]."""
     species = wb.load_species("bat")
-    model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips), species.air)
+    model = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips), species.air)
     names = FREE[:free]
     values = np.array([getattr(species.wingbeat, name) for name in names])
     fly = flier(model, species.wingbeat, names)

@@ -188,7 +188,7 @@ def _better(one: Point, other: Point | None) -> Point:
 def fly_series(asked: list[wb.OrbitProblem]) -> list[Point]:
     """Fly one bird's problems of least power, each speed helped by its neighbours; by rising speed."""
     asked = sorted(asked, key=lambda problem: problem.speed)
-    orbits = wb.solve_series(asked, starts=2, most_starts=8)
+    orbits = wb.solve_orbits(asked, starts=2, most_starts=8, in_order=True)
     return [_point(POWER, problem, orbit) for problem, orbit in zip(asked, orbits, strict=True)]
 
 

@@ -56,7 +56,8 @@ def spoken_of(model):
     terms = wb.equations_of_motion(model, PIGEON.wingbeat, q, rates, 0.0)
     return [
         flight.states,
-        *driven,
+        driven.coordinates,
+        driven.rates,
         np.asarray(loads.lift),
         np.asarray(air.generalised),
         np.asarray(terms.mass_matrix),
@@ -67,7 +68,7 @@ def spoken_of(model):
 def test_a_name_is_its_model_to_the_last_bit(name):
     model = wb.aero.LIBRARY[name]()
     for given in (name, wb.aero.BladeElement(name)):
-        one, other = (wb.flight_model(PIGEON.vehicle, aero) for aero in (given, model))
+        one, other = (wb.FlightModel(PIGEON.vehicle, aero) for aero in (given, model))
         assert all(
             np.array_equal(a, b, equal_nan=True)
             for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True)
@@ -85,8 +86,8 @@ def test_a_path_is_its_table(table):
 
 
 def test_a_function_flies_as_the_model_of_the_same_formulas():
-    own = wb.flight_model(PIGEON.vehicle, plate)
-    for found, expected in zip(spoken_of(own), spoken_of(wb.flight_model(PIGEON.vehicle, "wang")), strict=True):
+    own = wb.FlightModel(PIGEON.vehicle, plate)
+    for found, expected in zip(spoken_of(own), spoken_of(wb.FlightModel(PIGEON.vehicle, "wang")), strict=True):
         np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-10)
     angles = np.radians([10.0, 20.0])
     glides = [wb.glide_polar(PIGEON, aero, angles).glides for aero in (plate, wb.aero.Wang2004())]
@@ -145,7 +146,7 @@ rows = jnp.asarray(np.linspace(0.0, 1.0, 3000)).at[1500].add(gain)
 def own(alpha):
     return jnp.interp(alpha, jnp.linspace(-4.0, 4.0, 3000), rows), 0.5
 pigeon = wb.load_species("pigeon")
-flight = wb.simulate(wb.flight_model(pigeon.vehicle, own), pigeon.wingbeat, wb.State(u=10.0), 1, 4)
+flight = wb.simulate(wb.FlightModel(pigeon.vehicle, own), pigeon.wingbeat, wb.State(u=10.0), 1, 4)
 print(flight.states.tobytes().hex())
 """
 
@@ -221,7 +222,7 @@ def test_what_is_none_is_refused_at_every_door(what):
     film = fit_film(synthetic_film(PIGEON.wingbeat, 40, 0.5, seed=1))
     for door in (
         lambda: wb.OrbitProblem(PIGEON, 10.0, aero=given),
-        lambda: wb.flight_model(PIGEON.vehicle, given),
+        lambda: wb.FlightModel(PIGEON.vehicle, given),
         lambda: wb.glide_polar(PIGEON, given),
         lambda: wb.aero.BladeElement(given),
         lambda: film.problem(PIGEON, 10.0, aero=given),
@@ -241,12 +242,12 @@ def test_a_missing_file_is_named():
 
 def test_a_study_takes_names_and_paths_and_says_so(table, tmp_path):
     asked = {"species": "pigeon", "vary": {"speed": {"grid": [9.0, 10.0]}}, "store": tmp_path / "s.study.sqlite"}
-    assert len(wb.study(**asked, aero=["wang", str(table), "su-fan"])) == 6
+    assert len(wb.plan_study(**asked, aero=["wang", str(table), "su-fan"])) == 6
     with pytest.raises(wb.InvalidInputError, match=r"did you mean wang\?"):
-        wb.study(**asked, aero="wnag")
+        wb.plan_study(**asked, aero="wnag")
     with pytest.raises(wb.InvalidInputError, match=r"cannot read .*none\.csv"):
-        wb.study(**asked, aero="none.csv")
-    assert len(wb.study(**asked, aero=table)) == 2
+        wb.plan_study(**asked, aero="none.csv")
+    assert len(wb.plan_study(**asked, aero=table)) == 2
     for given in (plate, wb.aero.SuFan()):
         with pytest.raises(wb.InvalidInputError, match="aero"):
-            wb.study(**asked, aero=given)
+            wb.plan_study(**asked, aero=given)

@@ -57,7 +57,7 @@ def test_json_holds_every_beat_and_nothing_else(run: Any, tmp_path: Path) -> Non
         power = dataset["hinge_power"].values
         assert second["mean_power"] == pytest.approx(np.trapezoid(power[128:], dx=1 / 128), rel=1e-12)
     pigeon = wb.load_species("pigeon")
-    model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), pigeon.air)
+    model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), pigeon.air)
     flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), beats=2)
     assert flight.states[-1].tolist() == [second[name] for name in wb.State._fields]
 

@@ -66,7 +66,7 @@ def odd_model(airspeed="planar"):
     bat = wb.load_species("bat").with_values(
         {"wing.shoulder": [0.02, 0.01, 0.01], "wing.stroke_plane_angle_deg": 75.0, "body.drag_area": 1e-3}
     )
-    return wb.flight_model(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
+    return wb.FlightModel(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
 
 
 @pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)

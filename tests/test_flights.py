@@ -18,7 +18,7 @@ SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles o
 
 def pigeon():
     species = wb.load_species("pigeon")
-    return wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air), species.wingbeat
+    return wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air), species.wingbeat
 
 
 def test_a_flight_has_a_sample_for_each_phase():
@@ -151,11 +151,11 @@ def test_torques_drive_the_wing_along_its_prescribed_flight(solved):
 
     def miss(scale):
         spline = CubicSpline(time, scale * torques)
-        found, found_rates = wb.simulate_torque_driven(
+        found = wb.simulate_torque_driven(
             solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::128], (spline.x, spline.c)
         )
-        by_rates = np.abs(found_rates - rates[::128]) / np.abs(rates).max(axis=0)
-        return np.maximum(np.abs(found - q[::128]), by_rates).max(axis=1)
+        by_rates = np.abs(found.rates - rates[::128]) / np.abs(rates).max(axis=0)
+        return np.maximum(np.abs(found.coordinates - q[::128]), by_rates).max(axis=1)
 
     assert miss(1.0)[:9].max() <= 5e-5
     # And the comparison would see torques that are off by a thousandth.

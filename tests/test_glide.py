@@ -58,7 +58,7 @@ def test_a_trimmed_glide_is_an_equilibrium_of_the_flight(species, trim):
     """The body's accelerations, from sums that know nothing of the glide, vanish; so does every later step."""
     odd = species.with_values(ABOVE) if trim == "body-pitch" else species
     polar = wb.glide_polar(odd, angles_of_attack=ANGLES, flap=0.1, trim=trim)
-    model = wb.flight_model(odd.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), odd.air)
+    model = wb.FlightModel(odd.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), odd.air)
     trimmed = [glide for glide in polar.glides if glide.trimmed]
     assert len(trimmed) >= 2
     for glide in trimmed:
@@ -79,7 +79,7 @@ def test_a_trimmed_glide_is_an_equilibrium_of_the_flight(species, trim):
 
 def test_a_tail_that_gives_the_moment_asked_for_makes_an_equilibrium():
     glide = wb.glide_polar(PIGEON, angles_of_attack=[0.1], trim="tail").glides[0]
-    model = wb.flight_model(PIGEON.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), PIGEON.air)
+    model = wb.FlightModel(PIGEON.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), PIGEON.air)
     u, w = glide.speed * math.cos(glide.glide_angle), -glide.sink
     q, q_dot = np.array([0, 0, glide.body_pitch, 0.0, glide.wing_pitch]), np.array([u, w, 0, 0, 0])
     tau = wb.generalised_torques(model, held_still(PIGEON.wingbeat), q, q_dot, np.zeros(5), 0.0)

@@ -24,7 +24,7 @@ def of_flight(model, wingbeat, pitch_state, phase):
 def animal(name: str, force_point: str, airspeed: str = "planar") -> tuple[Species, wb.FlightModel]:
     species = wb.load_species(name).with_values(SHOULDER)
     aero = wb.aero.BladeElement(wb.aero.SuFan(), 7, force_point, airspeed)
-    return species, wb.flight_model(species.vehicle, aero, species.air)
+    return species, wb.FlightModel(species.vehicle, aero, species.air)
 
 
 @pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
@@ -83,7 +83,7 @@ def test_the_shares_of_hinge_power_add_to_it_and_are_those_of_the_five_coordinat
     np.testing.assert_allclose(found.aerodynamic_power, -np.sum(air * rates, axis=1), atol=1e-11 * largest)
 
     # On a body that is held still and without weight the wings' own inertia is all that is left beside the air.
-    held = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), 7), wb.Air(gravity=0.0))
+    held = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), 7), wb.Air(gravity=0.0))
     q_dot[:, :3] = 0.0
     pushed = -((2 * np.pi * beat.frequency) ** 2)
     q_acceleration = np.zeros((8, 5))

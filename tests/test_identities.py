@@ -19,7 +19,7 @@ PHASES = np.linspace(0.0, 1.0, 257)  # as many as the certifier samples, so that
 
 
 def odd_model(vehicle=ODD, air=None, airspeed="planar"):
-    return wb.flight_model(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed), air or wb.Air())
+    return wb.FlightModel(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed), air or wb.Air())
 
 
 def odd_states(seed=0):

@@ -19,8 +19,10 @@ def climbs(request):
     """Return the orbits at 8 m/s by objective, in order of climb."""
     species = SPECIES[request.param]
     return {
-        objective: wb.solve_series(
-            [wb.OrbitProblem(species, speed=8.0, climb=climb, minimise=objective) for climb in CLIMBS], starts=2
+        objective: wb.solve_orbits(
+            [wb.OrbitProblem(species, speed=8.0, climb=climb, minimise=objective) for climb in CLIMBS],
+            starts=2,
+            in_order=True,
         )
         for objective in OBJECTIVES
     }

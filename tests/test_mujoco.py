@@ -38,7 +38,7 @@ FLIGHTS = {
 
 
 def fly(vehicle, wingbeat, state, strips):
-    model = wb.flight_model(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips))
+    model = wb.FlightModel(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips))
     return wb.simulate(model, wingbeat, state, beats=1, samples=32).dataset
 
 

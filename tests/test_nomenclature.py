@@ -64,7 +64,10 @@ def test_every_quantity_has_the_unit_of_the_table():
     for name, quantity in QUANTITIES.items():
         assert quantity.unit == plain(NOMENCLATURE[name].unit), name
     assert Frequency().unit == NOMENCLATURE["frequency"].unit
-    for quantity, name in ((wb.PowerCost(0.5), "power_cost"), (wb.SpringPower(0.5), "spring_power")):
+    for quantity, name in (
+        (wb.objectives.PowerCost(0.5), "power_cost"),
+        (wb.objectives.SpringPower(0.5), "spring_power"),
+    ):
         assert quantity.unit == NOMENCLATURE[name].unit
 
 

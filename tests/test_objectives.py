@@ -49,13 +49,13 @@ def test_negative_work_is_free_returned_or_costly():
     solution = find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
     mean, positive = (solution.value_of(QUANTITIES[name]) for name in ("mean_power", "mean_positive_power"))
     assert mean < positive
-    assert solution.value_of(wb.PowerCost(1.0)) == pytest.approx(mean)
-    assert solution.value_of(wb.PowerCost(0.0)) == pytest.approx(positive)
-    assert solution.value_of(wb.PowerCost(0.5)) == pytest.approx(0.5 * (mean + positive))
+    assert solution.value_of(wb.objectives.PowerCost(1.0)) == pytest.approx(mean)
+    assert solution.value_of(wb.objectives.PowerCost(0.0)) == pytest.approx(positive)
+    assert solution.value_of(wb.objectives.PowerCost(0.5)) == pytest.approx(0.5 * (mean + positive))
     braking = positive - mean
-    assert solution.value_of(wb.PowerCost(-1.0)) == pytest.approx(positive + braking)
+    assert solution.value_of(wb.objectives.PowerCost(-1.0)) == pytest.approx(positive + braking)
     with pytest.raises(wb.InvalidInputError, match="returned = 2"):
-        wb.PowerCost(2)
+        wb.objectives.PowerCost(2)
 
 
 @pytest.mark.parametrize("name", [name for name in QUANTITIES if name != "frequency"])
@@ -291,13 +291,13 @@ def test_degrees_and_short_names():
     assert constraint.limit == pytest.approx(np.radians(10))
     assert not constraint.at_most
     assert named_objective("positive-power") == QUANTITIES["mean_positive_power"]
-    assert named_objective("frequency") == wb.Frequency()
-    assert named_objective("power_cost(0.25)") == wb.PowerCost(0.25)
+    assert named_objective("frequency") == wb.objectives.Frequency()
+    assert named_objective("power_cost(0.25)") == wb.objectives.PowerCost(0.25)
 
 
 def test_a_saved_orbit_brings_its_objective_and_constraints_back(tmp_path):
     problem = wb.OrbitProblem(
-        PIGEON, speed=SPEED, minimise=wb.PowerCost(0.3), subject_to=["peak_power<=400", "frequency>=8"]
+        PIGEON, speed=SPEED, minimise=wb.objectives.PowerCost(0.3), subject_to=["peak_power<=400", "frequency>=8"]
     )
     wb.solve_orbit(problem, starts=1).save(tmp_path / "p.nc")
     again = wb.load_orbit(tmp_path / "p.nc").problem

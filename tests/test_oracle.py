@@ -82,7 +82,7 @@ def draw(species, case, random):
         chord=tuple(uniform(0.03, 0.15, 4).tolist()),
     )
     body = dataclasses.replace(species.vehicle.body, drag_area=uniform(1e-4, 2e-3))
-    model = wb.flight_model(
+    model = wb.FlightModel(
         wb.Vehicle(body, wing), wb.aero.BladeElement(coefficients, STRIPS, force_point, airspeed), species.air
     )
     wingbeat = wb.Wingbeat(

@@ -208,11 +208,11 @@ def test_what_leaves_nothing_plausible_is_refused(words: list[str], said: str, c
 
 def test_a_study_searches_inside_what_is_plausible(tmp_path: Any) -> None:
     form = {"species": "bat", "speed": [5.0, 10.0], "bounds": "plausible"}
-    study = wb.study(form, store=tmp_path / "x.study.sqlite")
+    study = wb.plan_study(form, store=tmp_path / "x.study.sqlite")
     recipe = recipe_from(json.loads(json.dumps(study.plan.bases[0].recipe.inputs())))
     assert recipe.problem({"speed": 10.0}).bounds["frequency"] == (4.0, 13.0)
     with pytest.raises(InvalidInputError, match="use 'plausible', or a table of pairs"):
-        wb.study(form | {"bounds": "likely"}, store=tmp_path / "x.study.sqlite")
+        wb.plan_study(form | {"bounds": "likely"}, store=tmp_path / "x.study.sqlite")
 
 
 def test_bounds_of_another_word_are_refused() -> None:

@@ -32,7 +32,7 @@ def page(orbit):
 def flight(orbit):
     """Four beats of the bat, whose hand folds, from a start that it does not keep."""
     bat = wb.load_species("bat")
-    model = wb.flight_model(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    model = wb.FlightModel(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     return wb.simulate(model, bat.wingbeat, wb.State(u=4.0), beats=4, samples=64).dataset
 
 

@@ -55,10 +55,10 @@ def test_a_row_in_which_nothing_flies_is_data(row):
 
 
 def test_orbits_of_a_row_have_records_and_bad_counts_are_refused(row):
-    orbits = wb.solve_series(row[:2])
+    orbits = wb.solve_orbits(row[:2], in_order=True)
     assert [orbit.record()["speed"] for orbit in orbits] == [7.0, 8.0]
     with pytest.raises(InvalidInputError, match="starts"):
-        wb.solve_series(row[:1], starts=0)
+        wb.solve_orbits(row[:1], starts=0, in_order=True)
 
 
 def test_an_answer_is_handed_to_a_neighbour_once(row, monkeypatch):
@@ -76,4 +76,4 @@ def test_an_answer_is_handed_to_a_neighbour_once(row, monkeypatch):
 def test_a_row_must_leave_the_same_free(row):
     other = dataclasses.replace(row[1], free=("frequency", "flap_amplitude"), bounds={})
     with pytest.raises(InvalidInputError, match=r"problems\[1\].free"):
-        wb.solve_series([row[0], other])
+        wb.solve_orbits([row[0], other], in_order=True)

@@ -72,8 +72,8 @@ def test_the_power_left_is_an_objective_and_a_limit():
     assert kept <= 45.0 + 1e-6
     stiff = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0, minimise="mean_positive_power"), 2)
     assert record["objective_value"] < stiff.objective
-    assert record["objective_value"] < stiff.value_of(wb.SpringPower(2.0))
-    assert stiff.value_of(wb.SpringPower(0.0)) == pytest.approx(stiff.objective, rel=1e-12)
+    assert record["objective_value"] < stiff.value_of(wb.objectives.SpringPower(2.0))
+    assert stiff.value_of(wb.objectives.SpringPower(0.0)) == pytest.approx(stiff.objective, rel=1e-12)
     again = problem_from(orbit.inputs)
     assert again.minimise == soft.minimise
     assert again.subject_to == soft.subject_to
@@ -89,11 +89,16 @@ def test_shares_can_be_kept_within_limits():
 
 
 def test_names_bring_the_very_quantity_back():
-    for quantity in (wb.SpringPower(0.5), wb.SpringPower(1 / 3, -0.1), wb.PowerCost(-1.0), wb.PowerCost(1e-3 / 3)):
+    for quantity in (
+        wb.objectives.SpringPower(0.5),
+        wb.objectives.SpringPower(1 / 3, -0.1),
+        wb.objectives.PowerCost(-1.0),
+        wb.objectives.PowerCost(1e-3 / 3),
+    ):
         assert named_objective(quantity.name) == quantity
-    assert named_objective("spring-power(1e-2,-0.5)") == wb.SpringPower(0.01, -0.5)
-    assert parse_constraint("spring_power(0.5, -0.1)<=30").quantity == wb.SpringPower(0.5, -0.1)
-    assert wb.SpringPower(2).of != QUANTITIES["mean_positive_power"].of
+    assert named_objective("spring-power(1e-2,-0.5)") == wb.objectives.SpringPower(0.01, -0.5)
+    assert parse_constraint("spring_power(0.5, -0.1)<=30").quantity == wb.objectives.SpringPower(0.5, -0.1)
+    assert wb.objectives.SpringPower(2).of != QUANTITIES["mean_positive_power"].of
 
 
 @pytest.mark.parametrize(
@@ -102,4 +107,4 @@ def test_names_bring_the_very_quantity_back():
 )
 def test_springs_that_cannot_be(spring, words):
     with pytest.raises(wb.InvalidInputError, match=words):
-        wb.SpringPower(*spring)
+        wb.objectives.SpringPower(*spring)

@@ -54,7 +54,7 @@ table = jax.jit(motion_table)
 
 def model_of(name, **settings):
     animal = wb.load_species(name).with_values({"wing.shoulder": [0.02, 0.01, 0.01], **settings})
-    return wb.flight_model(animal.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), 4))
+    return wb.FlightModel(animal.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), 4))
 
 
 def test_what_is_off_is_no_part_of_a_program():

@@ -31,7 +31,7 @@ def sample(tmp_path_factory):
     file = folder / "keys.toml"
     file.write_text(STUDY)
     known = {}
-    for place, point in enumerate(wb.study(file).plan.points()):
+    for place, point in enumerate(wb.plan_study(file).plan.points()):
         status = "infeasible" if point.values[0] == 45.0 else "converged"
         record = {"status": status, "mean_power": 1.0 / (3 + place), "message": "certified. " * 200}
         text = "" if status == "converged" else "too fast"

@@ -197,7 +197,7 @@ def test_records_are_those_of_local_processes_to_the_bit(tmp_path):
     form = {"species": "pigeon", "starts": 1, "vary": {"speed": {"grid": [9.0, 11.0]}}}
     found = []
     for name, how in (("local", {"processes": 1}), ("dask", {"dask": "local:1"})):
-        study = wb.study(form, store=tmp_path / f"{name}.study.sqlite")
+        study = wb.plan_study(form, store=tmp_path / f"{name}.study.sqlite")
         assert study.run(**how).counts == {"converged": 2}
         connection = sqlite3.connect(study.store)
         question = "SELECT key, status, record, certificate, error FROM points ORDER BY key"
@@ -210,7 +210,7 @@ def test_a_cluster_of_somebody_else_is_used_and_left_as_it_is(cheap):
     study = cheap(GRID[:5])
     words = {"dashboard_address": "127.0.0.1:0", "worker_dashboard_address": "127.0.0.1:0"}
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, **words) as theirs:
-        assert wb.study(study.file).run(dask=theirs).counts == {"converged": 5}
+        assert wb.plan_study(study.file).run(dask=theirs).counts == {"converged": 5}
         with distributed.Client(theirs, set_as_default=False) as client:
             assert client.submit(abs, -1).result() == 1
     assert study.points() == undisturbed(cheap, GRID[:5])

@@ -34,7 +34,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
-from wingbeat.mechanics.flight_model import State, flight_model
+from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.plots import film_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
@@ -102,7 +102,7 @@ def simulate(
             beat = fit_film(read_film(kinematics))
             animal = beat.on(animal)
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
-        model, wingbeat = flight_model(animal.vehicle, loads, animal.air), animal.wingbeat
+        model, wingbeat = FlightModel(animal.vehicle, loads, animal.air), animal.wingbeat
         start = State(u=10.0)
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)

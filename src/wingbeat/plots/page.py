@@ -43,7 +43,7 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
     >>> page = wb.plots.wingbeat_page(flight.dataset)
     >>> f"{25.4 * page.get_figwidth():.0f} mm wide"

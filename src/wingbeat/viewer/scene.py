@@ -57,7 +57,7 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
     >>> scene([("pigeon", flight.dataset)])["flights"][0]["strips"]
     10

@@ -230,7 +230,7 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     programme.fly = lambda values, start, blocks=1: fly(values, start, 4 * blocks)
     scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)), 60, 1e-6)
     found = correct(programme, scaled)
-    assert np.abs(found.miss).max() <= 1e-6
+    assert np.abs(found.residual).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-7)
     found_multipliers = floquet_multipliers(solved.model, found.wingbeat, found.certificate.steps)
     mine, theirs = in_order(found_multipliers), in_order(multipliers(solved))

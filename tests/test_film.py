@@ -15,6 +15,7 @@ from wingbeat.cli.app import main
 from wingbeat.cli.filmed import plus_minus
 from wingbeat.experiment import Film, fit_film, read_film, synthetic_film
 from wingbeat.kinematics import flap_angle, parameter, pitch_angle, span_ratio
+from wingbeat.orbits.problem.filmed import trim_of
 from wingbeat.plots import film_page
 
 ALL = ("flap_deg", "pitch_deg", "span_fraction")
@@ -77,15 +78,15 @@ def test_what_was_filmed_is_held_and_two_are_free():
     unclocked = Film("film", film.phase, film.columns)
     both = synthetic_film(RICH, 60, 1.0, columns=("flap_deg", "pitch_deg"))
     pitch = synthetic_film(RICH, 60, 1.0, columns=("pitch_deg",))
-    assert fit_film(film).trim(pigeon)[0] == ("pitch_mean", "pitch_amplitude")
-    assert fit_film(unclocked).trim(pigeon)[0] == ("frequency", "pitch_mean", "pitch_amplitude")
-    assert fit_film(pitch).trim(pigeon)[0] == ("flap_mean", "flap_amplitude")
-    free, bounds = fit_film(both).trim(pigeon)
+    assert trim_of(fit_film(film), pigeon)[0] == ("pitch_mean", "pitch_amplitude")
+    assert trim_of(fit_film(unclocked), pigeon)[0] == ("frequency", "pitch_mean", "pitch_amplitude")
+    assert trim_of(fit_film(pitch), pigeon)[0] == ("flap_mean", "flap_amplitude")
+    free, bounds = trim_of(fit_film(both), pigeon)
     assert free == ("pitch_mean", "pitch_amplitude")
     low, high = bounds["pitch_amplitude"]
     assert (low + high) / 2 == pytest.approx(fit_film(both).numbers["pitch_amplitude"])
-    assert fit_film(film).problem(pigeon, 10.0).minimise.name == "mean_positive_power"
-    assert fit_film(unclocked).problem(pigeon, 10.0).minimise.name == "frequency"
+    assert wb.filmed_problem(fit_film(film), pigeon, 10.0).minimise.name == "mean_positive_power"
+    assert wb.filmed_problem(fit_film(unclocked), pigeon, 10.0).minimise.name == "frequency"
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +102,7 @@ def known():
 def refound(known):
     """The orbit of the first film."""
     film = synthetic_film(known.wingbeat, 60, 1.5, seed=1, start=0.3)
-    orbit = wb.solve_orbit(fit_film(film).problem(wb.load_species("pigeon"), 10.0))
+    orbit = wb.solve_orbit(wb.filmed_problem(fit_film(film), wb.load_species("pigeon"), 10.0))
     assert orbit.status is wb.Status.CONVERGED
     return orbit
 
@@ -113,7 +114,7 @@ def test_a_synthetic_film_of_a_known_orbit_returns_its_power_within_its_error_ba
     inside = {name: [] for name in names}
     for seed in range(10):
         beat = fit_film(synthetic_film(known.wingbeat, 60, 1.5, seed, start=0.1 * seed))
-        own = beat.on(pigeon).wingbeat
+        own = wb.filmed_species(beat, pigeon).wingbeat
         fitted, spread = wb.orbit_spread(refound, [own]), wb.orbit_spread(refound, beat.draws(own, 16))
         assert fitted.certified == 1
         assert spread.certified >= 8

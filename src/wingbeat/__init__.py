@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
     from wingbeat.orbits.options.start_families import StartFamily as StartFamily
     from wingbeat.orbits.problem import objectives as objectives
+    from wingbeat.orbits.problem.filmed import filmed_problem as filmed_problem
+    from wingbeat.orbits.problem.filmed import filmed_species as filmed_species
     from wingbeat.orbits.problem.limits import Constraint as Constraint
     from wingbeat.orbits.problem.objectives import Quantity as Quantity
     from wingbeat.orbits.problem.problem import OrbitProblem as OrbitProblem
@@ -129,6 +131,8 @@ _HOME = {
     "bird": "species",
     "certify": "orbits.flight.certify",
     "equations_of_motion": "mechanics.equations_of_motion",
+    "filmed_problem": "orbits.problem.filmed",
+    "filmed_species": "orbits.problem.filmed",
     "flight_loads": "mechanics.flight_loads",
     "floquet_multipliers": "orbits.flight.floquet",
     "generalised_torques": "mechanics.equations_of_motion",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import at_station
 from wingbeat.paper.contradictions import NEAR_PEAK, Printed, near, told
 from wingbeat.paper.figure_style import (
     COLUMN,
@@ -22,7 +23,6 @@ from wingbeat.paper.figure_style import (
 )
 from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
 from wingbeat.paper.treatments import DEFAULT, MODELS, SAMPLE_SPEED, TREATMENTS, Case, Orbits, certified
-from wingbeat.results.record import at_station
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

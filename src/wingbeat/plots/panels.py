@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.results.dataset import flown
+from wingbeat.datasets import flown
 
 if TYPE_CHECKING:
     import xarray as xr

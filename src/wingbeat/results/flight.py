@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._version import __version__
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State, check_state
@@ -19,7 +20,6 @@ from wingbeat.mechanics.flights import fly_beats, fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND
 
 if TYPE_CHECKING:
     import xarray as xr

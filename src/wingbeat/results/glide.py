@@ -15,13 +15,13 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND
 from wingbeat.species import Species
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import flown
 from wingbeat.files import writing
-from wingbeat.results.dataset import flown
 from wingbeat.vehicle import Body
 from wingbeat.viewer.scene import scene
 from wingbeat.viewer.shape import body_axes

@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import KIND, at_station, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.results.dataset import flown
-from wingbeat.results.record import at_station
-from wingbeat.results.storage import KIND
 from wingbeat.vehicle import Body
 from wingbeat.viewer.shape import body_axes
 

@@ -1,6 +1,6 @@
 """Cost against strips, steps, lanes and free parameters, measured on one core, drawn with its exponents.
 
-Run from the root of a clone; it rewrites docs/scaling.png and docs/scaling.csv::
+Run from the root of a clone; it rewrites docs/scaling.png and data/scaling.csv::
 
     taskset -c 0 uv run python benchmarks/scaling.py
 """
@@ -17,7 +17,7 @@ import wingbeat as wb
 from wingbeat.bench import median_seconds, right_hand_side
 from wingbeat.orbits.flight.shooting import STEPS, flier
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+ROOT = Path(__file__).resolve().parents[1]
 REPEATS = 60
 FREE = (
     "frequency",
@@ -91,12 +91,12 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
         axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=9)
         axes.legend(frameon=False, fontsize=8)
         axes.grid(True, which="major", color="0.9", linewidth=0.6)
-    figure.savefig(DOCS / "scaling.png", dpi=150)
+    figure.savefig(ROOT / "docs" / "scaling.png", dpi=150)
 
 
 def main() -> None:
     results = {}
-    with (DOCS / "scaling.csv").open("w", newline="") as file:
+    with (ROOT / "data" / "scaling.csv").open("w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["varied", "value", "seconds"])
         for name, (sizes, cost, label) in SWEEPS.items():

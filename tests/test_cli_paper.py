@@ -9,7 +9,7 @@ from wingbeat.cli import main
 from wingbeat.paper import treatments
 from wingbeat.paper.claim import NOT_ASKED
 
-EARLIER = ["--before", str(Path(__file__).parents[1] / "docs" / "claims_before.json")]
+EARLIER = ["--before", str(Path(__file__).parents[1] / "data" / "claims_before.json")]
 
 
 def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):

@@ -18,7 +18,7 @@ from wingbeat.cli.app import build_app
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if "```python" in page.read_text(encoding="utf-8")]
-TYPED_PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md"))]
+TYPED_PAGES = [*sorted(ROOT.glob("*.md")), ROOT / "data" / "README.md", *sorted(DOCS.glob("*.md"))]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 EXTRAS = set(PROJECT["project"]["optional-dependencies"])
 GROUPS = set(PROJECT["dependency-groups"])
@@ -27,6 +27,10 @@ LANGUAGES = {"sh", "bash", "text", "python", "py", "toml", "csv"}
 FILE = re.compile(r"[\w./-]+\.(toml|csv|nc|json|jsonl|html|gif|png|pdf|mat|parquet|sqlite|py)")
 WRITES = {"-o", "--output", "--plot", "--tornado", "--plot-kinematics"}
 TOOLS = {"pytest", "ruff", "pyright", "lint-imports", "pre-commit"}  # of the group dev
+
+
+def page_name(page):
+    return str(page.relative_to(ROOT))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -141,7 +145,7 @@ def faults_of_page(text):
     return faults
 
 
-@pytest.mark.parametrize("page", TYPED_PAGES, ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", TYPED_PAGES, ids=page_name)
 def test_commands_can_be_typed_in_a_fresh_clone(page):
     assert faults_of_page(page.read_text(encoding="utf-8")) == []
 
@@ -168,6 +172,21 @@ def test_a_planted_command_that_cannot_be_typed_is_found(line, fault):
     found = faults_of_page(f"```sh\n{line}\n```\n")
     assert len(found) >= 1
     assert fault in found[0]
+
+
+@pytest.mark.parametrize("page", TYPED_PAGES, ids=page_name)
+def test_links_lead_to_files(page):
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    links = re.findall(r"\]\(([^)#]+)[^)]*\)", text)
+    assert [link for link in links if "://" not in link and not (page.parent / link).exists()] == []
+
+
+def test_docs_hold_pages_and_pictures_and_the_data_are_described():
+    assert {path.suffix for path in DOCS.iterdir()} == {".md", ".png"}
+    described = (ROOT / "data" / "README.md").read_text(encoding="utf-8")
+    tables = [path for path in (ROOT / "data").iterdir() if path.name != "README.md"]
+    assert tables
+    assert [path.name for path in tables if f"`{path.name}{'/' * path.is_dir()}`" not in described] == []
 
 
 def test_the_example_study_is_the_one_on_its_page():

@@ -1,4 +1,4 @@
-"""Every number of docs/findings.md is counted again, from the sets in docs/assumptions.csv, and none is left out.
+"""Every number of docs/findings.md is counted again, from the sets in data/assumptions.csv, and none is left out.
 
 Each function of `COUNTS` returns phrases with the numbers that the sets give. The page must hold all of them, and
 every number of the page must lie in one of them. After a new sample `python tests/test_findings.py` prints the
@@ -25,7 +25,8 @@ from wingbeat.paper.measured_bands import (
 )
 from wingbeat.paper.treatments import SAMPLE_SPEED
 
-DOCS = Path(__file__).parents[1] / "docs"
+ROOT = Path(__file__).parents[1]
+DOCS, TABLE = ROOT / "docs", ROOT / "data" / "assumptions.csv"
 TRIPLE = ["twice-the-frequency", "pitch-range-su-fan", "power-exponent"]
 PEAKS = ["peak-power-su-fan", "peak-power-dickinson"]
 PIECE = 1000
@@ -43,7 +44,7 @@ NUMBER = re.compile(
 
 
 def read_sets():
-    return pd.read_csv(DOCS / "assumptions.csv")
+    return pd.read_csv(TABLE)
 
 
 def read_holds(sets):

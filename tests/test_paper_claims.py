@@ -28,7 +28,7 @@ from wingbeat.paper.premise_claims import premise_claims
 from wingbeat.paper.treatments import DRAWN, PLANFORMS, TREATMENTS, Case, all_cases, problem_of, solve_cases
 from wingbeat.paper.verdict_changes import ASKED_OTHERWISE, changes_table, read_verdicts, verdict_changes
 
-DOCS = Path(__file__).parents[1] / "docs"
+DATA = Path(__file__).parents[1] / "data"
 KEYS = {"id", "where", "claim", "paper", "ours", "unit", "verdict", "assumptions", "orbits"}
 SPEEDS = (5.0, 10.0, 12.0)
 
@@ -193,7 +193,7 @@ def test_a_quick_run_never_gives_another_verdict(orbits):
 
 
 def test_what_changed_in_each_verdict_is_told_with_its_reason(claims, tmp_path):
-    before = read_verdicts(DOCS / "claims_before.json")
+    before = read_verdicts(DATA / "claims_before.json")
     changes = {change.id: change for change in verdict_changes(before, claims)}
     assert list(changes) == [claim.id for claim in claims]
     assert (changes["two-dimensional"].before, changes["two-dimensional"].now) == (FAILS, UNTESTABLE)

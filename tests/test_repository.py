@@ -90,12 +90,12 @@ def test_no_python_file_is_too_long(tracked: list[Path]) -> None:
     assert {file: length for file, length in lengths.items() if length > MAX_LINES} == {}
 
 
-def test_benchmarks_and_studies_import_what_there_is(tracked: list[Path]) -> None:
+def test_benchmarks_and_validation_import_what_there_is(tracked: list[Path]) -> None:
     """Nobody runs them in CI, and the type checker sees the package only."""
     asked = [
         (str(file), node.module, alias.name)
         for file in tracked
-        if file.suffix == ".py" and file.parts[0] in ("benchmarks", "studies") and (ROOT / file).is_file()
+        if file.suffix == ".py" and file.parts[0] in ("benchmarks", "validation") and (ROOT / file).is_file()
         for node in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8")))
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("wingbeat")
         for alias in node.names

@@ -203,7 +203,7 @@ def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):
     assert again.aero.coefficients == own
 
 
-STUDY = Path(__file__).resolve().parents[2] / "studies/measured_wings.py"
+STUDY = Path(__file__).resolve().parents[2] / "validation/measured_wings.py"
 DATA = STUDY.parents[1] / "../shared/data"
 
 

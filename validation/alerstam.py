@@ -1,7 +1,8 @@
 """Birds flown from mass, span and area alone, against the airspeeds that radar measured.
 
-Run as ``python studies/alerstam.py [--data FOLDER] [-o FOLDER]``; writes alerstam_points.csv, alerstam.csv,
-alerstam_spread.csv, alerstam.md and alerstam.png. ``--flown FOLDER`` draws and words what an earlier run flew.
+Run as ``python validation/alerstam.py [--data FOLDER] [-o FOLDER] [--tables FOLDER]``; writes alerstam.md and
+alerstam.png to one folder, and alerstam_points.csv, alerstam_spread.csv and alerstam.csv to the other.
+``--flown FOLDER`` draws and words what an earlier run flew.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ def main(argv: list[str] | None = None) -> int:
     """Fly, compare, and write tables, page and figure; return the exit code."""
     parser = argparse.ArgumentParser(description="Birds by scaling laws against measured airspeeds.")
     parser.add_argument("--data", type=Path, default=ROOT / "../shared/data", help=f"folder that holds {AIRSPEEDS}")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder to write to")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder of page and figure")
+    parser.add_argument("--tables", type=Path, default=ROOT / "data", help="folder of the tables")
     parser.add_argument("--flown", type=Path, help="folder of an earlier run's tables, in place of flying")
     parser.add_argument("--processes", type=int, default=2)
     chosen = parser.parse_args(argv)
@@ -53,23 +55,23 @@ def main(argv: list[str] | None = None) -> int:
             with progress_bar("rough curves again") as progress:
                 points = fly_again(points, radar, chosen.processes, progress)
             moved = spreads(radar, chosen.processes)
-            write_atomically(chosen.output / "alerstam_points.csv", to_csv(points))
-            write_atomically(chosen.output / "alerstam_spread.csv", _moved_csv(moved))
+            write_atomically(chosen.tables / "alerstam_points.csv", to_csv(points))
+            write_atomically(chosen.tables / "alerstam_spread.csv", _moved_csv(moved))
         # What is drawn and worded is what the files hold, rounded as they are.
-        flown = chosen.flown or chosen.output
+        flown = chosen.flown or chosen.tables
         points, moved = from_csv(flown / "alerstam_points.csv"), _read_moved(flown / "alerstam_spread.csv")
         found = alerstam_summary.rows(radar, points)
         head = HEAD.format(
             count=len(found), asked=len(points), points=sum(math.isfinite(point.power) for point in points)
         )
         parts = (head, speeds(found), verdicts(found, points, timed), misses(found), spread_table(moved), TAIL)
-        write_atomically(chosen.output / "alerstam.csv", alerstam_summary.to_csv(found))
+        write_atomically(chosen.tables / "alerstam.csv", alerstam_summary.to_csv(found))
         write_atomically(chosen.output / "alerstam.md", "".join(parts))
         save_figure(draw(found, timed), chosen.output / "alerstam.png")
     except WingbeatError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(f"wrote alerstam.md, alerstam.png and the tables behind them to {chosen.output}", file=sys.stderr)
+    print(f"wrote page and figure to {chosen.output}, the tables behind them to {chosen.tables}", file=sys.stderr)
     return 0
 
 

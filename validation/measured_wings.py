@@ -1,6 +1,6 @@
 """What wings that others measured say about using the paper's plate as a wing.
 
-Run as ``python studies/measured_wings.py [--data FOLDER] [-o FOLDER]``; writes measured_wings.md and .png.
+Run as ``python validation/measured_wings.py [--data FOLDER] [-o FOLDER]``; writes measured_wings.md and .png.
 """
 
 from __future__ import annotations

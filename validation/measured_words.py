@@ -12,7 +12,7 @@ from wingbeat.experiment import FORMS, CurveFit
 
 HEAD = """# Measured wings against the paper's plate
 
-Written by `python studies/measured_wings.py`; no number in the tables or below them is typed in. The data are
+Written by `python validation/measured_wings.py`; no number in the tables or below them is typed in. The data are
 other people's and not part of this project: printed half wings of a gull (nine postures of elbow and wrist, two
 tunnel speeds each; the coefficients rest on a reading of the source's units that its numbers bear out), a live
 jackdaw gliding (forces from its wake, wings alone: KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi

@@ -14,16 +14,17 @@ from wingbeat.species import scaling
 
 HEAD = """# Birds from mass, span and area alone, against the radar
 
-Written by `python studies/alerstam.py`; no number in the tables is typed in. `wb.bird` builds each of the {count}
-species of Alerstam et al. 2007 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0) that have mass, span
-and area; the rest is by scaling laws. One batch of {asked} problems, of which {points} ended in a certified orbit,
+Written by `python validation/alerstam.py`; no number in the tables is typed in. `wb.bird` builds each of
+the {count} species of Alerstam et al. 2007 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0)
+that have mass, span and area; the rest is by scaling laws. One batch of {asked} problems,
+of which {points} ended in a certified orbit,
 finds the wingbeat of least positive hinge power at seven speeds, 0.65 to 1.6 times that at which a wing of lift
 coefficient 1 carries the bird: the measured airspeed plays no part. Curves that were not smooth were searched
 again, speed by speed from their neighbours' answers. A parabola through the lowest point and its neighbours gives
 the minimum-power speed and, of power over speed, the maximum-range speed. At its measured airspeed each bird is
 flown for least power and for least frequency. Air loads: Su-Fan, no induced flow, no body drag; the best orbits
-met, not proven least. All species: [alerstam.csv](alerstam.csv); all orbits:
-[alerstam_points.csv](alerstam_points.csv).
+met, not proven least. All species: [alerstam.csv](../data/alerstam.csv); all orbits:
+[alerstam_points.csv](../data/alerstam_points.csv).
 
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
 

@@ -255,8 +255,9 @@ def test_forces_are_those_of_one_strip_of_both_wings(orbits):
 def test_the_downstroke_is_shaded(orbits):
     for figure in (forces_figure(orbits)[0], power_figure(orbits)[0], pitch_figure(orbits)[0]):
         for axes in figure.axes:
-            (shade,) = (patch for patch in axes.patches if patch.get_gid() == "downstroke")
-            assert (shade.get_x(), shade.get_width()) == (0.0, 0.5)
+            (shade,) = (each for each in axes.collections if each.get_gid() == "downstroke")
+            (box,) = shade.get_paths()
+            assert (box.vertices[:, 0].min(), box.vertices[:, 0].max()) == (0.0, 0.5)
             assert axes.get_xlim() == (0.0, 1.0)
 
 

@@ -13,6 +13,7 @@ from matplotlib.image import imread
 
 import wingbeat as wb
 from wingbeat.plots import save_figure, wingbeat_page
+from wingbeat.plots.style import ALARM
 
 TIME_PANELS = (0, 1, 2, 6, 7, 8)
 SIGNATURES = {"png": b"\x89PNG\r\n\x1a\n", "pdf": b"%PDF-", "svg": b"<?xml"}
@@ -116,13 +117,13 @@ def test_the_title_says_what_flies(orbit, page):
 
 
 def test_an_orbit_that_is_not_certified_says_so_in_red(orbit):
-    red = [t.get_text() for t in wingbeat_page(uncertified(orbit.dataset)).texts if t.get_color() == "#C00000"]
+    red = [t.get_text() for t in wingbeat_page(uncertified(orbit.dataset)).texts if t.get_color() == ALARM]
     assert red[0].startswith("NOT CERTIFIED (infeasible): at the nearest one")
     assert red[-1].endswith("or lighten the vehicle")
 
 
 def test_a_flight_that_was_lost_says_so_in_red(flight):
-    red = [t.get_text() for t in wingbeat_page(tumbled(flight, 97)).texts if t.get_color() == "#C00000"]
+    red = [t.get_text() for t in wingbeat_page(tumbled(flight, 97)).texts if t.get_color() == ALARM]
     assert red == ["NOT FINISHED: the vehicle tumbled after 1.5 beats"]
 
 

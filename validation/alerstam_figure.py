@@ -8,16 +8,17 @@ from alerstam_summary import AIR, FITTED, Row, column
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wingbeat.plots.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, letter_panels, new_figure
 from wingbeat.species import scaling
 
-# Okabe and Ito's colours; marks differ too, for grey prints.
-SLOW = {"color": "#0072B2", "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
-FAST = {"color": "#D55E00", "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
+SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
+FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
 
 
+@drawing()
 def draw(found: list[Row], timed: list[Bird]) -> Figure:
     """Return four panels: speeds, their residuals, frequencies over the law, speeds over those of C_L 1."""
-    figure = Figure(figsize=(9, 7.2), layout="constrained")
+    figure = new_figure(PAGE, 150.0)
     panels = figure.subplots(2, 2)
     measured, reynolds = column(found, "airspeed"), column(found, "reynolds")
     pairs = (
@@ -25,7 +26,7 @@ def draw(found: list[Row], timed: list[Bird]) -> Figure:
         (column(found, "max_range_speed"), FAST, "maximum range"),
     )
     ends = np.array([5.0, 40.0])
-    panels[0, 0].fill_between(ends, ends / 1.2, ends * 1.2, color="0.9", zorder=0)
+    panels[0, 0].fill_between(ends, ends / 1.2, ends * 1.2, color=SHADE, zorder=0)
     panels[0, 0].plot(ends, ends, "--", color="0.4", linewidth=1)
     for values, look, label in pairs:
         panels[0, 0].loglog(measured, values, label=label, **look)
@@ -47,7 +48,7 @@ def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
     for name, look, label in looks:
         axes.loglog(reynolds, column(found, name) / law, label=label, **look)
     wing = column(found, "wing_law_frequency") / law
-    axes.loglog(reynolds, wing, "+", color="#009E73", markersize=4, label="law of wing length")
+    axes.loglog(reynolds, wing, "+", color=GREEN, markersize=4, label="law of wing length")
     for i, bird in enumerate(timed):
         own = scaling.BIRD_FREQUENCY(bird.mass, bird.span, bird.area, AIR.density, AIR.gravity)
         at = bird.airspeed * bird.area / bird.span / AIR.viscosity
@@ -62,13 +63,12 @@ def _finish(panels: np.ndarray) -> None:
         ("Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]"),
         ("Reynolds number of chord and measured airspeed [-]", "speed over that at lift coefficient 1 [-]"),
     )
-    for axes, letter, (x, y) in zip(panels.ravel(), "ABCD", labels, strict=True):
+    for axes, letter, (x, y) in zip(panels.flat, "ABCD", labels, strict=True):
         axes.set(xlabel=x, ylabel=y)
-        axes.set_title(letter, loc="left", fontsize=10, fontweight="bold")
-        axes.grid(color="0.92", linewidth=0.6)
-        axes.legend(frameon=False, fontsize=8)
+        axes.grid()
+        axes.legend()
         if letter != "A":
-            axes.axvspan(*FITTED, color="0.88", zorder=0)
+            axes.axvspan(*FITTED, color=SHADE, zorder=0)
             axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")
             axes.set_xticks([2e4, 5e4, 1e5, 2e5, 4e5], ["20 000", "50 000", "100 000", "200 000", "400 000"])
         axes.minorticks_off()
@@ -79,5 +79,6 @@ def _finish(panels: np.ndarray) -> None:
     for axis in (panels[0, 0].xaxis, panels[0, 0].yaxis):
         axis.set_major_formatter("{x:g}")
     panels[0, 1].set_ylim(0.28, 1.7)
-    panels[1, 0].set_ylim(0.33, 4.6)
-    panels[1, 0].legend(frameon=False, fontsize=7.5, ncols=2, loc="lower left")
+    panels[1, 0].set_ylim(0.3, 4.6)
+    panels[1, 0].legend(ncols=2, loc="lower left")
+    letter_panels(panels, "A")

@@ -9,27 +9,37 @@ from matplotlib.figure import Figure
 from measured_data import Polar
 from measured_summary import Row
 
-# Okabe and Ito's colours; dash and mark differ too, for grey prints.
+from wingbeat.plots.style import (
+    FIRST,
+    GREEN,
+    PAGE,
+    PURPLE,
+    SECOND,
+    SKY,
+    drawing,
+    legend_below,
+    letter_panels,
+    new_figure,
+)
+
 LOOKS: dict[str, dict[str, Any]] = {
-    "gull": {"color": "#56B4E9", "marker": ".", "markersize": 2.5, "linestyle": "", "label": "gull half wings (9)"},
-    "jackdaw": {"color": "#009E73", "marker": "+", "markersize": 3.5, "linestyle": "", "label": "jackdaw, gliding"},
+    "gull": {"color": SKY, "marker": ".", "markersize": 2.5, "linestyle": "", "label": "gull half wings (9)"},
+    "jackdaw": {"color": GREEN, "marker": "+", "markersize": 3.5, "linestyle": "", "label": "jackdaw, gliding"},
     "plate": {
-        "color": "#CC79A7",
+        "color": PURPLE,
         "marker": "^",
         "markersize": 3.5,
         "linestyle": "",
         "label": "thin plates, AR 1, 2",
     },
 }
-MODELS: list[dict[str, Any]] = [
-    {"color": "#0072B2", "linestyle": "-", "linewidth": 1.6},
-    {"color": "#D55E00", "linestyle": (0, (4, 1.5)), "linewidth": 1.6},
-]
+MODELS = [{**FIRST, "linewidth": 1.6}, {**SECOND, "linewidth": 1.6}]
 
 
+@drawing()
 def draw_polars(models: list[Polar], polars: list[Polar], rows: list[Row]) -> Figure:
     """Return four panels: lift over angle, drag and lift-to-drag over lift, moment over normal force."""
-    figure = Figure(figsize=(9, 7.4), layout="constrained")
+    figure = new_figure(PAGE, 152.0)
     panels = figure.subplots(2, 2).ravel()
     zero = {row.polar.label: row.zero_lift_deg for row in rows}
     for polar in polars:
@@ -42,14 +52,11 @@ def draw_polars(models: list[Polar], polars: list[Polar], rows: list[Row]) -> Fi
         ("lift coefficient $C_L$ [-]", "lift over drag [-]", (0, 1.6), (0, 26)),
         ("normal force coefficient $C_N$ [-]", "moment $C_M$ about shoulder or edge [-]", (-0.6, 1.7), (-0.8, 0.2)),
     )
-    for axes, letter, (x, y, x_limits, y_limits) in zip(panels, "ABCD", labels, strict=True):
+    for axes, (x, y, x_limits, y_limits) in zip(panels, labels, strict=True):
         axes.set(xlabel=x, ylabel=y, xlim=x_limits, ylim=y_limits)
-        axes.set_title(letter, loc="left", fontsize=10, fontweight="bold")
-        axes.grid(color="0.92", linewidth=0.6)
-    handles: dict[str, Any] = {}
-    for axes in panels:
-        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5, fontsize=8, frameon=False)
+        axes.grid()
+    letter_panels(panels, "A")
+    legend_below(figure, panels, columns=5)
     return figure
 
 

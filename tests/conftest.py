@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from browsers import FLAGS, PATIENCE
-from reflight import Reflight, refly
 
 import wingbeat as wb
+from tests.helpers.browsers import FLAGS, PATIENCE
+from tests.helpers.reflight import Reflight, refly
 from wingbeat.orbits.flight.certify import Certificate, certify
 
 ORBITS = {

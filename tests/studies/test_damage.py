@@ -12,7 +12,7 @@ import pytest
 from flipped_bits import HARMLESS, REFUSED, STUDY, Sample, campaign
 
 import wingbeat as wb
-from studies.standin import RAISES
+from tests.helpers.study_standin import RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import database, soundness, store
 from wingbeat.studies.digests import about_digest

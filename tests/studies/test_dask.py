@@ -13,8 +13,8 @@ import distributed
 import pytest
 
 import wingbeat as wb
-from studies.conftest import HERE
-from studies.standin import CRASHES, HANGS, KILLS_PARENT, RAISES
+from tests.helpers.places import ROOT
+from tests.helpers.study_standin import CRASHES, HANGS, KILLS_PARENT, RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import dask_engine
 from wingbeat.studies.dask_work import Order, solve_batch
@@ -29,7 +29,7 @@ class Cluster:
 
     def __init__(self, study, seconds=0.02, log="", **settings):
         self.environment = os.environ | {
-            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+            "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
             "STUDY_MARK": study.mark,
             "STANDIN_SECONDS": str(seconds),
             "STANDIN_LOG": str(log),
@@ -240,6 +240,6 @@ def test_workers_with_other_numbers_are_refused(cheap, monkeypatch):
     assert code == 2
     assert f"has a wingbeat of numerical version {NUMERICAL_VERSION}, this one is of {NUMERICAL_VERSION + 1}" in err
     # One that joined in between refuses by itself.
-    order = Order(1, [], "standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)
+    order = Order(1, [], "tests.helpers.study_standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)
     with pytest.raises(wb.ClusterError, match="install the same wingbeat there"):
         solve_batch(pickle.dumps(order))

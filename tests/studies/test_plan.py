@@ -5,10 +5,10 @@ import math
 import re
 
 import pytest
-from bad_input.conftest import GOOD, SPECIES
 from fuzz import STUDIES
 
 import wingbeat as wb
+from tests.helpers.species_texts import GOOD, SPECIES
 from wingbeat.cli import main
 from wingbeat.studies.form import check_form
 from wingbeat.studies.recipe import recipe_from

@@ -13,10 +13,10 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from terminals import needs_terminal, on_terminal
 
 import wingbeat as wb
-from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
+from tests.helpers.study_standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
+from tests.helpers.terminals import needs_terminal, on_terminal
 from wingbeat.species import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
@@ -63,7 +63,8 @@ def test_killed_drivers_lose_nothing_and_repeat_nothing_that_was_kept(cheap, und
 
 
 BY_LIBRARY = (
-    "import sys; from wingbeat.studies.engine import LocalProcesses; LocalProcesses.work = 'standin:solve'; "
+    "import sys; from wingbeat.studies.engine import LocalProcesses; "
+    "LocalProcesses.work = 'tests.helpers.study_standin:solve'; "
     "import wingbeat as wb; wb.plan_study(sys.argv[1]).run(processes=1)"
 )
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from app.program import PATIENCE, Program, wait_gone
+from tests.app.program import PATIENCE, Program, wait_gone
 from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.workers.fair_pool import FairPool

@@ -1,1 +1,1 @@
-"""Tests of worker processes."""
+"""What worker processes share."""

@@ -43,7 +43,7 @@ def make_pool():
     pools = []
 
     def make(processes=1, **options):
-        pools.append(FairPool("workers.standin:do", processes, **options))
+        pools.append(FairPool("tests.helpers.worker_standin:do", processes, **options))
         return pools[-1]
 
     yield make

@@ -8,8 +8,8 @@ import sys
 import time
 
 import pytest
-from app.program import wait_gone
 
+from tests.app.program import wait_gone
 from wingbeat.workers.leftovers import clear_leftovers
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
@@ -29,7 +29,7 @@ class Heard(queue.SimpleQueue):
 def start():
     workers = []
 
-    def started(work="workers.standin:do", **settings):
+    def started(work="tests.helpers.worker_standin:do", **settings):
         heard = Heard()
         workers.append(WorkerProcess(work, heard.put, **settings))
         return workers[-1], heard
@@ -136,7 +136,7 @@ def test_none_outlives_a_process_that_ends_at_once(start):
     assert worker.bury().startswith("SIGKILL")
 
 
-@pytest.mark.parametrize("work", ["workers.standin:do", "wingbeat.app.jobs:do"])
+@pytest.mark.parametrize("work", ["tests.helpers.worker_standin:do", "wingbeat.app.jobs:do"])
 def test_one_whose_owner_was_killed_ends_whatever_it_does(work):
     """At work, and while it imports."""
     script = f"""if True:

@@ -10,12 +10,12 @@ import textwrap
 import time
 
 import pytest
-from app.program import wait_gone
 
 import wingbeat as wb
+from tests.app.program import wait_gone
+from tests.helpers.worker_standin import cores_at_import
 from wingbeat.workers.affinity import usable_cores
 from wingbeat.workers.process_map import in_processes, process_map
-from workers.standin import cores_at_import
 
 CORES = usable_cores()
 several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")

@@ -17,6 +17,8 @@ CRASHES, HANGS, RAISES, INFEASIBLE = 90.0, 91.0, 92.0, 93.0
 KILLS_PARENT = 94.0
 # Its process gives up by itself.
 LEAVES = 95.0
+# What should tell of a point's fault has one itself.
+BREAKS = 96.0
 
 
 def solve(units, context):
@@ -34,6 +36,8 @@ def outcome(task):
         os.kill(os.getpid(), signal.SIGKILL)
     if speed == LEAVES:
         sys.exit(7)
+    if speed == BREAKS:
+        raise TypeError("no outcome")
     if speed == KILLS_PARENT:
         os.kill(os.getppid(), signal.SIGKILL)
     while speed == HANGS:

@@ -52,7 +52,7 @@ class WorkerProcess:
     ) -> None:
         settings = {"work": work, "core": core, "silence": silence, "memory": memory}
         # What this process imports is what the worker imports, wherever it comes from.
-        paths = os.pathsep.join(sys.path)
+        paths = os.pathsep.join(map(str, sys.path))
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-c", _PROGRAM, json.dumps(settings)],
             stdin=subprocess.PIPE,

@@ -151,7 +151,7 @@ def test_a_message_that_makes_no_sense_closes_its_socket_with_a_sentence(program
         (f"/?species={70_000 * 'a'}", 200),
         (f"/{70_000 * 'a'}", 414),
         ("/%00", 400),
-        ("/wingbeat/shelf/%00", 400),
+        ("/wingbeat/downloads/%00", 400),
         ("/wingbeat/upload/%00", 400),
         ("/_nicegui_ws/socket.io/?EIO=4&transport=polling", 400),
         ("/nothing", 404),

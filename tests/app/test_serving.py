@@ -14,8 +14,8 @@ def test_files_for_nobody_are_not_taken(served):
     host, port = served.address.removeprefix("http://").split(":")
     for method, path, headers, status in (
         ("POST", "/wingbeat/upload/nobody", {}, 404),
-        ("GET", "/wingbeat/shelf/nothing", {}, 404),
-        ("GET", "/wingbeat/shelf/..%2F..%2Fpage.py", {}, 404),
+        ("GET", "/wingbeat/downloads/nothing", {}, 404),
+        ("GET", "/wingbeat/downloads/..%2F..%2Fpage.py", {}, 404),
         ("GET", "/", {"host": "elsewhere.example"}, 400),
     ):
         line = http.client.HTTPConnection(host, int(port), timeout=60)

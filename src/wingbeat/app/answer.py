@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.app.widgets import Rows, box, button, tag
-from wingbeat.app.words import number, tiles
+from wingbeat.app.formatting import number, tiles
+from wingbeat.app.widgets import Rows, box, button, set_class, tag
+from wingbeat.nomenclature import for_people
 from wingbeat.results.plausibility import statements
 
 __all__ = ["Answer", "Headline", "Influence"]
@@ -18,7 +19,7 @@ class Headline:
 
     def __init__(self) -> None:
         self._place = tag("section", classes="headline", aria_label="Answer in short")
-        self._tiles: dict[str, tuple[Any, Any]] = {}
+        self._tiles: dict[str, Any] = {}
         with self._place:
             with tag("div", classes="verdict"):
                 self._badge = tag("p", "Not solved yet", "badge none")
@@ -35,9 +36,8 @@ class Headline:
         self._badge.set_text(f"Certified: {said.closes}" if certified else f"Not certified: {record['status']}")
         self._badge.classes(remove="none good bad", add="good" if said.good else "none" if certified else "bad")
         self._plausible.set_text(f"{said.plausible[:1].upper()}{said.plausible[1:]}" if certified else "")
-        self._plausible.classes(remove="good bad hidden", add="good" if said.good else "bad")
-        if not certified:
-            self._plausible.classes("hidden")
+        self._plausible.classes(remove="good bad", add="good" if said.good else "bad")
+        set_class(self._plausible, "hidden", not certified)
         climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
         aero = record["aero"]["coefficients"]
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
@@ -50,8 +50,8 @@ class Headline:
                     with tag("dd"):
                         shown = tag("output", value, "value")
                         tag("span", unit, "unit")
-                self._tiles[label] = shown, None
-            shown = self._tiles[label][0]
+                self._tiles[label] = shown
+            shown = self._tiles[label]
             if shown.text != value:
                 shown.set_text(value)
             shown.props["title"] = f"{exact} {unit}".strip()
@@ -100,7 +100,7 @@ class Answer:
             with self._warnings:
                 for text in texts:
                     tag("li", text)
-            self._warnings.classes(remove="hidden") if texts else self._warnings.classes("hidden")
+            set_class(self._warnings, "hidden", not texts)
 
 
 class Influence:
@@ -167,10 +167,9 @@ def _ranked(one: dict[str, Any], names: list[str]) -> None:
     with tag("tr"):
         # Spaces let a narrow column break the path between its words.
         tag("th", one["path"].replace(".", " ").replace("_", " "), scope="row")
-        ends, unit = one["plausible"], "" if one["unit"] == "1" else f" {one['unit']}"
-        if ends and one["unit"] == "rad":
-            ends, unit = [math.degrees(end) for end in ends], " deg"
-        tag("td", "±1 %" if ends is None else f"{ends[0]:.3g} to {ends[1]:.3g}{unit}")
+        scale, unit = for_people(one["unit"])
+        ends = one["plausible"]
+        tag("td", "±1 %" if ends is None else f"{scale * ends[0]:.3g} to {scale * ends[1]:.3g} {unit}".rstrip())
         for name in names:
             tag("td", "{:+.2g}, {:+.2g}".format(*one["swings"][name]))
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY
+from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
-from wingbeat.app.words import from_shown, sentence
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.species import species_names
@@ -141,11 +141,8 @@ class Controls:
 
     def _number(self, name: str) -> Callable[[str], None]:
         def act(text: str) -> None:
-            value = from_shown(text, "", several=False)
-            if isinstance(value, float):
+            if (value := self._fields[name].number(text)) is not None:
                 self._change(**{name: value})
-            else:
-                self._fields[name].refuse(f"{text[:30]!r} is not a number")
 
         return act
 

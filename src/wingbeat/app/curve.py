@@ -8,11 +8,11 @@ from typing import Any
 from nicegui import ui
 
 from wingbeat.app.curve_chart import chart
+from wingbeat.app.formatting import number
 from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
-from wingbeat.app.session import Session
-from wingbeat.app.widgets import Field, box, button, number_field, tag
-from wingbeat.app.words import from_shown, number
+from wingbeat.app.session import BUSY, Session
+from wingbeat.app.widgets import Field, box, button, number_field, set_class, tag
 from wingbeat.workers.fair_pool import Event, Job
 
 __all__ = ["CurvePanel"]
@@ -62,9 +62,7 @@ class CurvePanel:
 
     def _set(self, place: int) -> Callable[[str], None]:
         def act(text: str) -> None:
-            value = from_shown(text, "", several=False)
-            if not isinstance(value, float):
-                self._fields[place].refuse(f"{text[:30]!r} is not a number")
+            if (value := self._fields[place].number(text)) is None:
                 return
             sweep = list(self._session.scenario.sweep)
             sweep[place] = value
@@ -75,7 +73,7 @@ class CurvePanel:
     def show_sweep(self, scenario: Scenario) -> None:
         """Show the range of a scenario, and dim a curve of another question."""
         other = self._asked is not None and not scenario.at(self._asked.speed).asks_as(self._asked)
-        self._found.classes("stale") if other else self._found.classes(remove="stale")
+        set_class(self._found, "stale", other)
         for field, value in zip(self._fields, scenario.sweep, strict=True):
             field.show(f"{value:g}")
 
@@ -117,7 +115,7 @@ class CurvePanel:
         job = self._session.start(what, lambda event: self._hear(job, event))
         self._job = job
         if job is None:
-            self._finish("Too many of your jobs are waiting already; wait for them, or cancel some.")
+            self._finish(BUSY)
 
     def _hear(self, job: Job | None, event: Event) -> None:
         if job is None or job is not self._job:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from wingbeat.app.shelf import Shelf, Thing
+from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.widgets import run_script, tag
 from wingbeat.viewer import bundle_path
 
@@ -47,11 +47,11 @@ class Flying:
 
     Parameters
     ----------
-    shelf, session : where scenes are laid out for the browser to fetch.
+    downloads, session : where scenes are laid out for the browser to fetch.
     """
 
-    def __init__(self, shelf: Shelf, session: str) -> None:
-        self._shelf, self._session = shelf, session
+    def __init__(self, downloads: Downloads, session: str) -> None:
+        self._downloads, self._session = downloads, session
         self._place: Any = tag("div", classes="flying", role="region", aria_label="The flying animal")
         self._place.props["id"] = self._place.html_id
         with self._place:
@@ -65,9 +65,8 @@ class Flying:
         """Show a scene, the JSON text that the viewer takes; where there is none, what was shown stays."""
         if not scene:
             return
-        name = self._shelf.put(self._session, Thing(scene.encode(), "application/json"))
-        url = json.dumps(f"/wingbeat/shelf/{name}")
-        run_script(f"wingbeatFlying.show({json.dumps(self._place.html_id)}, {url})")
+        address = self._downloads.put(self._session, Download(scene.encode(), "application/json"))
+        run_script(f"wingbeatFlying.show({json.dumps(self._place.html_id)}, {json.dumps(address)})")
 
     def set_theme(self, theme: str) -> None:
         """Show the viewer as the ``system`` has it, ``light`` or ``dark``."""

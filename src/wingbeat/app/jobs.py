@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.app.formatting import refusals
 from wingbeat.app.links import from_plain
 from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
@@ -45,13 +46,9 @@ def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
     try:
         return kinds[what["do"]](what, context)
     except InvalidInputError as error:
-        return {"refused": [[fault.where, _sentence(fault)] for fault in error.faults]}
+        return {"refused": refusals(error.faults)}
     except FileError as error:
         return {"refused": [["", str(error)]]}
-
-
-def _sentence(fault: Any) -> str:
-    return fault.rule + (f"; {fault.fix}" if fault.fix else "")
 
 
 def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:

@@ -16,10 +16,10 @@ from urllib.parse import parse_qsl, urlencode
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 
-__all__ = ["LONGEST_QUERY", "from_json", "from_plain", "from_query", "to_json", "to_plain", "to_query"]
+__all__ = ["from_json", "from_plain", "from_query", "to_json", "to_plain", "to_query"]
 
 # Servers and browsers hold addresses of 16 kB and more; a species file takes some 6.
-LONGEST_QUERY = 24_000
+_LONGEST_QUERY = 24_000
 _VERSION = 1
 _PAIRS = "bounds"
 _NUMBERS = ("speed", "climb", "blend_width_deg")
@@ -54,8 +54,8 @@ def from_query(query: str) -> Scenario:
     InvalidInputError : everything in it that is not understood, and every choice that cannot be.
     """
     faults = FaultList()
-    if len(query) > LONGEST_QUERY:
-        faults.add("link", f"{len(query)} characters", f"must be at most {LONGEST_QUERY}", "load the JSON file")
+    if len(query) > _LONGEST_QUERY:
+        faults.add("link", f"{len(query)} characters", f"must be at most {_LONGEST_QUERY}", "load the JSON file")
         faults.raise_if_any()
     plain: dict[str, Any] = {"limits": [], "bounds": {}, "set": {}}
     try:

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from wingbeat.app.formatting import from_shown, not_a_number, range_text, shown_text, spoken_path
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import Field, button, number_field, tag
-from wingbeat.app.words import from_shown, range_text, shown_text, spoken_path, unit_of
 from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
@@ -58,7 +58,7 @@ class Numbers:
         number = self._species.numbers[path]
         tip = f"Source: {' '.join(number.source.split())}" if number.source else "No source is given."
         self._values[path] = number_field(
-            spoken_path(path), shown_text(path, number), self._set(path), unit=unit_of(number), tip=tip
+            spoken_path(path), shown_text(path, number), self._set(path), unit=for_people(number.unit)[1], tip=tip
         )
 
     def _build_bound(self, name: str) -> None:
@@ -117,7 +117,7 @@ class Numbers:
             if not text.strip() or text == shown_text(path, number):
                 values.pop(path, None)
             elif value is None:
-                self._values[path].refuse(f"{text[:30]!r} is not a number")
+                self._values[path].refuse(not_a_number(text))
                 return
             else:
                 values[path] = value
@@ -127,9 +127,8 @@ class Numbers:
 
     def _bound(self, name: str, end: int) -> Callable[[str], None]:
         def act(text: str) -> None:
-            value = from_shown(text, "rad" if self._is_angle(name) else "", several=False)
-            if not isinstance(value, float):
-                self._bounds[name, end].refuse(f"{text[:30]!r} is not a number")
+            value = self._bounds[name, end].number(text, "rad" if self._is_angle(name) else "")
+            if value is None:
                 return
             low, high = self._now(name)
             pair = (value, high) if end == 0 else (low, value)

@@ -13,14 +13,14 @@ from nicegui import Client, ui
 from wingbeat.app.answer import Answer, Headline, Influence
 from wingbeat.app.controls import Controls
 from wingbeat.app.curve import CurvePanel
+from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.flying import Flying
+from wingbeat.app.formatting import sentence
 from wingbeat.app.links import from_plain, from_query, to_json, to_query
 from wingbeat.app.pins import Pins
 from wingbeat.app.scenario import Scenario
-from wingbeat.app.session import Session, known
-from wingbeat.app.shelf import Shelf, Thing
-from wingbeat.app.widgets import button, choice_field, run_script, tag
-from wingbeat.app.words import sentence
+from wingbeat.app.session import BUSY, Session, known
+from wingbeat.app.widgets import button, choice_field, run_script, set_class, tag
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import Event, FairPool
 
@@ -38,12 +38,12 @@ class Page:
     Parameters
     ----------
     name : of the session.
-    pool, shelf : of the server.
+    pool, downloads : of the server.
     query : of the address, which may hold a scenario.
     """
 
-    def __init__(self, name: str, pool: FairPool, shelf: Shelf, query: str) -> None:
-        self.name, self._shelf = name, shelf
+    def __init__(self, name: str, pool: FairPool, downloads: Downloads, query: str) -> None:
+        self.name, self._downloads = name, downloads
         self._client: Client = ui.context.client
         self._refusals, scenario = [], Scenario()
         try:
@@ -76,7 +76,7 @@ class Page:
     def leave(self) -> None:
         """Forget the page: its visitor is gone."""
         self._session.leave()
-        self._shelf.leave(self.name)
+        self._downloads.leave(self.name)
 
     # What stands where -------------------------------------------------------------------------------------------
 
@@ -93,7 +93,7 @@ class Page:
                 self._controls.build_flight()
             with tag("div", classes="middle", id="answer", tabindex="-1"):
                 self._headline = Headline()
-                self._flying = Flying(self._shelf, self.name)
+                self._flying = Flying(self._downloads, self.name)
                 self._pins = Pins(self._fly_beside, self._bring_back)
                 with tag("div", classes="below"):
                     self._build_panels()
@@ -152,7 +152,7 @@ class Page:
         if self._state.text != text:
             self._state.set_text(text)
         self._stop.props.set_bool("disabled", not busy)
-        self._bar.classes(remove="hidden") if done is not None else self._bar.classes("hidden")
+        set_class(self._bar, "hidden", done is None)
         self._bar.props["value"] = done or 0
 
     def show_answer(self, answer: dict[str, Any]) -> None:
@@ -165,7 +165,7 @@ class Page:
 
     def show_stale(self, stale: bool) -> None:
         """Dim the answer while it is that of another question than the form's."""
-        self._whole.classes("stale") if stale else self._whole.classes(remove="stale")
+        set_class(self._whole, "stale", stale)
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show what was refused beside its control, the rest above."""
@@ -244,7 +244,7 @@ class Page:
         if doing:
             say(doing)
         if self._session.start(what, hear) is None:
-            self.show_trouble("Too many of your jobs are waiting already; wait for them, or cancel some.")
+            self.show_trouble(BUSY)
             if end is not None:
                 end()
 
@@ -255,8 +255,8 @@ class Page:
         name = re.sub(r"[^A-Za-z0-9-]+", "-", f"{record.get('species', 'state')}-{record.get('speed', '')}").strip(
             "-"
         )
-        key = self._shelf.put(self.name, Thing(content, _KINDS[kind], f"{name[:60]}.{kind}"))
-        run_script(f"wingbeatPage.download({json.dumps(f'/wingbeat/shelf/{key}')})")
+        address = self._downloads.put(self.name, Download(content, _KINDS[kind], f"{name[:60]}.{kind}"))
+        run_script(f"wingbeatPage.download({json.dumps(address)})")
 
     def _save_state(self) -> None:
         self._download(to_json(self._session.scenario).encode(), "json")

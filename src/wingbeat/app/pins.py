@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from wingbeat.app.formatting import number, tiles
 from wingbeat.app.widgets import box, button, tag
-from wingbeat.app.words import number, tiles
 
-__all__ = ["MOST_PINS", "Pins"]
+__all__ = ["Pins"]
 
-MOST_PINS = 8
+_MOST_PINS = 8
 
 
 class Pins:
@@ -37,9 +37,9 @@ class Pins:
             return
         self._answers.append(answer)
         text = "Pinned."
-        if len(self._answers) > MOST_PINS:
+        if len(self._answers) > _MOST_PINS:
             gone = self._answers.pop(0)
-            text = f"Pinned; the oldest of more than {MOST_PINS} was let go."
+            text = f"Pinned; the oldest of more than {_MOST_PINS} was let go."
             if gone is self._ghost:
                 self._fly(None)
         self._note.set_text(text)

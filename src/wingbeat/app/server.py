@@ -21,9 +21,9 @@ from nicegui import Client, core, ui
 from starlette.requests import ClientDisconnect
 
 from wingbeat.app.door import Door, guard_events, is_loopback
+from wingbeat.app.downloads import DOWNLOADS, Downloads
 from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
 from wingbeat.app.page import Page
-from wingbeat.app.shelf import Shelf
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.workers.fair_pool import FairPool
@@ -57,14 +57,14 @@ class House:
 
     def __init__(self, processes: int) -> None:
         self.pool = FairPool(_WORK, processes)
-        self.shelf = Shelf()
+        self.downloads = Downloads()
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
 
     def open_page(self, client: Client, query: str) -> None:
         """Build a page for a visitor who has just come."""
         name = secrets.token_urlsafe(12)
-        page = self.pages[name] = Page(name, self.pool, self.shelf, query)
+        page = self.pages[name] = Page(name, self.pool, self.downloads, query)
 
         def leave() -> None:
             del self.pages[name]
@@ -197,7 +197,7 @@ def build(house: House, host: str) -> Any:
 
 
 def _add_files(app: FastAPI, house: House) -> None:
-    """Serve the page's own few files and what lies on the shelf."""
+    """Serve the page's own few files and the downloads."""
     here = Path(__file__).parent
     script, style = ((here / name).read_bytes() for name in ("page.js", "page.css"))
     fixed = {
@@ -209,15 +209,15 @@ def _add_files(app: FastAPI, house: House) -> None:
     for path, (content, kind) in fixed.items():
         app.add_api_route(path, lambda content=content, kind=kind: Response(content, media_type=kind))
 
-    @app.get("/wingbeat/shelf/{name}")
-    def shelf(name: str) -> Response:
-        thing = house.shelf.get(name)
-        if thing is None:
+    @app.get(DOWNLOADS + "{name}")
+    def fetch(name: str) -> Response:
+        download = house.downloads.get(name)
+        if download is None:
             return Response("This is kept no longer; ask for it again.", 404, media_type="text/plain")
         headers = {"cache-control": "no-store"}
-        if thing.name:
-            headers["content-disposition"] = f'attachment; filename="{thing.name}"'
-        return Response(thing.content, media_type=thing.kind, headers=headers)
+        if download.name:
+            headers["content-disposition"] = f'attachment; filename="{download.name}"'
+        return Response(download.content, media_type=download.kind, headers=headers)
 
 
 async def _take(house: House, session: str, request: Request) -> Response:

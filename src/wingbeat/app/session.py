@@ -8,11 +8,12 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
 from typing import Any, Protocol
 
+from wingbeat.app.formatting import refusals
 from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.workers.fair_pool import Event, FairPool, Job
 
-__all__ = ["Session", "View"]
+__all__ = ["BUSY", "Session", "View"]
 
 # Seconds without a change after which an answer that was continued is searched for anew, from every start.
 _CALM = 0.35
@@ -20,11 +21,11 @@ _CALM = 0.35
 _BRIEF = 0.4
 # A continued orbit must be better by this share before the page says so.
 _BETTER = 1e-4
+BUSY = "Too many of your jobs are waiting already; wait for them, or cancel some."
 _ENDINGS = {
     "lost": "The solver process ended ({}). It was started again; solve again.",
     "late": "No answer within {:g} s, so the search was ended; ask for fewer starts, or solve again.",
     "failed": "The solver failed ({}); this is a fault of wingbeat, please report it with the link of this page.",
-    "busy": "Too many of your jobs are waiting already; wait for them, or cancel some.",
 }
 
 
@@ -95,9 +96,9 @@ class Session:
         self._view.show_stale(self.answer is not None and not self.scenario.asks_as(self._answered))
 
     def _tell_faults(self) -> bool:
-        faults = self.scenario.faults().faults
-        self._view.show_refusals([[f.where, f"{f.rule}; {f.fix}" if f.fix else f.rule] for f in faults])
-        return bool(faults)
+        refused = refusals(self.scenario.faults().faults)
+        self._view.show_refusals(refused)
+        return bool(refused)
 
     def ask(self, whole: bool = False) -> bool:
         """Solve the scenario: continued from the answer before where there is one, or by a `whole` search."""
@@ -125,7 +126,7 @@ class Session:
         self._job = self.start(what, lambda event: self._hear(asked, scenario, event))
         if self._job is None:
             self._brief_since = None
-            self._view.show_trouble(_ENDINGS["busy"])
+            self._view.show_trouble(BUSY)
 
     def start(self, what: dict[str, Any], hear: Callable[[Event], None]) -> Job | None:
         """Give the pool a job; events come to `hear` on the page's own thread."""

@@ -9,7 +9,21 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
-__all__ = ["Field", "Rows", "box", "button", "choice_field", "number_field", "tag", "text_field"]
+from wingbeat.app.formatting import from_shown, not_a_number
+
+__all__ = [
+    "Field",
+    "Rows",
+    "box",
+    "button",
+    "choice_field",
+    "number_field",
+    "run_script",
+    "set_class",
+    "slider",
+    "tag",
+    "text_field",
+]
 
 # What is being typed is kept where the page is drawn from, or the next change of anything would undo it.
 _KEEP = "(event) => { element.props.value = event.target.value; }"
@@ -41,6 +55,11 @@ def box(name: str, title: str, classes: str = "", level: int = 2) -> Any:
     section.props["aria-labelledby"] = heading.html_id
     heading.props["id"] = heading.html_id
     return section
+
+
+def set_class(element: Any, name: str, on: bool) -> None:
+    """Give an element a class of the style sheet, or take it away."""
+    element.classes(name) if on else element.classes(remove=name)
 
 
 def button(text: str, act: Callable[[], Any], classes: str = "", **attributes: Any) -> Any:
@@ -76,13 +95,21 @@ class Field:
         if self._fault.text == message:
             return
         self._fault.set_text(message)
-        self._fault.classes(remove="hidden") if message else self._fault.classes("hidden")
+        set_class(self._fault, "hidden", not message)
         self.control.props.set_optional("aria-invalid", "true" if message else None)
 
     def mark(self, text: str, odd: bool) -> None:
         """Say what is plausible, and whether the value is not."""
         self._hint.set_text(text)
-        self.row.classes("odd") if odd else self.row.classes(remove="odd")
+        set_class(self.row, "odd", odd)
+
+    def number(self, text: str, unit: str = "") -> float | None:
+        """Return what was typed, in SI units and radians; tell the fault and return None if it is no number."""
+        value = from_shown(text, unit, several=False)
+        if isinstance(value, float):
+            return value
+        self.refuse(not_a_number(text))
+        return None
 
 
 def _field(label: str, unit: str, hint: str, tip: str, make: Callable[[], Any], wide: bool) -> Field:

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
+from wingbeat.errors import Fault
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species_schema import Number, display
 
-__all__ = ["from_shown", "number", "range_text", "sentence", "shown_text", "spoken_path", "tiles", "unit_of"]
+__all__ = [
+    "from_shown",
+    "not_a_number",
+    "number",
+    "range_text",
+    "refusals",
+    "sentence",
+    "shown_text",
+    "spoken_path",
+    "tiles",
+]
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -22,15 +34,19 @@ def sentence(where: str, message: str) -> str:
     return f"{where}: {text}" if where else text
 
 
+def refusals(faults: Iterable[Fault]) -> list[list[str]]:
+    """Return [where, message] of each fault, as the page shows them."""
+    return [[fault.where, f"{fault.rule}; {fault.fix}" if fault.fix else fault.rule] for fault in faults]
+
+
+def not_a_number(text: str) -> str:
+    """Return what is wrong with a text in place of a number."""
+    return f"{text[:30]!r} is not a number"
+
+
 def spoken_path(path: str) -> str:
     """Return the name of a number: ``vehicle.wing.mass`` is ``mass``."""
     return path.rpartition(".")[2].replace("_", " ")
-
-
-def unit_of(number: Number) -> str:
-    """Return the unit in which a number is shown."""
-    unit = "deg" if number.unit == "rad" else number.unit
-    return "" if unit == "1" else unit
 
 
 def shown_text(path: str, number: Number) -> str:

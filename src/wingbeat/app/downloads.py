@@ -1,0 +1,44 @@
+"""What a browser may fetch: each under a name nobody can guess, few at a time for each session."""
+
+from __future__ import annotations
+
+import secrets
+from collections import OrderedDict
+from typing import NamedTuple
+
+__all__ = ["DOWNLOADS", "Download", "Downloads"]
+
+DOWNLOADS = "/wingbeat/downloads/"  # the address, without the name
+_MOST = 12
+
+
+class Download(NamedTuple):
+    """Bytes with their kind, and the name to save them under if they are saved."""
+
+    content: bytes
+    kind: str
+    name: str = ""
+
+
+class Downloads:
+    """Keeps the last few downloads of each session."""
+
+    def __init__(self) -> None:
+        self._kept: dict[str, OrderedDict[str, Download]] = {}
+
+    def put(self, session: str, download: Download) -> str:
+        """Return the address at which a download can be fetched."""
+        own = self._kept.setdefault(session, OrderedDict())
+        name = secrets.token_urlsafe(16)
+        own[name] = download
+        while len(own) > _MOST:
+            own.popitem(last=False)
+        return DOWNLOADS + name
+
+    def get(self, name: str) -> Download | None:
+        """Return a download, None if it is there no more."""
+        return next((own[name] for own in self._kept.values() if name in own), None)
+
+    def leave(self, session: str) -> None:
+        """Forget what a session had."""
+        self._kept.pop(session, None)

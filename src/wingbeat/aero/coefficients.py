@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,14 +11,29 @@ from numpy.typing import ArrayLike, NDArray
 from wingbeat._jax.config import jax
 from wingbeat.errors import Fault, InvalidInputError
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles
+
+
+class Kernel(Protocol):
+    """What the physics asks of a coefficient model: a JAX pytree that gives coefficients at angles in [-pi, pi]."""
+
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
+        """Return C_L and C_D at `alpha` [rad], any shape."""
+        ...
+
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
+        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none."""
+        ...
+
 
 @jax.jit
-def _lift_drag(kernel: Any, alpha: Any) -> Any:
+def _lift_drag(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
 @jax.jit
-def _centre_of_pressure(kernel: Any, alpha: Any) -> Any:
+def _centre_of_pressure(kernel: Kernel, alpha: Angles) -> Angles:
     return kernel.centre_of_pressure(alpha)
 
 
@@ -74,7 +89,7 @@ class CoefficientModel:
         """Whether the model tells where along the chord the force acts."""
         raise NotImplementedError
 
-    def kernel(self) -> Any:
+    def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this model."""
         raise NotImplementedError
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Scalar
+
 
 _DEG = 180 / math.pi
 GRADES = ("A", "B")
@@ -19,17 +23,17 @@ GRADES = ("A", "B")
 class Wave(NamedTuple):
     """``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)``, a in radians."""
 
-    constant: Any
-    amplitude: Any
-    rate: Any
-    phase: Any
-    decay_amplitude: Any
-    decay_rate: Any
+    constant: Scalar
+    amplitude: Scalar
+    rate: Scalar
+    phase: Scalar
+    decay_amplitude: Scalar | None
+    decay_rate: Scalar | None
 
-    def __call__(self, alpha: Any) -> Any:
+    def __call__(self, alpha: Angles) -> Angles:
         """Return the coefficient at `alpha` [rad]; without an exponential term any angle will do."""
         value = self.constant + self.amplitude * sin(self.rate * alpha + self.phase)
-        if self.decay_amplitude is None:
+        if self.decay_amplitude is None or self.decay_rate is None:
             return value
         return value + self.decay_amplitude * jnp.exp(-self.decay_rate * alpha)
 
@@ -37,13 +41,13 @@ class Wave(NamedTuple):
 class PowerLaw(NamedTuple):
     """``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``, a in radians > 0."""
 
-    constant: Any
-    power_amplitude: Any
-    exponent: Any
-    decay_amplitude: Any
-    decay_rate: Any
+    constant: Scalar
+    power_amplitude: Scalar
+    exponent: Scalar
+    decay_amplitude: Scalar
+    decay_rate: Scalar
 
-    def __call__(self, alpha: Any) -> Any:
+    def __call__(self, alpha: Angles) -> Angles:
         """Return the centre of pressure at `alpha` > 0 [rad]."""
         decay = self.decay_amplitude * alpha * jnp.exp(-self.decay_rate * alpha)
         return self.constant + self.power_amplitude * alpha**self.exponent + decay

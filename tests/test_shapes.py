@@ -249,6 +249,6 @@ def test_every_array_of_the_physics_is_annotated():
 
 
 def test_the_physics_starts_without_the_library_of_shapes():
-    code = "import sys, wingbeat.results.orbit; print(sorted({'jaxtyping', 'wingbeat._jax.shapes'} & set(sys.modules)))"
+    code = "import sys, wingbeat.results.orbit; print([name for name in sys.modules if 'jaxtyping' in name])"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout == "[]\n"

@@ -112,13 +112,22 @@ class FormulaTerms:
     def at(self, alpha_deg: Any) -> Any:
         """Return the coefficient at angles [deg] by the formula alone: no blend, no extension.
 
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+
         >>> round(float(FormulaTerms(constant=0.1, amplitude=2.0, rate=2.0, phase_deg=0.0).at(45.0)), 12)
         2.1
         """
         return self.in_radians(with_decay=self.decays)(alpha_deg / _DEG)
 
     def in_radians(self, *, with_decay: bool) -> Wave:
-        """Return the same formula of the angle in radians, with an exponential term even if it is nothing."""
+        """Return the same formula with the angle in radians.
+
+        Parameters
+        ----------
+        with_decay : whether to add an exponential term of amplitude 0 where there is none.
+        """
         decay_amplitude, decay_rate = self.decay_amplitude, self.decay_rate
         if decay_amplitude is None or decay_rate is None:
             decay_amplitude = decay_rate = 0.0 if with_decay else None
@@ -133,6 +142,14 @@ class CentreTerms:
     """The terms of the centre of pressure, in chords from the leading edge, with the angle a in degrees.
 
     ``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``
+
+    Parameters
+    ----------
+    constant : in chords.
+    power_amplitude : in chords.
+    exponent : exponent of the angle, > 0.
+    decay_amplitude : [1/deg].
+    decay_rate : [1/deg], 0 or more.
 
     Raises
     ------
@@ -155,6 +172,10 @@ class CentreTerms:
 
     def at(self, alpha_deg: Any) -> Any:
         """Return the centre of pressure at angles >= 0 [deg] by the formula alone: no blend, no extension.
+
+        Parameters
+        ----------
+        alpha_deg : angle of attack, 0 or more [deg], any shape.
 
         >>> round(float(CentreTerms(0.2, 0.1, 0.5, decay_amplitude=0.0, decay_rate=0.0).at(4.0)), 12)
         0.4

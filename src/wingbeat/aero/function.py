@@ -108,6 +108,10 @@ class FunctionCoefficients(CoefficientModel):
     function : JAX-traceable, of one angle alpha in [-pi, pi] [rad]; returns (C_L, C_D).
     name : name of the model, the function's own if not given.
 
+    Attributes
+    ----------
+    program : the function as it was traced.
+
     Raises
     ------
     InvalidInputError : a function that JAX cannot trace, that returns no two numbers, or whose values or slopes are

@@ -63,9 +63,16 @@ def check_state(state: State) -> None:
 class FlightModel:
     """All numbers of the equations of motion but the wingbeat; a JAX pytree.
 
-    Build it with `flight_model`, which checks; the fields are a `Vehicle`, an `Air`, the kernel of a
-    coefficient model, the number of strips, whether the force acts at the centre of pressure, and whether it goes
-    with the whole airspeed of a strip.
+    Build it with `flight_model`, which checks its arguments.
+
+    Attributes
+    ----------
+    vehicle : body and wings.
+    air : the air and the gravity.
+    kernel : what evaluates the coefficient model, a JAX pytree.
+    strips : number of strips of one wing.
+    at_centre_of_pressure : whether loads act at the centre of pressure rather than at the quarter chord.
+    full_airspeed : whether loads go with the whole airspeed of a strip.
     """
 
     vehicle: Vehicle

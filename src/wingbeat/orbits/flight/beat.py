@@ -34,12 +34,31 @@ if TYPE_CHECKING:
 
 
 class Beat(NamedTuple):
-    """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), SI and radians.
+    """One beat from phase 0 to 1, both ends included, at K equal phases.
 
-    Names and units are those of a dataset. ``alpha``, ``strip_reynolds``, ``lift`` and ``drag`` are those of the
-    strips of one wing, shape (K, strips). Torques and powers are of both wings together, ``force_x`` and
-    ``force_z`` the air load on the whole vehicle. ``frequency`` [Hz], ``flap_amplitude`` [rad], ``speed`` and
-    ``climb`` [m/s], ``mass`` [kg], ``weight`` [N] and ``semi_span`` [m] are numbers.
+    Names and units are those of a dataset. Torques and powers are of both wings together.
+
+    Attributes
+    ----------
+    phase : share of the beat, shape (K,).
+    time : [s], shape (K,).
+    body_pitch, pitch_rate, pitch_acceleration : of the body, nose-up positive [rad, rad/s, rad/s2], shape (K,).
+    u, w, u_rate, w_rate : velocity forward and up, and its rates [m/s, m/s2], shape (K,).
+    flap, flap_rate : of the arm, up positive [rad, rad/s], shape (K,).
+    wing_pitch, wing_pitch_rate : at the root, leading edge up positive [rad, rad/s], shape (K,).
+    flap_torque, pitch_torque : of the hinges [N m], shape (K,).
+    hinge_power, actuator_power : of the hinges, and of all actuators [W], shape (K,).
+    aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], shape (K,).
+    alpha : angle of attack of the strips of one wing [rad], shape (K, strips).
+    strip_reynolds : Reynolds number of their chords, shape (K, strips).
+    lift, drag : of these strips [N], shape (K, strips).
+    force_x, force_z : air load on the whole vehicle, forward and up [N], shape (K,).
+    frequency : [Hz].
+    flap_amplitude : [rad].
+    speed, climb : mean velocity, forward and up [m/s].
+    mass : [kg].
+    weight : [N].
+    semi_span : [m].
     """
 
     phase: Series
@@ -77,11 +96,21 @@ class Beat(NamedTuple):
     semi_span: Number
 
     def mean(self, values: Samples) -> Scalar:
-        """Return the mean of a series over the beat, by the trapezoidal rule."""
+        """Return the mean of a series over the beat, by the trapezoidal rule.
+
+        Parameters
+        ----------
+        values : the series, shape (K,).
+        """
         return jnp.mean(0.5 * (values[:-1] + values[1:]))
 
     def mean_positive(self, values: Samples) -> Scalar:
-        """Return the mean of the positive part of a series, which runs straight between its samples."""
+        """Return the mean of the positive part of a series, with straight lines between its samples.
+
+        Parameters
+        ----------
+        values : the series, shape (K,).
+        """
         return mean_positive(values)
 
 

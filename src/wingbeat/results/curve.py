@@ -37,7 +37,16 @@ MOST_SPEEDS = 1000
 
 
 class Curve:
-    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`."""
+    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`.
+
+    Attributes
+    ----------
+    dataset : every certified optimum over (speed, optimum), labelled.
+    marks : what happens between neighbouring speeds.
+    gaps : speeds at which nothing is certified [m/s].
+    warnings : what a reader should know.
+    characteristic_speeds : speeds of least power and greatest range [m/s].
+    """
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -71,9 +80,10 @@ class Curve:
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of least power and greatest range, and those a power limit sustains; see `characteristic_speeds`.
+        """Speeds of least power and of greatest range, and those that a power limit sustains.
 
-        Of the power that was made least, or of the mean positive power if that was something else.
+        They are read off the power that was minimised, or off the mean positive power if the objective was
+        something else.
         """
         data = self._dataset
         torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
@@ -109,7 +119,11 @@ class Curve:
         return finite_or_none(record)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -182,6 +196,10 @@ def solve_curve(
 def load_curve(path: str | PathLike[str]) -> Curve:
     """Read a curve that `Curve.save` wrote.
 
+    Parameters
+    ----------
+    path : of a NetCDF file (.nc).
+
     Raises
     ------
     FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
@@ -192,9 +210,14 @@ def load_curve(path: str | PathLike[str]) -> Curve:
 def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """Return the curve in a dataset that came from a file.
 
+    Parameters
+    ----------
+    dataset : from a file.
+    path : of that file, for messages.
+
     Raises
     ------
-    FileError : it is none, or damaged.
+    FileError : it is no curve, or damaged.
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":

@@ -16,8 +16,9 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.orbits.nlp.local_search import Candidate, search
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.solution import FAMILY, Solution
-from wingbeat.orbits.solve import certified_optimum, follow
+from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.solve import certified_optimum, search_near
 from wingbeat.orbits.starts import start_point
 
 sys.path.append(str(Path(__file__).parent / "peers"))
@@ -34,12 +35,14 @@ def by_restarts(best: Solution, restarts: int, seed: int) -> dict:
     """Return how many restarts ended in an optimum, how many in the best, and the least certified objective."""
     problem = best.problem
     programme = Transcription(problem)
-    found = [search(programme.anew(), start_point(problem, 1 + i, seed)) for i in range(restarts)]
+    found = [search(programme.uncorrected(), start_point(problem, 1 + i, seed)) for i in range(restarts)]
     optima = sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective)
     near = best.objective + ROUGHLY * abs(best.objective)
     rivals: list[Candidate] = []
     for candidate in optima:
-        known = any(np.abs(candidate.scaled - other.scaled).max() <= FAMILY for other in rivals)
+        known = any(
+            np.abs(candidate.scaled - other.scaled).max() <= DEFAULTS.search.same_optimum for other in rivals
+        )
         if candidate.objective <= near and not known:
             rivals.append(candidate)
     certified = [found for candidate in rivals[:MOST] if (found := certified_optimum(candidate, 0.0))]
@@ -86,7 +89,7 @@ class Ipopt:
         begun = time.perf_counter()
         found = self._solve(problem, unknowns, path)
         seconds = time.perf_counter() - begun
-        flown = follow(problem, found.unknowns) if found.success else None
+        flown = search_near(problem, found.unknowns) if found.success else None
         return {
             "from": start,
             "success": found.success,

@@ -16,7 +16,7 @@ from wingbeat.app.worker import Hand
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import follow
+from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit, solve_orbit
 from wingbeat.results.provenance import problem_from
@@ -73,7 +73,7 @@ def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution |
         return None
     import numpy as np
 
-    return follow(problem, np.array(near["unknowns"], dtype=float))
+    return search_near(problem, np.array(near["unknowns"], dtype=float))
 
 
 def _point(what: dict[str, Any], hand: Hand) -> dict[str, Any]:

@@ -207,7 +207,7 @@ def equations_of_motion(
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> terms = wb.equations_of_motion(model, pigeon.wingbeat, np.zeros(5), np.zeros(5), 0.0)
     >>> round(float(terms.mass_matrix[0, 0]), 3)
     0.316

@@ -20,51 +20,51 @@ T = TypeVar("T")
 Progress = Callable[[int, int], None]
 
 
-def load_programs(problem: Transcription, start: np.ndarray) -> None:
+def load_programs(programme: Transcription, start: np.ndarray) -> None:
     """Read or compile, side by side, the programs of a search and its certificate, once a process."""
     if fly_part.loaded:
         return
 
-    wingbeat = problem.problem.wingbeat(start)
+    wingbeat = programme.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:
         # That of the search first, which takes the longest to compile.
-        searching = pool.submit(problem.closure_jacobian, problem.scaled(start))
-        pool.submit(certify, problem.model, wingbeat, start[:4]).result()
+        searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
+        pool.submit(certify, programme.model, wingbeat, start[:4]).result()
         searching.result()
 
 
 def first_searches(
-    problem: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
     """Return where searches end: from a problem's starts, from its optima without limits, from beside least peaks.
 
     Parameters
     ----------
-    problem : the programme.
+    programme : of the problem.
     starts, seed : how many starts, and what makes the random ones; limits are searched without from as many.
     threads : searches at a time.
     progress : called with (searches done, searches in all), those without limits among them.
     """
-    limited = bool(problem.problem.subject_to)
+    limited = bool(programme.problem.subject_to)
     found: list[Candidate] = []
-    for candidate in search_from_starts(problem, range(starts), seed, threads):
+    for candidate in search_from_starts(programme, range(starts), seed, threads):
         found.append(candidate)
         if progress is not None:
             progress(len(found), starts * (1 + limited))
     if limited:
-        without = Transcription(dataclasses.replace(problem.problem, subject_to=()))
-        told = None if progress is None else lambda done, total: progress(starts + done, starts + total)
-        found += search_from_optima(problem, first_searches(without, starts, seed, threads, told), threads)
-    if problem.has_level:
-        found += beside_best(problem, found, starts // 2, seed)
+        without = Transcription(dataclasses.replace(programme.problem, subject_to=()), programme.options)
+        report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
+        found += search_from_optima(programme, first_searches(without, starts, seed, threads, report), threads)
+    if programme.has_epigraph:
+        found += beside_best(programme, found, starts // 2, seed)
     return found
 
 
-def search_from_optima(problem: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
+def search_from_optima(programme: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
     """Return where searches end that start from the optima of an easier problem, the best of each family."""
-    optima = optima_of(easier)
-    starts = [optimum.unknowns for optimum in families(optima, problem.problem.unknowns().scale)]
-    return list(_side_by_side(lambda start: search(problem.anew(), start), starts, threads))
+    scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
+    starts = [optimum.unknowns for optimum in families(optima_of(easier), scale, apart)]
+    return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
 
 
 def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:
@@ -74,21 +74,21 @@ def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:
 
 def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
     """Return those ends of searches that are optima, the best first."""
-    return sorted((c for c in candidates if c.closed and c.optimal), key=lambda c: c.objective)
+    return sorted((c for c in candidates if c.is_optimum), key=lambda c: c.objective)
 
 
 def search_from_starts(
-    problem: Transcription, indices: Iterable[int], seed: int, threads: int
+    programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
     """Yield where the searches from starts of these indices end, in order, so many threads at a time.
 
-    All but the first, the stock wingbeat, are brought near closure before the objective counts: who begins far off
-    strays, and where there is no orbit some 30 flights tell so in place of 100.
+    All but the first, the stock wingbeat, are brought near closure before the objective counts. A search from far
+    off diverges, and where there is no orbit 30 flights show it instead of 100.
     """
 
     def one(index: int) -> Candidate:
-        start = start_point(problem.problem, index, seed)
-        return search(problem.anew(), start, elastic=index > 0)
+        start = start_point(programme.problem, index, seed, programme.options.search)
+        return search(programme.uncorrected(), start, restore=index > 0)
 
     yield from _side_by_side(one, indices, threads)
 
@@ -105,13 +105,14 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def beside_best(problem: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
+def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
     """Return where searches end that start beside the best optimum so far: least peaks often have better near."""
     more: list[Candidate] = []
     for index in range(count):
         optima = optima_of((*found, *more))
         if not optima:
             break
-        start = start_beside(problem.problem, optima[0].unknowns, len(found) + index, seed)
-        more.append(search(problem.anew(), start))
+        place = len(found) + index
+        start = start_beside(programme.problem, optima[0].unknowns, place, seed, programme.options.search)
+        more.append(search(programme.uncorrected(), start))
     return more

@@ -1,4 +1,4 @@
-"""How an optimum moves when a number it hangs on is changed: the implicit function theorem at its conditions.
+"""How an optimum moves when a number it depends on changes: the implicit function theorem at its conditions.
 
 At an optimum closure and active limits vanish, ``c(x, p) = 0``, and so does the Lagrangian's gradient along what
 they leave free. The objective changes by ``dJ/dp - multipliers . dc/dp``: how the optimum moves does not enter (the
@@ -17,20 +17,13 @@ from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
 from wingbeat.orbits.flight.beat import flown_beat
 from wingbeat.orbits.flight.certify import certify
-from wingbeat.orbits.nlp.newton_kkt import Conditions, Polish
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem, Unknowns
 
-# Blocks of steps of a flight that is right to some 1e-5.
-_FINE = 6
-# Step of differences, as a share of a parameter's size; it also bounds how far the unknowns go, in their scale.
-_STEP = 1e-4
-# The optimum is followed to this, so that what should vanish does.
-_STILL = 1e-9
-# Room outside of the bounds, in the unknowns' scale, for steps across them.
-_ROOM = 1.0
 # Weights of values at multiples of a step in a derivative: to both sides, or where a number can go one way only.
 _CENTRAL = ((-1, -0.5), (1, 0.5))
 _UPWARDS = ((0, -1.5), (1, 2.0), (2, -0.5))
@@ -48,42 +41,43 @@ class Sensitivity(NamedTuple):
 
 
 class OptimumSlopes:
-    """An optimum taken apart: what is free, what binds, at which price.
+    """The active set of an optimum, its multipliers and its curvature.
 
     Parameters
     ----------
     problem : the orbit problem.
     unknowns : the pitch state at phase 0 and the free parameters of its certified orbit.
+    options : of the solvers.
 
     Raises
     ------
-    InvalidInputError : more binds there than there is to choose, or the objective has no curvature to hold it.
+    InvalidInputError : there are more active bounds than free unknowns, or the objective has no curvature there.
     """
 
-    def __init__(self, problem: OrbitProblem, unknowns: np.ndarray) -> None:
+    def __init__(self, problem: OrbitProblem, unknowns: np.ndarray, options: SolverOptions = DEFAULTS) -> None:
         self.problem = problem
-        fine = Transcription(problem, _FINE)
+        self._options = options
+        fine = Transcription(problem, options, options.sensitivity.fine_blocks)
         guess = fine.scaled(unknowns)
-        # What binds is what the certifier finds at its limit; its slopes are those of one kind of flight.
-        corrected = fine.anew()
-        corrected.shift_at(guess, certify(problem.model, problem.wingbeat(unknowns), unknowns[:4]))
-        polish = Polish(corrected, guess)
-        polish.problem = fine
-        found = polish.follow(guess, _STILL)
+        # Active is what the certifier finds at its limit; the slopes are those of one kind of flight.
+        certificate = certify(problem.model, problem.wingbeat(unknowns), unknowns[:4], options.certificate.rtol)
+        newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
+        found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
-            rule = "is not held by its conditions: its derivatives do not exist, or hang on the way one goes"
+            rule = "is not held by its conditions: its derivatives do not exist, or depend on the direction"
             fix = "ask at a neighbouring speed, or free more of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
-        self._at, self._free, self._on_path = found, polish.free, polish.on_path
+        self._at, self._free, self._active = found, newton.free, newton.active
         self._at_lower = found - fine.lower < fine.upper - found
         own = fine.unknowns
-        room = _ROOM * own.scale
+        room = options.sensitivity.room * own.scale
         self._unknowns = Unknowns(own.names, own.lower - room, own.upper + room, own.scale)
         self._here = self._programme(problem)
-        self._conditions = Conditions(self._rows(self._here, found)[1])
+        tolerance = options.certificate.newton.rank_tolerance
+        self._null_space = NullSpace(self._conditions(self._here, found)[1], tolerance)
         gradient = self._here.objective_gradient(found)[self._free]
-        self._multipliers = self._conditions.multipliers(gradient)
-        null = self._conditions.null
+        self._multipliers = self._null_space.multipliers(gradient)
+        null = self._null_space.basis
         bent = [self._along(self._lagrangian_gradient, self._of_free(direction)) for direction in null.T]
         self._curvature = np.reshape(bent, (-1, self._free.sum())) @ null
 
@@ -99,7 +93,7 @@ class OptimumSlopes:
 
     @property
     def objective(self) -> float:
-        """What was made least."""
+        """What was minimised."""
         return self._here.objective(self._at) * self.problem.minimise.scale
 
     def active(self) -> list[Parameter]:
@@ -111,11 +105,11 @@ class OptimumSlopes:
             if not free and name in problem.free
         ]
         path = self._here.path_limits
-        met = dict.fromkeys(limit for limit, on in zip(path, self._on_path, strict=False) if on)
+        met = dict.fromkeys(limit for limit, on in zip(path, self._active, strict=False) if on)
         found += [bound_of(problem, name, SIDES[int(sign == "<=")]) for name, sign in met if name in PATH_NAMES]
-        if self._here.asked is not None:
-            active = self._here.asked.active_rows(self._on_path[len(path) :])
-            found += [limit_of(problem, i) for i in active]
+        if self._here.outputs is not None:
+            limits = self._here.outputs.with_active(self._active[len(path) :])
+            found += [limit_of(problem, i) for i in limits]
         return found
 
     def values(self, quantities: Sequence[Quantity]) -> np.ndarray:
@@ -136,12 +130,12 @@ class OptimumSlopes:
         if parameter.place[0] == "bounds" and parameter.place[1] in self.problem.free:
             index = self._unknowns.names.index(str(parameter.place[1]))
             moved[index], moves = size / scale[index], None
-        missed = self._along(lambda programme, x: self._rows(programme, x)[0], moved, moves)
+        residual = self._along(lambda programme, x: self._conditions(programme, x)[0], moved, moves)
         gained = self._along(lambda programme, x: np.array([programme.objective(x)]), moved, moves)[0]
-        objective = (gained - self._multipliers @ missed) * self.problem.minimise.scale
-        moved = moved + self._of_free(self._conditions.shortest(-missed))
+        objective = (gained - self._multipliers @ residual) * self.problem.minimise.scale
+        moved = moved + self._of_free(self._null_space.least_norm_step(-residual))
         turned = self._along(self._lagrangian_gradient, moved, moves)
-        null = self._conditions.null
+        null = self._null_space.basis
         moved = moved + self._of_free(null @ np.linalg.solve(self._curvature, -null.T @ turned))
         changes = moved[: scale.size] * scale / size
         read = self._along(lambda programme, x: self._read(programme, x, quantities), moved, moves) / size
@@ -154,10 +148,10 @@ class OptimumSlopes:
         )
 
     def _programme(self, problem: OrbitProblem) -> Transcription:
-        return Transcription(problem, _FINE, self._unknowns)
+        return Transcription(problem, self._options, self._options.sensitivity.fine_blocks, self._unknowns)
 
-    def _rows(self, programme: Transcription, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        values, jacobian = programme.conditions(scaled, self._on_path)
+    def _conditions(self, programme: Transcription, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values, jacobian = programme.active_conditions(scaled, self._active)
         return values, jacobian[:, self._free]
 
     def _of_free(self, free: np.ndarray) -> np.ndarray:
@@ -168,7 +162,7 @@ class OptimumSlopes:
 
     def _lagrangian_gradient(self, programme: Transcription, scaled: np.ndarray) -> np.ndarray:
         gradient = programme.objective_gradient(scaled)[self._free]
-        return gradient - self._rows(programme, scaled)[1].T @ self._multipliers
+        return gradient - self._conditions(programme, scaled)[1].T @ self._multipliers
 
     def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
         """Return quantities of the beat, flown by the certifier."""
@@ -177,7 +171,7 @@ class OptimumSlopes:
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
         # Not by the constructor: just outside of a bound there may be no such wingbeat, but there are its slopes.
         wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
-        flown = certify(problem.model, wingbeat, unknowns[:4])
+        flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
         velocity = problem.speed, problem.climb
         beat = flown_beat(problem.model, wingbeat, flown.phase, flown.states[:, 2:], velocity)
         return np.array([float(np.max(quantity.of(beat))) for quantity in quantities])
@@ -189,7 +183,7 @@ class OptimumSlopes:
         parameter: Parameter | None = None,
     ) -> np.ndarray:
         """Return the derivative of a function while the unknowns go a direction and a parameter its size."""
-        step = _STEP / max(1.0, float(np.abs(direction).max()))
+        step = self._options.sensitivity.step / max(1.0, float(np.abs(direction).max()))
         nodes = self._nodes(parameter, step)
         values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]
         return np.sum(values, axis=0) / step

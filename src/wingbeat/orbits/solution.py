@@ -14,16 +14,13 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, flown_beat
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.flight.floquet import floquet_multipliers
-from wingbeat.orbits.infeasible.deficit import Shortage
+from wingbeat.orbits.infeasible.deficit import Deficit
 from wingbeat.orbits.infeasible.relaxation import Relaxation
-from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-
-# Optima nearer to one another than this, in the optimiser's scale, are of one family. Some wingbeats can change a
-# little at hardly any cost, and where along them a search stops is chance.
-FAMILY = 0.05
 
 
 class Optimum(NamedTuple):
@@ -34,18 +31,19 @@ class Optimum(NamedTuple):
     starts: int = 1
 
 
-def families(optima: Iterable[Optimum], scale: np.ndarray) -> tuple[Optimum, ...]:
+def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tuple[Optimum, ...]:
     """Return the best optimum of each family, best first, with the searches that ended in it.
 
     Parameters
     ----------
     optima : those that searches ended in.
     scale : of the unknowns.
+    apart : optima nearer to one another than this, over the scale, are of one family.
     """
     found: list[Optimum] = []
     for optimum in sorted(optima, key=lambda o: o.objective):
         for i, other in enumerate(found):
-            if np.abs((optimum.unknowns - other.unknowns) / scale).max() <= FAMILY:
+            if np.abs((optimum.unknowns - other.unknowns) / scale).max() <= apart:
                 found[i] = other._replace(starts=other.starts + optimum.starts)
                 break
         else:
@@ -58,9 +56,9 @@ class Solution:
     """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted.
 
     `optima` are those that the searches met, one of each family. Where there is no orbit, wingbeat and start are of
-    the beat that comes closest; `shortages` says which law of balance it breaks and by how much, the most first,
-    and `relaxations` which single changes fly, the smallest first. `learned` is what problems near by can make use
-    of.
+    the beat nearest to one. `deficits` say which law of balance it breaks and by how much, the largest first;
+    `relaxations` say which single changes fly, the smallest first. `reduced_hessian` helps problems near by;
+    `options` are those of the solvers.
     """
 
     problem: OrbitProblem
@@ -77,17 +75,18 @@ class Solution:
     seconds: float
     certify_seconds: float
     optima: tuple[Optimum, ...] = ()
-    shortages: tuple[Shortage, ...] = ()
+    deficits: tuple[Deficit, ...] = ()
     relaxations: tuple[Relaxation, ...] = ()
-    learned: Curvature | None = None
+    reduced_hessian: ReducedHessian | None = None
+    options: SolverOptions = DEFAULTS
 
     @property
     def starts_at_best(self) -> int:
         """How many of the searches ended in the family of this optimum."""
         if self.status is not Status.CONVERGED:
             return 0
-        scale = self.problem.unknowns().scale
-        near = [o.starts for o in self.optima if np.abs((o.unknowns - self.unknowns) / scale).max() <= FAMILY]
+        scale, apart = self.problem.unknowns().scale, self.options.search.same_optimum
+        near = [o.starts for o in self.optima if np.abs((o.unknowns - self.unknowns) / scale).max() <= apart]
         return max(sum(near), 1)
 
     @property
@@ -104,15 +103,15 @@ class Solution:
 
     def same_as(self, other: Solution) -> bool:
         """Whether this optimum and another of the same problem are of one family."""
-        return bool(np.abs(self.place - other.place).max() <= FAMILY)
+        return bool(np.abs(self.place - other.place).max() <= self.options.search.same_optimum)
 
     @functools.cached_property
     def objective(self) -> float:
-        """What was made least."""
+        """What was minimised."""
         minimise = self.problem.minimise
-        if isinstance(minimise, Quantity):
-            return self.value_of(minimise)
-        return minimise.value(self.problem.unknowns().names, self.unknowns)
+        if minimise.parameter:
+            return float(self.unknowns[self.problem.unknowns().names.index(minimise.parameter)])
+        return self.value_of(minimise)
 
     def as_optimum(self) -> tuple[Optimum, ...]:
         """Return the orbit as an optimum that a search ended in; none where nothing is certified."""
@@ -137,8 +136,8 @@ class Solution:
 def better_of(own: Solution, other: Solution) -> Solution:
     """Return the better of two answers to one problem, with the searches, optima and times of both."""
     converged = [s for s in (own, other) if s.status is Status.CONVERGED]
-    told = [o for s in (own, other) for o in (s.optima or s.as_optimum())]
-    optima = families(told, own.problem.unknowns().scale)
+    known = [o for s in (own, other) for o in (s.optima or s.as_optimum())]
+    optima = families(known, own.problem.unknowns().scale, own.options.search.same_optimum)
     return dataclasses.replace(
         min(converged, key=lambda s: s.objective, default=own),
         starts=own.starts + other.starts,

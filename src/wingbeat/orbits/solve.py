@@ -20,30 +20,19 @@ from wingbeat.orbits.multistart import (
     search_from_optima,
     search_from_starts,
 )
-from wingbeat.orbits.nlp.defect_correction import SETTLED, Corrected, first_certified, follow_to_certificate, size
-from wingbeat.orbits.nlp.local_search import (
-    Candidate,
-    active_bounds,
-    refine,
-    violation,
-)
-from wingbeat.orbits.nlp.newton_kkt import Curvature, Polish
+from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified, follow_to_certificate, size
+from wingbeat.orbits.nlp.local_search import Candidate, active_bounds, refine, violation
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
-from wingbeat.orbits.solution import FAMILY, Optimum, Solution, better_of, families
+from wingbeat.orbits.solution import Optimum, Solution, better_of, families
 from wingbeat.orbits.starts import start_point, usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import core_count
 
-# Violation, in the optimiser's scale, of unknowns that are next to an orbit.
-_NEXT_TO = 5.0
-MOST_STARTS = 50
-# An uncorrected optimum whose objective is more than this share above a certified one's is no better: of 200
-# frequencies nearly all changed by less than .0025 when they were corrected.
-_UNSURE = 0.01
 
-
-def check_search(starts: int, seed: int, most_starts: int = MOST_STARTS) -> None:
+def check_search(starts: int, seed: int, most_starts: int = 1) -> None:
     """Raise `InvalidInputError` unless all are whole numbers in range."""
     faults = FaultList()
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("most_starts", most_starts, 1)):
@@ -60,23 +49,25 @@ def find_orbit(
     most_starts: int | None = None,
     advise: bool = True,
     explain: bool = True,
+    options: SolverOptions = DEFAULTS,
 ) -> Solution:
     """Search for the periodic orbit of least objective from several starts and certify it.
 
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; if not given 6, 12 where objective or limits are read off the beat, 24 where
-        bounds are other than the species' or peaks are made least; for peaks half as many follow beside the best.
+    starts : number of searches; if not given, as `SearchOptions` says for such a problem. Where peaks are
+        minimised, half as many follow beside the best.
     seed : makes the random starts; the same seed gives the same orbit.
-    progress : called with (searches done, searches in all); without an orbit changes are looked at after that, each
-        of which counts as one more.
+    progress : called with (searches done, searches in all). Without an orbit changes are tried after that, each of
+        which counts as one more.
     threads : searches at a time, as many as there are cores if not given.
-    most_starts : if none of the searches can be certified, more are made, up to this many (50 if not
-        given), before giving up.
-    advise : where there is no orbit, find the single changes that make one; costs as much as the searches.
-    explain : where there is no orbit, find the beat that comes closest to one and which law of balance fails; costs
-        a third of the searches. Without it nothing is advised.
+    most_starts : if none of the searches can be certified, more are made, up to this many; if not given, as
+        `SearchOptions` says.
+    advise : where there is no orbit, find the single changes that make one. It costs as much as the searches.
+    explain : where there is no orbit, find the beat nearest to one and which law of balance fails. It costs a third
+        of the searches. Without it nothing is advised.
+    options : of the solvers.
 
     Returns
     -------
@@ -86,19 +77,17 @@ def find_orbit(
     ------
     InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
-    starts = usual_starts(problem) if starts is None else starts
-    most = MOST_STARTS if most_starts is None else most_starts
+    starts = usual_starts(problem, options.search) if starts is None else starts
+    most = options.search.most_starts if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()
     threads = threads or core_count()
-    transcription = Transcription(problem)
-    best, found = _searched(transcription, starts, most, seed, threads, progress)
+    programme = Transcription(problem, options)
+    best, found = _searched(programme, starts, most, seed, threads, progress)
     ending = None
     if best is None:
-        best, ending = (
-            without_orbit(transcription, found, threads, advise, progress) if explain else unexplained(found)
-        )
-    return _found(transcription, best, found, len(found), seed, begun, ending)
+        best, ending = without_orbit(programme, found, threads, advise, progress) if explain else unexplained(found)
+    return _found(programme, best, found, len(found), seed, begun, ending)
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
@@ -107,16 +96,18 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     Only what may be better, as far as the search's few steps tell, is certified.
     """
     begun = time.perf_counter()
-    transcription, problem = Transcription(known.problem), known.problem
-    here = transcription.scaled(known.unknowns)
-    level = transcription.objective(here) * problem.minimise.scale
-    unsure = _UNSURE * max(abs(level), problem.minimise.scale)
-    found = first_searches(transcription, starts, seed, 1)
-    others = [c for c in optimal(found) if c.objective <= level - unsure or np.abs(c.scaled - here).max() > FAMILY]
-    best = first_certified(transcription, [c for c in others if c.objective <= level + unsure])
+    programme, options = Transcription(known.problem, known.options), known.options.search
+    here, scale = programme.scaled(known.unknowns), known.problem.minimise.scale
+    objective = programme.objective(here) * scale
+    error, apart = options.uncorrected_error * max(abs(objective), scale), options.same_optimum
+    found = first_searches(programme, starts, seed, 1)
+    others = [
+        c for c in optimal(found) if c.objective <= objective - error or np.abs(c.scaled - here).max() > apart
+    ]
+    best = first_certified(programme, [c for c in others if c.objective <= objective + error])
     if best is not None:
-        return better_of(_found(transcription, best, found, len(found), seed, begun), known)
-    optima = families([*known.as_optimum(), *optima_of(found)], problem.unknowns().scale)
+        return better_of(_found(programme, best, found, len(found), seed, begun), known)
+    optima = families([*known.as_optimum(), *optima_of(found)], known.problem.unknowns().scale, apart)
     return dataclasses.replace(
         known,
         starts=known.starts + len(found),
@@ -124,12 +115,12 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
         distinct_optima=len(optima),
         optima=optima,
         seconds=known.seconds + time.perf_counter() - begun,
-        certify_seconds=known.certify_seconds + transcription.certify_seconds,
+        certify_seconds=known.certify_seconds + programme.certify_seconds,
     )
 
 
 def _searched(
-    transcription: Transcription,
+    programme: Transcription,
     starts: int,
     most: int,
     seed: int,
@@ -137,26 +128,25 @@ def _searched(
     progress: Progress | None = None,
 ) -> tuple[Corrected | None, list[Candidate]]:
     """Return the best certified orbit that searches lead to, if any, and where they all ended."""
-    problem = transcription.problem
-    load_programs(transcription, start_point(problem, 0, seed))
-    found = first_searches(transcription, starts, seed, threads, progress)
-    best = first_certified(transcription, found)
-    for led in _where_limits_hold(problem, starts, seed, threads) if best is None else ():
+    load_programs(programme, start_point(programme.problem, 0, seed, programme.options.search))
+    found = first_searches(programme, starts, seed, threads, progress)
+    best = first_certified(programme, found)
+    for led in _where_limits_hold(programme, starts, seed, threads) if best is None else ():
         found += led
-        if (best := first_certified(transcription, led)) is not None:
+        if (best := first_certified(programme, led)) is not None:
             break
     more = range(starts, most if best is None else starts)
-    for done, candidate in enumerate(search_from_starts(transcription, more, seed, threads), starts + 1):
+    for done, candidate in enumerate(search_from_starts(programme, more, seed, threads), starts + 1):
         found.append(candidate)
         if progress is not None:  # what limits led to is none of the starts
             progress(done, max(starts, most))
-        if (best := first_certified(transcription, [candidate])) is not None:
+        if (best := first_certified(programme, [candidate])) is not None:
             break
     return best, found
 
 
 def _found(
-    transcription: Transcription,
+    programme: Transcription,
     best: Corrected,
     found: list[Candidate],
     searches: int,
@@ -164,53 +154,66 @@ def _found(
     begun: float,
     ending: Ending | None = None,
 ) -> Solution:
-    seconds, certifying = time.perf_counter() - begun, transcription.certify_seconds
-    optima = families(optima_of(found), transcription.problem.unknowns().scale)
+    seconds, certifying = time.perf_counter() - begun, programme.certify_seconds
+    apart = programme.options.search.same_optimum
+    optima = families(optima_of(found), programme.problem.unknowns().scale, apart)
     return _solution(best, searches, optima, seed, seconds, certifying, ending)
 
 
-def _where_limits_hold(problem: OrbitProblem, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
-    """Yield where searches end that start from beats that make least what a problem limits, a limit at a time.
+def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
+    """Yield where searches end that start from beats with the least of a limited quantity, one limit at a time.
 
-    Limits on a peak have edges in which searches from random starts catch; all fifty of the bat did at 10 m/s with
-    least positive power within a pitch torque that a quarter less would have done for.
+    Limits on a peak have edges in which searches from random starts stop: all fifty of the bat did at 10 m/s with
+    least positive power within a pitch torque, where a quarter less torque would have done.
     """
+    problem, options = programme.problem, programme.options
     for limit in problem.subject_to:
         if limit.at_most:
-            easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=limit.quantity))
-            yield search_from_optima(Transcription(problem), first_searches(easier, starts, seed, threads), threads)
+            # An output of the beat, as the limit is: a frequency that is held is no unknown.
+            least = dataclasses.replace(limit.quantity, parameter=None)
+            easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)
+            found = first_searches(easier, starts, seed, threads)
+            yield search_from_optima(Transcription(problem, options), found, threads)
 
 
-def settle(problem: OrbitProblem, guess: np.ndarray, like: Curvature | None = None) -> Solution | None:
+def correct_guess(
+    problem: OrbitProblem,
+    guess: np.ndarray,
+    like: ReducedHessian | None = None,
+    options: SolverOptions = DEFAULTS,
+) -> Solution | None:
     """Correct unknowns taken to be next to an orbit, without a search.
 
     Parameters
     ----------
     problem : the orbit problem.
     guess : unknowns.
-    like : what was learned of a problem much the same.
+    like : curvature of a problem much the same.
+    options : of the solvers.
 
     Returns
     -------
     The certified orbit, or None.
     """
     begun = time.perf_counter()
-    transcription = Transcription(problem)
-    scaled = transcription.scaled(guess)
-    if violation(transcription, scaled) > _NEXT_TO:
+    programme = Transcription(problem, options)
+    scaled = programme.scaled(guess)
+    if violation(programme, scaled) > options.continuation.near_closure:
         return None
-    polish = Polish(transcription, scaled, like)
-    nearer = polish.approach(scaled, SETTLED)
+    newton = NewtonKKT(programme, scaled, like)
+    nearer = newton.approach(programme, scaled, options.certificate.linear_range)
     if nearer is None:
         return None
-    corrected = follow_to_certificate(transcription, polish, nearer)
+    corrected = follow_to_certificate(programme, newton, nearer)
     if not corrected.is_orbit():
         return None
     seconds = time.perf_counter() - begun
-    return _solution(corrected, 1, (), 0, seconds, transcription.certify_seconds)
+    return _solution(corrected, 1, (), 0, seconds, programme.certify_seconds)
 
 
-def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> Solution | None:
+def search_near(
+    problem: OrbitProblem, start: np.ndarray, below: float = np.inf, options: SolverOptions = DEFAULTS
+) -> Solution | None:
     """Search once from unknowns near an orbit; return the certified orbit, or None.
 
     Parameters
@@ -218,28 +221,31 @@ def follow(problem: OrbitProblem, start: np.ndarray, below: float = np.inf) -> S
     problem : the orbit problem.
     start : unknowns to start from, clipped to their bounds.
     below : the objective must come out less than this, or the orbit is not even certified.
+    options : of the solvers.
     """
     begun = time.perf_counter()
-    candidate = refine(Transcription(problem), start)
-    if not (candidate.closed and candidate.optimal and candidate.objective < below):
+    candidate = refine(Transcription(problem, options), start)
+    if not (candidate.is_optimum and candidate.objective < below):
         return None
     return certified_optimum(candidate, time.perf_counter() - begun)
 
 
-def find_optima(problem: OrbitProblem, starts: int, seed: int = 0) -> list[Solution]:
-    """Return every distinct optimum that searches meet and the certifier closes, best first; none if none is.
+def find_optima(
+    problem: OrbitProblem, starts: int, seed: int = 0, options: SolverOptions = DEFAULTS
+) -> list[Solution]:
+    """Return every distinct optimum that searches find and the certifier closes, the best first.
 
     Parameters
     ----------
-    problem, starts, seed : as in `find_orbit`; the searches are made one after the other.
+    problem, starts, seed, options : as in `find_orbit`; the searches are made one after the other.
     """
     begun = time.perf_counter()
-    found = first_searches(Transcription(problem), starts, seed, 1)
+    found = first_searches(Transcription(problem, options), starts, seed, 1)
     each = (time.perf_counter() - begun) / starts
     optima: list[Solution] = []
     known: list[np.ndarray] = []
     for candidate in optimal(found):
-        if any(np.abs(candidate.scaled - other).max() <= FAMILY for other in known):
+        if any(np.abs(candidate.scaled - other).max() <= options.search.same_optimum for other in known):
             continue
         optimum = certified_optimum(candidate, each)
         if optimum is not None:
@@ -252,12 +258,12 @@ def find_optima(problem: OrbitProblem, starts: int, seed: int = 0) -> list[Solut
 def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
     """Return what a search ended in as the certifier closes it, or None; `seconds` is what the search took."""
     begun = time.perf_counter()
-    transcription = candidate.programme.anew()
-    best = first_certified(transcription, [candidate])
+    programme = candidate.programme.uncorrected()
+    best = first_certified(programme, [candidate])
     if best is None:
         return None
     seconds += time.perf_counter() - begun
-    return _solution(best, 1, (), 0, seconds, transcription.certify_seconds)
+    return _solution(best, 1, (), 0, seconds, programme.certify_seconds)
 
 
 def _solution(
@@ -269,32 +275,33 @@ def _solution(
     certify_seconds: float,
     ending: Ending | None = None,
 ) -> Solution:
-    told = ending or Ending(Status.CONVERGED, _certified_words(best))
+    end = ending or Ending(Status.CONVERGED, _certified_words(best))
     return Solution(
         best.programme.problem,
-        told.status,
-        told.message,
+        end.status,
+        end.message,
         best.wingbeat,
         best.certificate,
-        dict(zip(CLOSURE, (float(v) for v in best.miss), strict=True)),
+        dict(zip(CLOSURE, (float(v) for v in best.residual), strict=True)),
         active_bounds(best.programme, best.scaled),
         best.optimality,
         searches,
-        max(len(optima), 1) if told.status is Status.CONVERGED else len(optima),
+        max(len(optima), 1) if end.status is Status.CONVERGED else len(optima),
         seed,
         seconds,
         certify_seconds,
         optima,
-        told.shortages,
-        told.relaxations,
-        best.learned,
+        end.deficits,
+        end.relaxations,
+        best.reduced_hessian,
+        best.programme.options,
     )
 
 
 def _certified_words(best: Corrected) -> str:
-    words = f"certified: re-flown, it closes to {size(best.miss):.0e}"
-    problem = best.programme.problem
-    if is_at_lower_bound(problem, best.programme.physical(best.scaled)):
+    words = f"certified: re-flown, it closes to {size(best.residual):.0e}"
+    problem, tolerance = best.programme.problem, best.programme.options.search.bound_tolerance
+    if is_at_lower_bound(problem, best.programme.physical(best.scaled), tolerance):
         low = problem.bounds["frequency"][0]
         words += f"; the frequency is at its lower bound, {low:g} Hz: no search can better it"
     return words

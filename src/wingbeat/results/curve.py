@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.many.branches import trace
 from wingbeat.orbits.many.transitions import marks_of
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.results.characteristic import characteristic_speeds
@@ -25,7 +27,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND, inputs_hash, load_dataset
+from wingbeat.results.storage import inputs_hash, load_dataset
 from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
@@ -141,11 +143,12 @@ def solve_curve(
     seed: int = 0,
     power_limit: float | None = None,
     progress: Progress | None = None,
+    options: SolverOptions = DEFAULTS,
 ) -> Curve:
-    """Find the certified orbits of least objective along speed, and every other optimum met on the way.
+    """Find the certified orbits of least objective along speed, and every other optimum found on the way.
 
-    Every optimum that searches meet is continued to the neighbouring speeds, both ways, until nothing is new, in
-    steps that change no unknown by much; where the best of one speed is not continued into the best of the next the
+    Every optimum that searches find is continued to the neighbouring speeds, both ways, until nothing is new, in
+    steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
     curve carries a mark.
 
     Parameters
@@ -156,6 +159,7 @@ def solve_curve(
     seed : of the random starts.
     power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
     progress : called with (tasks done, tasks known of).
+    options : of the solvers.
 
     Raises
     ------
@@ -180,11 +184,11 @@ def solve_curve(
     faults.raise_if_any()
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
-    branches = trace(problem, speeds, starts, seed, progress)
+    branches = trace(problem, speeds, starts, seed, progress, options=options)
     with ThreadPoolExecutor(core_count()) as pool:
         tasks = [[pool.submit(Orbit.of(o, starts, seed).record) for o in optima] for optima in branches.optima]
         records = [[task.result() for task in row] for row in tasks]
-    inputs = inputs_of(problem, starts, seed) | {"speed": speeds, "power_limit": power_limit}
+    inputs = inputs_of(problem, starts, seed, options) | {"speed": speeds, "power_limit": power_limit}
     seconds = time.perf_counter() - begun
     return Curve(curve_dataset(branches, records, marks_of(branches), inputs, seconds))
 

@@ -20,6 +20,7 @@ from wingbeat.orbits.flight.floquet import floquet_multipliers
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.many.series import find_series
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
@@ -77,7 +78,7 @@ def _summary(record: dict[str, Any]) -> Summary:
 
 
 class Orbit:
-    """One periodic orbit, from `solve_orbit`, `solve_orbits`, `solve_series`, `load_orbit` or a study.
+    """One periodic orbit, from `solve_orbit`, `solve_orbits`, `load_orbit` or a study.
 
     What can be done with it::
 
@@ -131,7 +132,7 @@ class Orbit:
         solution : what a search found.
         starts, seed : what the search was asked for.
         """
-        inputs = inputs_of(solution.problem, starts, seed)
+        inputs = inputs_of(solution.problem, starts, seed, solution.options)
         start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
         # Partial functions, and no lambdas: an orbit can be pickled.
@@ -252,7 +253,11 @@ class Orbit:
 
 
 def solve_orbit(
-    problem: OrbitProblem, starts: int | None = None, seed: int = 0, progress: Progress | None = None
+    problem: OrbitProblem,
+    starts: int | None = None,
+    seed: int = 0,
+    progress: Progress | None = None,
+    options: SolverOptions = DEFAULTS,
 ) -> Orbit:
     """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
 
@@ -262,11 +267,12 @@ def solve_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches from different starts; more find better optima. If not given 6, 12 where
-        objective or limits are read off the beat, 24 where the wingbeat's bounds are other than the species' or the
-        largest value of a series is made least.
+    starts : number of searches from different starts; more find better optima. If not given 6, or 12 where the
+        objective or a limit is an output of the wingbeat, or 24 where the wingbeat's bounds are other than the
+        species' or the largest value of a series is minimised.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (searches done, searches in all).
+    options : every tuning number of the solvers, with the measurement behind it.
 
     Raises
     ------
@@ -280,12 +286,12 @@ def solve_orbit(
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    starts = usual_starts(problem) if starts is None else starts
+    starts = usual_starts(problem, options.search) if starts is None else starts
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
             pool.submit(_load_record_programs, problem)
-        solution = find_orbit(problem, starts, seed, progress)
+        solution = find_orbit(problem, starts, seed, progress, options=options)
     return Orbit.of(solution, starts, seed)
 
 
@@ -304,12 +310,15 @@ def solve_orbits(
     progress: Progress | None = None,
     most_starts: int | None = None,
     advise: bool = False,
+    in_order: bool = False,
+    options: SolverOptions = DEFAULTS,
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
 
-    Of problems that differ in numbers only, the first are searched as `solve_orbit` does; of a later one the first
-    search starts from what their answers foretell, and counts if it ends in a certified orbit. Where a problem has
-    several optima, that may be another than a search by itself would meet. `processes` do not change the answers.
+    Of problems that differ in numbers only, the first are searched as `solve_orbit` does. The first search of a
+    later one starts from what their answers predict, and counts if it ends in a certified orbit. Where a problem
+    has several optima, that may be another than a search by itself would find. The answers do not depend on
+    `processes`.
 
     Records and time series are made when asked for, so that thousands of orbits can be held and few looked at.
 
@@ -324,10 +333,15 @@ def solve_orbits(
         sooner.
     advise : for each problem without an orbit find the single changes that make one, as `solve_orbit` does; it
         takes seconds each.
+    in_order : the problems are a series, such as speeds in order, with the same free parameters. After its own
+        searches each is searched from its neighbours' answers, up and down the series until nothing gets better. So
+        the best family of orbits found anywhere reaches wherever it leads.
+    options : of the solvers.
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
+    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range, or problems in
+        order that differ in what is free.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -335,37 +349,9 @@ def solve_orbits(
     >>> [orbit.status.value for orbit in orbits]
     ['converged', 'converged', 'converged']
     """
-    found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise)
-    asked = (usual_starts(problem) if starts is None else starts for problem in problems)
-    return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
-
-
-def solve_series(
-    problems: Sequence[OrbitProblem], starts: int | None = None, seed: int = 0, most_starts: int | None = None
-) -> list[Orbit]:
-    """Find and certify orbits of problems in a row, such as speeds in order, each helped by its neighbours.
-
-    After its own searches each problem is searched from its neighbours' answers, up and down the row until
-    nothing gets better: the best family of orbits met anywhere reaches wherever it leads.
-
-    Parameters
-    ----------
-    problems : with the same free parameters, in an order in which neighbours are alike.
-    starts, seed, most_starts : as in `solve_orbits`, for each problem before answers are handed on.
-
-    Raises
-    ------
-    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
-
-    >>> import wingbeat as wb
-    >>> bat = wb.load_species("bat")
-    >>> orbits = wb.solve_series([wb.OrbitProblem(bat, speed=u) for u in (7.0, 8.0, 9.0)])
-    >>> all(orbit.record()["starts"] > 1 for orbit in orbits)
-    True
-    """
-    check_search(1 if starts is None else starts, seed)
-    found = find_series(problems, starts, seed, most_starts)
-    asked = (usual_starts(problem) if starts is None else starts for problem in problems)
+    solve = find_series if in_order else find_orbits
+    found = solve(problems, starts, seed, processes, progress, most_starts, advise, options)
+    asked = (usual_starts(problem, options.search) if starts is None else starts for problem in problems)
     return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
 
 

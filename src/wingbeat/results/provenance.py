@@ -17,8 +17,9 @@ from wingbeat.aero import (
 )
 from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective, named_quantity
+from wingbeat.orbits.problem.objectives import Quantity, named_objective, named_quantity
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
@@ -36,8 +37,8 @@ class NotInFileError(ValueError):
     """Inputs name a function of the user's, which no file holds."""
 
 
-def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
-    """Return all inputs of a problem and its search."""
+def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
+    """Return all inputs of a problem and its search; of the solvers' options those that are not the defaults."""
     species, coefficients = problem.species, problem.aero.coefficients
     aero = aero_record(problem.aero)
     if isinstance(coefficients, TableCoefficients):
@@ -76,6 +77,8 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int) -> dict[str, Any]:
         "starts": starts,
         "seed": seed,
     }
+    if options != DEFAULTS:
+        inputs["options"] = options.changed()
     return json.loads(json.dumps(inputs))
 
 
@@ -195,7 +198,7 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
     return {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
 
 
-def _asked_for(quantity: Frequency | Quantity) -> str:
+def _asked_for(quantity: Quantity) -> str:
     """Return the name that brings a quantity back, or one that never will: a user's function is in no file."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity

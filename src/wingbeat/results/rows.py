@@ -39,7 +39,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else [])])
     return {
         "flight": [("species, mean speed", place), ("air loads", loads), *flight_rows(record)],
-        "short of an orbit, at the closest beat": shortage_rows(record.get("failed_balance") or []),
+        "short of an orbit, at the closest beat": deficit_rows(record.get("failed_balance") or []),
         "nearest changes that fly, each by itself": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
         "plausible, and the range": plausible_rows(record.get("plausibility") or []),
@@ -80,11 +80,11 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
     return rows
 
 
-def shortage_rows(shortages: list[dict[str, Any]]) -> Rows:
+def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
     """Return which laws of balance fail, and by how much."""
     share = {"N m": "of weight times chord"}
     rows = []
-    for short in shortages:
+    for short in deficits:
         amount, of = _number(short["amount"], short["unit"], 1.0), share.get(short["unit"], "of the weight")
         rows.append((short["law"], f"{amount}, {100 * short['share']:.2g} % {of}"))
     return rows

@@ -10,7 +10,7 @@ import numpy as np
 
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import follow
+from wingbeat.orbits.solve import search_near
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.record import POWERS, power_summary
 
@@ -67,7 +67,8 @@ def orbit_spread(
     problem = orbit.problem
     rows = []
     for i, wingbeat in enumerate(wingbeats, start=1):
-        found = follow(dataclasses.replace(problem, species=problem.species.with_record(wingbeat)), orbit.unknowns)
+        there = dataclasses.replace(problem, species=problem.species.with_record(wingbeat))
+        found = search_near(there, orbit.unknowns)
         if found is not None:
             rows.append(_row(found))
         if progress is not None:

@@ -11,7 +11,7 @@ from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solution import FAMILY, Solution
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.vehicle import Air, Vehicle
 
@@ -46,7 +46,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             "the body rows with the wings, which flying animals were not checked to do"
         )
     notes += crossing(problem, solution.wingbeat)
-    if is_at_lower_bound(problem, solution.unknowns):
+    if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
         notes += at_lower_bound(solution)
         return notes
     notes += rivals(solution)
@@ -83,7 +83,7 @@ def rivals(solution: Solution) -> list[str]:
     best, unknowns = solution.objective, solution.problem.unknowns()
     near = [o for o in solution.optima if o.objective - best <= _RIVAL * abs(best)]
     away = [np.abs(o.unknowns - solution.unknowns) / unknowns.scale for o in near]
-    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > FAMILY]
+    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > solution.options.search.same_optimum]
     if not others:
         return []
     other, apart = max(others, key=lambda pair: pair[1].max())

@@ -11,10 +11,10 @@ import time
 from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from wingbeat.orbits.many.batch import find_helped, settle_foretold
+from wingbeat.orbits.many.batch import best_of_guesses, find_with_known
 from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import follow
+from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
@@ -24,8 +24,8 @@ __all__ = ["solve_unit"]
 
 # Recipes that a process keeps set up.
 _KEPT = 64
-# Answers of a chain that foretell the next: a parabola along it needs no more.
-_FORETELLING = 8
+# Answers of a chain that predict the next: a parabola along it needs no more.
+_PREDICTING = 8
 
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:
@@ -63,12 +63,12 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
     most = None if search["most_starts"] is None else int(search["most_starts"])
     seed = int(search["seed"])
     own, numbers = kind(problem), numbers_of(problem)
-    like = [one.known for one in before[-_FORETELLING:] if one.kind == own]
-    near = settle_foretold(problem, Answers(like, [numbers]).foretell(0))
+    like = [one.known for one in before[-_PREDICTING:] if one.kind == own]
+    near = best_of_guesses(problem, Answers(like, [numbers]).predict(0))
     if before and near is None:
-        near = follow(problem, before[-1].known.unknowns)
-    found = find_helped(problem, near, starts, seed, most, search["advise"], search["explain"])
-    return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, found.learned))
+        near = search_near(problem, before[-1].known.unknowns)
+    found = find_with_known(problem, near, starts, seed, most, search["advise"], search["explain"])
+    return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, found.reduced_hessian))
 
 
 @functools.lru_cache(_KEPT)

@@ -15,14 +15,20 @@ from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 
 SAMPLES = 256
-# Samples and tolerance of a flight that only corrects; it is right to some 1e-8 and takes half the time.
+# Samples of a flight that only corrects.
 _ROUGH_SAMPLES = 32
-_ROUGH = 2e-9
 
 
 @dataclass(frozen=True)
 class Certificate:
-    """One period flown by the certifier: phases (K,), states (K, 6), and where it stepped."""
+    """One period flown by the certifier.
+
+    Attributes
+    ----------
+    phase : phases, shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
+    steps : where the integrator stepped.
+    """
 
     phase: np.ndarray
     states: np.ndarray
@@ -39,9 +45,19 @@ class Certificate:
         return self.states[:, 2]
 
 
-def certify(model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, *, rough: bool = False) -> Certificate:
-    """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate), roughly or in earnest."""
+def certify(
+    model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, rtol: float = RTOL, *, rough: bool = False
+) -> Certificate:
+    """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
+
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    pitch_state : where it starts, shape (4,) [rad, m/s, m/s, rad/s].
+    rtol : relative tolerance of the flight.
+    rough : sample the path at a few phases only, which takes half the time.
+    """
     # As many phases either way, the last ones all at the end, so that one compiled flight serves both.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
     start = State(0.0, 0.0, *pitch_state)
-    return Certificate(phase, *fly_through(model, wingbeat, start, phase, _ROUGH if rough else RTOL))
+    return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))

@@ -1,20 +1,20 @@
 """Which law of balance fails where there is no orbit, and by how much.
 
-Of all beats within the bounds, that is sought whose end misses its start by velocities alone, and by as little as
-can be. A force that is short on average changes the velocity over the beat, a moment the pitch rate; told as shares
-of the weight, and of weight times chord, the two can be compared.
+We look for the wingbeat, within bounds, that returns to its position and attitude and comes closest to its initial
+velocity. A force that is short on average changes the velocity over the beat, a moment the pitch rate. As shares of
+the weight, and of weight times chord, the two can be compared.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from wingbeat._jax.config import jnp
 from wingbeat.mechanics.flight_model import motion_table
-from wingbeat.orbits.nlp.levenberg_marquardt import least_misses
+from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.problem.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 
@@ -22,22 +22,11 @@ THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
 LAWS = (THRUST, LIFT, MOMENT)
 # The state that does not return where a law fails.
 _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
-# A miss that no law excuses, of 1 in the optimiser's scale, weighs as much as so many weights that are short.
-_WEIGHT = 100.0
-# Flights of an elastic solve at most, and those after which the best of several goes on alone; the share by which
-# its last step lessens the squares.
-_EVALUATIONS, _TRIAL = 150, 25
-_SETTLED = 1e-5
-# The least gravity that gives a weight to compare forces with [m/s2]; without one nothing is a share of it.
-_LEAST_GRAVITY = 1e-3
-# A miss that is none, in the optimiser's scale, and a share that is none.
-_KEPT = 1e-3
-NOTHING = 1e-3
 
 
 @dataclass(frozen=True)
-class Shortage:
-    """What is short of a balance on average over the beat; negative where there is too much.
+class Deficit:
+    """What a balance lacks on average over the beat; negative where there is too much.
 
     Parameters
     ----------
@@ -66,12 +55,21 @@ class Shortage:
 
 
 @dataclass(frozen=True)
-class Closest:
-    """The beat that comes closest to an orbit with some laws broken, in the optimiser's scale, and the shares."""
+class Unbalanced:
+    """The beat nearest to an orbit with some laws broken, in the optimiser's scale, and the deficits as shares.
+
+    Parameters
+    ----------
+    scaled : its unknowns.
+    shares : the deficit of each broken law.
+    keeps_the_rest : whether all else holds.
+    nothing : a share that counts as none.
+    """
 
     scaled: np.ndarray
     shares: dict[str, float]
     keeps_the_rest: bool
+    nothing: float
 
     @property
     def is_excess(self) -> bool:
@@ -81,7 +79,7 @@ class Closest:
     @property
     def closes(self) -> bool:
         """Whether nothing is short at all."""
-        return self.keeps_the_rest and self.size <= NOTHING
+        return self.keeps_the_rest and self.size <= self.nothing
 
     @property
     def size(self) -> float:
@@ -94,7 +92,8 @@ class Balance:
 
     def __init__(self, programme: Transcription) -> None:
         self._programme, problem = programme, programme.problem
-        vehicle, gravity = problem.vehicle, max(problem.air.gravity, _LEAST_GRAVITY)
+        self._options = programme.options.diagnosis
+        vehicle, gravity = problem.vehicle, max(problem.air.gravity, self._options.least_gravity)
         weight = vehicle.mass * gravity
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
         inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: _pitch_inertia(problem)}
@@ -102,8 +101,12 @@ class Balance:
         # Times the frequency, the share that a miss of 1 in the optimiser's scale stands for.
         self._per_hertz = {law: inertias[law] * CLOSURE_SCALE[self._rows[law]] / self.units[law] for law in LAWS}
 
-    def closest(self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int = _EVALUATIONS) -> Closest:
-        """Return the beat near a place of the search that comes closest to an orbit, only these laws broken."""
+    def nearest(
+        self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int | None = None
+    ) -> Unbalanced:
+        """Return the beat nearest to an orbit, from a point of the search, with only these laws broken."""
+        options, weight = self._options, self._options.violation_weight
+        least = options.deficit if evaluations is None else replace(options.deficit, evaluations=evaluations)
         programme, broken = self._programme, tuple(broken)
         rows = [self._rows[law] for law in broken]
         per_hertz = np.array([self._per_hertz[law] for law in broken])
@@ -111,52 +114,53 @@ class Balance:
         column = names.index("frequency") if "frequency" in names else None
 
         def weights(x: np.ndarray) -> np.ndarray:
-            found = np.full(6, _WEIGHT)
+            found = np.full(6, weight)
             found[rows] = per_hertz * programme.problem.frequency(programme.physical(x))
             return found
 
-        def misses(x: np.ndarray) -> np.ndarray:
-            broken_limits = np.minimum(programme.margins(x), 0.0)
-            return np.concatenate([weights(x) * programme.closure(x), _WEIGHT * broken_limits])
+        def residuals(x: np.ndarray) -> np.ndarray:
+            exceeded = np.minimum(programme.inequalities(x), 0.0)
+            return np.concatenate([weights(x) * programme.closure(x), weight * exceeded])
 
         def jacobian(x: np.ndarray) -> np.ndarray:
             by_closure = weights(x)[:, None] * programme.closure_jacobian(x)
             if column is not None:
                 by_closure[rows, column] += per_hertz * scale[column] * programme.closure(x)[rows]
-            passed = programme.margins(x)[:, None] < 0
-            return np.concatenate([by_closure, _WEIGHT * passed * programme.margins_jacobian(x)])
+            exceeded = programme.inequalities(x)[:, None] < 0
+            return np.concatenate([by_closure, weight * exceeded * programme.inequalities_jacobian(x)])
 
-        found = least_misses(misses, jacobian, scaled, programme.lower, programme.upper, evaluations, _SETTLED)
+        found = least_squares(residuals, jacobian, scaled, programme.lower, programme.upper, least)
         short = -(weights(found) * programme.closure(found))[rows]
         rest = np.abs(np.delete(programme.closure(found), rows)).max()
-        keeps = max(rest, -programme.margins(found).min()) <= _KEPT
-        return Closest(found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps))
+        keeps = max(rest, -programme.inequalities(found).min()) <= options.kept_closure
+        return Unbalanced(found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps), options.nothing)
 
-    def failing(self, starts: Iterable[np.ndarray]) -> Closest:
-        """Return a beat that closes, or the closest with the one law broken that alone will do, or with all.
+    def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
+        """Return a beat that closes, or the nearest with the one law broken that alone suffices, or with all.
 
-        Of several laws that each will do, that which is broken least; but a force too large only where no shortage
-        will do, for what is too much can mostly be spilled, and is then the price of another law.
+        Of several laws that each suffice, the one that is broken least counts. A force that is too large counts
+        only where no deficit suffices: what is too much can mostly be spilled, as the price of another law.
         """
-        together: list[Closest] = []
+        trial = self._options.trial_evaluations
+        together: list[Unbalanced] = []
         for start in starts:
-            together.append(self.closest(start, evaluations=_TRIAL))
+            together.append(self.nearest(start, evaluations=trial))
             if together[-1].closes:
                 return together[-1]
-        best = self.closest(min(together, key=lambda c: (not c.keeps_the_rest, c.size)).scaled)
+        best = self.nearest(min(together, key=lambda c: (not c.keeps_the_rest, c.size)).scaled)
         if best.closes:
             return best
-        for evaluations in (_TRIAL, _EVALUATIONS):
-            alone = [self.closest(best.scaled, [law], evaluations) for law in LAWS]
+        for evaluations in (trial, None):
+            alone = [self.nearest(best.scaled, [law], evaluations) for law in LAWS]
             if keeping := [c for c in alone if c.keeps_the_rest]:
                 least = min(keeping, key=lambda c: (c.is_excess, c.size))
-                return self.closest(least.scaled, least.shares)
+                return self.nearest(least.scaled, least.shares)
         return best
 
-    def shortages(self, closest: Closest) -> tuple[Shortage, ...]:
-        """Return what is short at a beat, the most first."""
-        shares = sorted(closest.shares.items(), key=lambda item: -abs(item[1]))
-        return tuple(Shortage(law, share, share * self.units[law]) for law, share in shares)
+    def deficits(self, beat: Unbalanced) -> tuple[Deficit, ...]:
+        """Return what is short at a beat, the largest first."""
+        shares = sorted(beat.shares.items(), key=lambda item: -abs(item[1]))
+        return tuple(Deficit(law, share, share * self.units[law]) for law, share in shares)
 
 
 def _pitch_inertia(problem: OrbitProblem) -> float:

@@ -15,44 +15,41 @@ import numpy as np
 from wingbeat.orbits.infeasible.relaxation import Change, Relaxation, relaxation
 from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified
 from wingbeat.orbits.nlp.local_search import search
-from wingbeat.orbits.nlp.outputs import AT_BOUND
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.objectives import Frequency
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.starts import start_point
 
-# Times the lower bound, the raised bounds at which an orbit is looked for, and the searches for each.
-_RAISED = (2.0, 4.0, 8.0)
-_SEARCHES = 4
 
-
-def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray) -> bool:
+def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: float) -> bool:
     """Say whether the frequency is minimised and is at its lower bound: no search can better that."""
-    if not isinstance(problem.minimise, Frequency):
+    if problem.minimise.parameter != "frequency":
         return False
     low, high = problem.bounds["frequency"]
-    return problem.frequency(unknowns) - low <= AT_BOUND * (high - low)
+    return problem.frequency(unknowns) - low <= tolerance * (high - low)
 
 
-def may_end_at_lower_bound(problem: OrbitProblem, closed: Iterable[np.ndarray]) -> bool:
+def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
     """Say whether least frequency may end at its bound: in a descent, or where a beat at the bound closed."""
-    if not isinstance(problem.minimise, Frequency):
+    problem, tolerance = programme.problem, programme.options.search.bound_tolerance
+    if problem.minimise.parameter != "frequency":
         return False
-    return problem.climb < 0 or any(is_at_lower_bound(problem, unknowns) for unknowns in closed)
+    return problem.climb < 0 or any(is_at_lower_bound(problem, unknowns, tolerance) for unknowns in closed)
 
 
-def from_raised_bound(problem: OrbitProblem, seed: int = 0) -> tuple[Relaxation, Corrected] | None:
+def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxation, Corrected] | None:
     """Return the least raise of the lower bound of frequency at which an orbit is certified, and that orbit."""
+    problem, options = unsolved.problem, unsolved.options
+    raised, tolerance = options.diagnosis.raised_bounds, options.search.bound_tolerance
     low, high = (float(bound) for bound in problem.bounds["frequency"])
-    for times in _RAISED:
-        change = relaxation(problem, Change("frequency", ">=", low, _RAISED[-1] * low, low), times * low)
+    for times in raised:
+        change = relaxation(problem, Change("frequency", ">=", low, raised[-1] * low, low), times * low)
         if change.new >= high:
             return None
-        programme = Transcription(change.apply(problem))
-        for index in range(_SEARCHES):
-            met = search(programme.anew(), start_point(programme.problem, index, seed))
-            at_bound = is_at_lower_bound(programme.problem, programme.physical(met.scaled))
-            orbit = first_certified(programme, [met]) if at_bound else None
+        programme = Transcription(change.apply(problem), options)
+        for index in range(options.diagnosis.raised_starts):
+            found = search(programme.uncorrected(), start_point(programme.problem, index, seed, options.search))
+            at_bound = is_at_lower_bound(programme.problem, programme.physical(found.scaled), tolerance)
+            orbit = first_certified(programme, [found]) if at_bound else None
             if orbit is not None:
                 return change, orbit
     return None

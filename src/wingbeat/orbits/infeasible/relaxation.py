@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -11,6 +12,8 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.nomenclature import cf, for_people, plain_unit
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
+from wingbeat.orbits.options.diagnosis import ChangeOptions
+from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.parameters import Place, with_number
 from wingbeat.orbits.problem.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
@@ -35,28 +38,8 @@ _REACH = {
 _HARMONIC = (-0.5, 0.5)
 # How often a reach beyond what can be is halved.
 _HALVED = 6
-# A change of an angle by this much counts as large as a change of any other number by all of itself.
-_LARGE_ANGLE = math.radians(60.0)
-# Times itself that a limit is raised, or divided by, in looking for an orbit.
-_FAR = 30.0
-# The lightest body, and the most that is added to the speed, as a share of what was asked for.
-_LIGHTEST = 0.1
-_MUCH_FASTER = 5.0
-# Where a cost of transport is asked for, which hover has none of, the slowest flight, as a share of the speed.
-_SLOWEST = 0.01
-# A much wider range of frequencies: its ends times and over this, and shares of the upper end by which it is raised
-# first. Bounds of a scaling law used outside its data were met to be 9 times too low (a bat of 10 kg).
-_WIDE = 10.0
-_RAISED = (1.0, 3.0, _WIDE - 1.0)
-# Times what is short that a number is moved first.
-_MORE = 1.1
 # The least change that is worth a digit of its own, as a share of its scale.
 _LEAST = 1e-3
-# Chords that the shoulder is moved by, at most; of a speed near 0, what counts as large [m/s].
-_CHORDS = 2.0
-_BRISK = 2.0
-
-
 # Ends of the range of frequencies, which are moved whether or not the nearest beat is at them: a search that never
 # came near an orbit says nothing of where the frequency would have to be.
 WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
@@ -189,46 +172,61 @@ def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
 
 
 def possible_changes(
-    problem: OrbitProblem, leaning: Iterable[tuple[str, str]], short: Mapping[str, float]
+    problem: OrbitProblem,
+    at_bounds: Iterable[tuple[str, str]],
+    short: Mapping[str, float],
+    options: ChangeOptions = DEFAULTS.changes,
 ) -> Iterator[Change]:
     """Yield the changes that may make a problem feasible.
 
     Parameters
     ----------
     problem : the problem.
-    leaning : (name, sign) of the bounds, that of body pitch along the path too, that the nearest beat leans on.
-    short : what that beat is short of, by law, as shares of the weight and of weight times chord: a vehicle lighter
+    at_bounds : (name, sign) of the bounds that the nearest beat is at, that of body pitch along the path too.
+    short : what that beat is short of, by law, as shares of the weight and of weight times chord. A vehicle lighter
         by the lift that is short, or one that sinks by the thrust that is short, is next to an orbit.
+    options : how far, and in which steps.
     """
+    towards = functools.partial(_towards, large_angle=options.large_angle)
+    tries_for = functools.partial(_tries, beyond=options.beyond)
+    wide = options.wide_frequency
     limits = [(c.quantity.name, "<=" if c.at_most else ">=", c) for c in problem.subject_to]
     for name, sign, constraint in limits:
         old = float(constraint.limit)
         scale = abs(old) or constraint.quantity.scale
-        yield Change(name, sign, old, old + (_FAR if constraint.at_most else -_FAR) * scale, scale)
-    for name, sign in dict.fromkeys((*leaning, *WIDER_FREQUENCIES)):
+        yield Change(
+            name,
+            sign,
+            old,
+            old + (options.limit_factor if constraint.at_most else -options.limit_factor) * scale,
+            scale,
+        )
+    for name, sign in dict.fromkeys((*at_bounds, *WIDER_FREQUENCIES)):
         if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
             upper = sign == "<="
             old = float(problem.bounds[name][upper])
-            tries = _RAISED if (name, upper) == ("frequency", True) else ()
-            yield from _towards(name, sign, old, _reach(problem, name, old, upper), tries)
+            tries = options.raised_frequency if (name, upper) == ("frequency", True) else ()
+            yield from towards(name, sign, old, _reach(problem, name, old, upper, wide), tries)
     for name in problem.species.bounds:
         if name not in problem.free:
             old = float(parameter(problem.species.wingbeat, name))
             for upper in (False, True):
-                tries = (0.1, 0.3, *_RAISED) if name == "frequency" else (0.1, 0.3)
-                yield from _towards(name, "=", old, _reach(problem, name, old, upper), tries)
+                tries = (0.1, 0.3, *options.raised_frequency) if name == "frequency" else (0.1, 0.3)
+                yield from towards(name, "=", old, _reach(problem, name, old, upper, wide), tries)
     wing = problem.vehicle.wing
     mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
-    yield Change("mass", "=", mass, wings + _LIGHTEST * (mass - wings), mass, _tries(short.get(LIFT), (0.3, 0.6)))
-    brisk = max(problem.speed, _BRISK)
-    fastest = min(problem.speed + _MUCH_FASTER * brisk, FASTEST)
+    yield Change(
+        "mass", "=", mass, wings + options.lightest * (mass - wings), mass, tries_for(short.get(LIFT), (0.3, 0.6))
+    )
+    brisk = max(problem.speed, options.low_speed)
+    fastest = min(problem.speed + options.faster * brisk, FASTEST)
     yield from _moving("speed", problem.speed, fastest, brisk, (0.3, 1.0, 2.5))
-    slowest = _SLOWEST * problem.speed if problem.asks_cost_of_transport else 0.0
+    slowest = options.slowest * problem.speed if problem.asks_cost_of_transport else 0.0
     yield from _moving("speed", problem.speed, slowest, brisk, (0.3,))
     steepest = max(problem.climb - brisk, -FASTEST_CLIMB)
-    yield from _moving("climb", problem.climb, steepest, brisk, _tries(short.get(THRUST), (0.2, 0.4)))
+    yield from _moving("climb", problem.climb, steepest, brisk, tries_for(short.get(THRUST), (0.2, 0.4)))
     for way in (1.0, -1.0):
-        reach, tries = ahead + way * _CHORDS * wing.mean_chord, _tries(short.get(MOMENT), (0.2, 0.6))
+        reach, tries = ahead + way * options.chords * wing.mean_chord, tries_for(short.get(MOMENT), (0.2, 0.6))
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
 
 
@@ -238,12 +236,12 @@ def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[floa
         yield Change(name, "=", old, reach, scale, tries)
 
 
-def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
+def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: float) -> float:
     """Return how far a number of the wingbeat may go, up or down, for there still to be a wingbeat."""
     reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
     far = reach[upper]
     if name == "frequency":
-        far = max(far, _WIDE * old) if upper else min(far, old / _WIDE)
+        far = max(far, wide * old) if upper else min(far, old / wide)
     for _ in range(_HALVED):
         try:
             with_parameters(problem.species.wingbeat, {} if name in PATH_NAMES else {name: far})
@@ -254,13 +252,15 @@ def _reach(problem: OrbitProblem, name: str, old: float, upper: bool) -> float:
     return old
 
 
-def _tries(short: float | None, others: tuple[float, ...]) -> tuple[float, ...]:
-    return others if short is None else (_MORE * abs(short), *others)
+def _tries(short: float | None, others: tuple[float, ...], beyond: float) -> tuple[float, ...]:
+    return others if short is None else (beyond * abs(short), *others)
 
 
-def _towards(name: str, sign: str, old: float, reach: float, tries: tuple[float, ...] = ()) -> Iterator[Change]:
+def _towards(
+    name: str, sign: str, old: float, reach: float, tries: tuple[float, ...], large_angle: float
+) -> Iterator[Change]:
     """Yield the change from old to reach, if there is any way to go in that direction."""
-    scale = _LARGE_ANGLE if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
+    scale = large_angle if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
     if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
         yield Change(name, sign, old, reach, scale, tries)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from wingbeat.orbits.infeasible.deficit import NOTHING, Shortage
+from wingbeat.orbits.infeasible.deficit import Deficit
 from wingbeat.orbits.infeasible.diagnosis import certified_changes, least_changes, nearest_beat, words_of
 from wingbeat.orbits.infeasible.lower_bound import from_raised_bound, may_end_at_lower_bound, words_of_raise
 from wingbeat.orbits.infeasible.relaxation import Relaxation
@@ -21,7 +21,7 @@ class Ending:
 
     status: Status
     message: str
-    shortages: tuple[Shortage, ...] = ()
+    deficits: tuple[Deficit, ...] = ()
     relaxations: tuple[Relaxation, ...] = ()
 
 
@@ -42,22 +42,22 @@ def without_orbit(
     advise : whether to look for changes that fly.
     progress : called with (searches done, searches in all), each change one more.
     """
-    problem = programme.problem
     nearest = nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
 
-    def told(done: int, total: int) -> None:
+    def report(done: int, total: int) -> None:
         if progress is not None:
             progress(len(found) + done, len(found) + total)
 
     closed = [programme.physical(c.scaled) for c in found if c.closed]
-    raised = from_raised_bound(problem) if may_end_at_lower_bound(problem, closed) else None
+    raised = from_raised_bound(programme) if may_end_at_lower_bound(programme, closed) else None
     if raised is not None:
         return _below(programme, *raised)
-    met = least_changes(problem, near, nearest, threads, told) if advise and not nearest.closes else []
+    changes = least_changes(programme, near, nearest, threads, report) if advise and not nearest.closes else []
     # A change of next to nothing is none: the searches missed what was there.
-    leads = [near] * nearest.closes + [eased.unknowns for eased in met if eased.share <= NOTHING]
-    led = [search(programme.anew(), lead) for lead in leads]
+    nothing = programme.options.diagnosis.nothing
+    leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= nothing]
+    led = [search(programme.uncorrected(), lead) for lead in leads]
     orbit = first_certified(programme, led)
     if orbit is not None:
         return orbit, None
@@ -65,15 +65,15 @@ def without_orbit(
     if closing:
         return _uncertified(closing, len(found))
     if nearest.closes:
-        return certified(programme.anew(), nearest.scaled), _no_optimum("almost close", len(found))
-    changes = certified_changes(problem, met)
-    message = f"no orbit within the bounds in {len(found)} searches: {words_of(problem, nearest.shortages)}"
-    if changes:
-        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in changes)}"
+        return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost close", len(found))
+    flying = certified_changes(programme, changes)
+    message = f"no orbit within the bounds in {len(found)} searches: {words_of(programme, nearest.deficits)}"
+    if flying:
+        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
-    ending = Ending(Status.INFEASIBLE, message, nearest.shortages, changes)
-    return certified(programme.anew(), nearest.scaled), ending
+    ending = Ending(Status.INFEASIBLE, message, nearest.deficits, flying)
+    return certified(programme.uncorrected(), nearest.scaled), ending
 
 
 def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
@@ -83,13 +83,13 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
         return _uncertified(closing, len(found))
     nearest = min(found, key=lambda c: c.violation)
     message = f"no orbit within the bounds in {len(found)} searches; which law of balance fails was not asked"
-    return certified(nearest.programme.anew(), nearest.scaled), Ending(Status.INFEASIBLE, message)
+    return certified(nearest.programme.uncorrected(), nearest.scaled), Ending(Status.INFEASIBLE, message)
 
 
 def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, Ending]:
     """Return the beat that closes best, of those that do but are no optima."""
     nearest = min(closing, key=lambda c: c.violation)
-    return certified(nearest.programme.anew(), nearest.scaled), _no_optimum("close", searches)
+    return certified(nearest.programme.uncorrected(), nearest.scaled), _no_optimum("close", searches)
 
 
 def _no_optimum(how: str, searches: int) -> Ending:
@@ -103,9 +103,9 @@ def _no_optimum(how: str, searches: int) -> Ending:
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:
     """Return the orbit that one at a raised bound of the frequency leads to, or that one and what to change."""
     problem, beat = programme.problem, orbit.programme.physical(orbit.scaled)
-    lower = first_certified(programme, [search(programme.anew(), beat)])
+    lower = first_certified(programme, [search(programme.uncorrected(), beat)])
     if lower is not None:
         return lower, None
     message = words_of_raise(problem, change)
     ending = Ending(Status.NOT_CONVERGED, message, relaxations=(change,))
-    return certified(programme.anew(), programme.scaled(beat)), ending
+    return certified(programme.uncorrected(), programme.scaled(beat)), ending

@@ -18,11 +18,12 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.orbits.many.warm_start import Answers, Group, Known, alike, numbers_of
-from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.many.warm_start import Answers, Group, Known, group_similar, numbers_of
+from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, check_search, find_beside, find_orbit, settle
+from wingbeat.orbits.solve import Progress, check_search, correct_guess, find_beside, find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import cores_of, pin_to
@@ -54,17 +55,18 @@ def find_orbits(
     progress: Progress | None = None,
     most_starts: int | None = None,
     advise: bool = False,
+    options: SolverOptions = DEFAULTS,
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
 
-    Of problems that differ in numbers only, the first are searched as in `find_orbit`. Of a later one the first
-    search starts from what their answers foretell; if that leads to no certified orbit, it does not count. Of many
-    that are alike some go first and foretell the rest, which is shared out.
+    Of problems that differ in numbers only, the first are searched as in `find_orbit`. The first search of a later
+    one starts from what their answers predict; if that leads to no certified orbit, it does not count. Of many that
+    are alike some go first and predict the rest, which is shared out.
 
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
-    starts, seed, most_starts, advise : as in `find_orbit`, for each problem.
+    starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem.
     processes : how many Python processes share the work; with 1 it is done in this one. The answers are the same.
     progress : called with (problems done, problems in all).
 
@@ -79,8 +81,10 @@ def find_orbits(
     check_processes(faults, processes)
     faults.raise_if_any()
     check_search(1 if starts is None else starts, seed, 1 if most_starts is None else most_starts)
-    solve = functools.partial(_solve_part, starts=starts, seed=seed, most_starts=most_starts, advise=advise)
-    return _in_order(solve, problems, processes, progress)
+    asked = {"starts": starts, "seed": seed, "most_starts": most_starts, "advise": advise, "options": options}
+    solve = functools.partial(_solve_part, **asked)
+    groups = group_similar(problems, options.continuation)
+    return _in_order(solve, problems, groups, processes, progress)
 
 
 def check_processes(faults: FaultList, processes: Any) -> None:
@@ -91,11 +95,11 @@ def check_processes(faults: FaultList, processes: Any) -> None:
 def _in_order(
     solve: Callable[[Part], Iterator[Answer]],
     problems: Sequence[OrbitProblem],
+    groups: Sequence[Group],
     processes: int,
     progress: Progress | None,
 ) -> Iterator[Solution]:
     """Solve group by group, and yield each solution when its turn comes."""
-    groups = alike(problems)
     work = solve if processes == 1 else functools.partial(_all_of, solve)
     waiting: dict[int, Solution] = {}
     due = 0
@@ -134,31 +138,33 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 
 
 def _solve_part(
-    part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool
+    part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool, options: SolverOptions
 ) -> Iterator[Answer]:
     """Solve the problems of a part in turn, each helped by the answers before."""
     numbers = [numbers_of(problem) for problem in part.problems]
-    answers = Answers(part.known, numbers)
+    answers = Answers(part.known, numbers, options.continuation)
     for i, problem in enumerate(part.problems):
-        count = usual_starts(problem) if starts is None else starts
-        settled = settle_foretold(problem, answers.foretell(i))
-        best = find_helped(problem, settled, count, seed, most_starts, advise)
-        known = None
+        count = usual_starts(problem, options.search) if starts is None else starts
+        known = best_of_guesses(problem, answers.predict(i), options)
+        best = find_with_known(problem, known, count, seed, most_starts, advise, options=options)
+        answer = None
         if best.status is Status.CONVERGED:
-            known = Known(numbers[i], best.unknowns, best.active_bounds, best.learned)
-            answers.add(i, known)
-        yield best, known
+            answer = Known(numbers[i], best.unknowns, best.active_bounds, best.reduced_hessian)
+            answers.add(i, answer)
+        yield best, answer
 
 
-def settle_foretold(
-    problem: OrbitProblem, guesses: Sequence[tuple[np.ndarray, Curvature | None]]
+def best_of_guesses(
+    problem: OrbitProblem,
+    guesses: Sequence[tuple[np.ndarray, ReducedHessian | None]],
+    options: SolverOptions = DEFAULTS,
 ) -> Solution | None:
-    """Return the best certified orbit next to what answers foretell, or None."""
-    settled = [found for guess in guesses if (found := settle(problem, *guess)) is not None]
-    return min(settled, key=lambda found: found.objective, default=None)
+    """Return the best certified orbit next to what answers predict, or None."""
+    near = (correct_guess(problem, guess, like, options) for guess, like in guesses)
+    return min((found for found in near if found is not None), key=lambda found: found.objective, default=None)
 
 
-def find_helped(
+def find_with_known(
     problem: OrbitProblem,
     known: Solution | None,
     starts: int,
@@ -166,16 +172,17 @@ def find_helped(
     most_starts: int | None = None,
     advise: bool = False,
     explain: bool = True,
+    options: SolverOptions = DEFAULTS,
 ) -> Solution:
-    """Return the best of a certified orbit that other answers led to, if any, and what the searches left find.
+    """Return the best of a certified orbit that other answers led to, if any, and what the other searches find.
 
     Parameters
     ----------
-    problem, starts, seed, most_starts, advise, explain : as in `find_orbit`.
-    known : takes the place of one search; with it there is an orbit, so nobody asks for most_starts or advice.
+    problem, starts, seed, most_starts, advise, explain, options : as in `find_orbit`.
+    known : takes the place of one search; with it there is an orbit, so most_starts and advice do not matter.
     """
     if known is None:
-        return find_orbit(problem, starts, seed, threads=1, most_starts=most_starts, advise=advise, explain=explain)
+        return find_orbit(problem, starts, seed, None, 1, most_starts, advise, explain, options)
     return known if starts == 1 else find_beside(known, starts - 1, seed)
 
 

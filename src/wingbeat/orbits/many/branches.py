@@ -1,4 +1,4 @@
-"""Branches of orbits along speed: every optimum met is continued both ways, and what leaps is known to leap."""
+"""Branches of orbits along speed: every optimum found is continued both ways, and jumps are known as jumps."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, refine
-from wingbeat.orbits.nlp.newton_kkt import Curvature, Polish
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solution import FAMILY, Solution
+from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
 from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import core_count
@@ -22,21 +23,8 @@ from wingbeat.workers.affinity import core_count
 T = TypeVar("T")
 R = TypeVar("R")
 
-# An orbit this near to another, in the optimiser's scale, may be its continuation: 2 degrees of flap amplitude and
-# of body pitch, .9 Hz, .15 m/s. One farther off is so only if orbits between them lead there step by step.
-LEAP = 0.15
-# The shortest step along speed [m/s]: a family that cannot be continued by so little has ended.
-_LEAST_STEP = 0.02
-_FIRST_STEP = 0.25
-# Iterations of the search that a step is given where Newton's method fails, as where a bound is met or left.
-_STEP_ITERATIONS = 20
-# Between the ends of the range fewer searches are made, by this factor: most is found by continuing.
-_FEWER = 3
-# Optima of one speed that are continued, best first, whatever else was met there.
-_FOLLOWED = 5
 
-
-class Join(NamedTuple):
+class BranchLink(NamedTuple):
     """Optimum `lower` of one speed and `upper` of the next are one branch, with `steps` from one to the other."""
 
     interval: int
@@ -46,17 +34,17 @@ class Join(NamedTuple):
 
 
 class Landing(NamedTuple):
-    """Where continuing an optimum led: the optimum there, if any, and in how many steps; 0 if by a leap."""
+    """Where continuing an optimum led: the optimum there, if any, and in how many steps; 0 if by a jump."""
 
     optimum: Solution | None
     steps: int
 
 
 class Branches(NamedTuple):
-    """All optima met at each speed, best first, or the one failed search where none was; and how they join."""
+    """The optima of each speed, the best first, and their links; where there is none the one failed search."""
 
     optima: tuple[tuple[Solution, ...], ...]
-    joins: tuple[Join, ...]
+    links: tuple[BranchLink, ...]
 
 
 def trace(
@@ -66,8 +54,9 @@ def trace(
     seed: int,
     progress: Progress | None = None,
     threads: int | None = None,
+    options: SolverOptions = DEFAULTS,
 ) -> Branches:
-    """Search at every speed, continue every optimum met to the speeds beside it, and so on until nothing is new.
+    """Search at every speed, continue every optimum found to the speeds beside it, and so on until nothing is new.
 
     Parameters
     ----------
@@ -75,38 +64,49 @@ def trace(
     speeds : increasing [m/s].
     starts, seed : of the searches at each speed; a speed at which nothing is certified gets twice as many.
     progress : called with (tasks done, tasks known of).
-    threads : tasks at a time, as many as there are cores if not given; the answer does not hang on it.
+    threads : tasks at a time, as many as there are cores if not given; the answer does not depend on it.
+    options : of the solvers.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
-            return _Tracing(problems, pool, progress).branches(starts, seed)
+            return _BranchTracer(problems, pool, progress, options).branches(starts, seed)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-class _Tracing:
+class _BranchTracer:
     """What is known so far. Tasks of a round do not know of one another, so their order changes nothing."""
 
-    def __init__(self, problems: list[OrbitProblem], pool: ThreadPoolExecutor, progress: Progress | None) -> None:
-        self._problems, self._pool, self._progress = problems, pool, progress
+    def __init__(
+        self,
+        problems: list[OrbitProblem],
+        pool: ThreadPoolExecutor,
+        progress: Progress | None,
+        options: SolverOptions,
+    ) -> None:
+        self._problems, self._pool, self._progress, self._options = problems, pool, progress, options
         self._met: list[list[Solution]] = [[] for _ in problems]
-        self._joins: dict[tuple[int, int, int], int] = {}
+        self._links: dict[tuple[int, int, int], int] = {}
         self._tried: set[tuple[int, int, int]] = set()
         self._searches = [0] * len(problems)
         self._done = 0
 
     def branches(self, starts: int, seed: int) -> Branches:
-        last = len(self._problems) - 1
-        counts = [starts if place in (0, last) else math.ceil(starts / _FEWER) for place in range(last + 1)]
-        met = self._each(lambda i: find_optima(self._problems[i], counts[i], seed + i), range(last + 1))
+        last, options = len(self._problems) - 1, self._options
+        between = math.ceil(starts / options.continuation.fewer_starts)
+        counts = [starts if place in (0, last) else between for place in range(last + 1)]
+        met = self._each(lambda i: find_optima(self._problems[i], counts[i], seed + i, options), range(last + 1))
         for place, optima in enumerate(met):
             self._searches[place] += counts[place]
             for optimum in optima:
                 self._add(place, optimum)
         self._grow()
         lost = [place for place, met in enumerate(self._met) if not met]
-        again = self._each(lambda i: find_orbit(self._problems[i], 2 * starts, seed, None, 1, 2 * starts), lost)
+        twice = 2 * starts
+        again = self._each(
+            lambda i: find_orbit(self._problems[i], twice, seed, None, 1, twice, options=options), lost
+        )
         failed = {}
         for place, solution in zip(lost, again, strict=True):
             self._searches[place] += solution.starts
@@ -131,7 +131,7 @@ class _Tracing:
     def _add(self, place: int, optimum: Solution) -> int:
         """Return the index of an optimum among those met at its speed."""
         for index, other in enumerate(self._met[place]):
-            if np.abs(optimum.place - other.place).max() <= FAMILY:
+            if np.abs(optimum.place - other.place).max() <= self._options.search.same_optimum:
                 if optimum.objective < other.objective:
                     self._met[place][index] = optimum
                 return index
@@ -154,32 +154,34 @@ class _Tracing:
             landed = self._add(there, optimum)
             if steps:
                 ends = (index, landed) if way > 0 else (landed, index)
-                self._joins.setdefault((min(place, there), *ends), steps)
+                self._links.setdefault((min(place, there), *ends), steps)
         return bool(tasks)
 
     def _continued(self, place: int, index: int, way: int) -> Landing:
         return carry(self._met[place][index], self._problems[place + way])
 
     def _due(self, way: int) -> list[tuple[int, int, int]]:
-        """Return the optima that nothing joins to the next speed that way yet."""
-        joined = {(i, low) if way > 0 else (i + 1, high) for i, low, high in self._joins}
+        """Return the optima that nothing links to the next speed that way yet."""
+        linked = {(i, low) if way > 0 else (i + 1, high) for i, low, high in self._links}
         return [
             (place, index, way)
             for place, met in enumerate(self._met)
-            for index in sorted(range(len(met)), key=lambda k: met[k].objective)[:_FOLLOWED]
+            for index in sorted(range(len(met)), key=lambda k: met[k].objective)[
+                : self._options.continuation.followed
+            ]
             if 0 <= place + way < len(self._met)
-            and (place, index) not in joined
+            and (place, index) not in linked
             and (place, index, way) not in self._tried
         ]
 
     def _between_best(self) -> list[tuple[int, int, int]]:
-        """Return what is untried between the best of neighbouring speeds that are not joined."""
+        """Return what is untried between the best of neighbouring speeds that are not linked."""
         tasks = []
         for place in range(len(self._met) - 1):
             if not self._met[place] or not self._met[place + 1]:
                 continue
             low, high = (min(range(len(m)), key=lambda k: m[k].objective) for m in self._met[place : place + 2])
-            if (place, low, high) not in self._joins:
+            if (place, low, high) not in self._links:
                 tasks += [(place, low, 1), (place + 1, high, -1)]
         return [task for task in tasks if task not in self._tried]
 
@@ -192,15 +194,15 @@ class _Tracing:
             count = {"starts": self._searches[place], "distinct_optima": len(met)}
             here = [met[k] for k in order] or [failed[place]]
             optima.append(tuple(dataclasses.replace(optimum, **count) for optimum in here))
-        joins = [
-            Join(place, ranks[place][low], ranks[place + 1][high], steps)
-            for (place, low, high), steps in self._joins.items()
+        links = [
+            BranchLink(place, ranks[place][low], ranks[place + 1][high], steps)
+            for (place, low, high), steps in self._links.items()
         ]
-        return Branches(tuple(optima), tuple(sorted(joins)))
+        return Branches(tuple(optima), tuple(sorted(links)))
 
 
 def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
-    """Continue an optimum to another speed, in steps so short that each lands within `LEAP` of the one before.
+    """Continue an optimum to another speed, in steps so short that each lands within `max_step` of the one before.
 
     Parameters
     ----------
@@ -212,48 +214,46 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
     The certified orbit there and the number of steps. If the family ends on the way: where a search from its end
     leads, if that is to an orbit, and 0.
     """
+    options = optimum.options.continuation
     speed, last = optimum.problem.speed, problem.speed
     here, rate = optimum.place, np.zeros(optimum.place.size)
-    step = math.copysign(min(_FIRST_STEP, abs(last - speed)), last - speed)
-    learned: Curvature | None = None
+    step = math.copysign(min(options.first_speed_step, abs(last - speed)), last - speed)
+    hessian: ReducedHessian | None = None
     steps = 0
-    while abs(step) >= _LEAST_STEP:
+    while abs(step) >= options.least_speed_step:
         # A rest too short to be a step of its own goes with this one.
-        ends = abs(last - speed - step) < _LEAST_STEP
+        ends = abs(last - speed - step) < options.least_speed_step
         step = last - speed if ends else step
         there = problem if ends else dataclasses.replace(problem, speed=speed + step)
-        candidate, learned = _next_to(Transcription(there), unknowns_at(here + rate * step, there), learned)
+        programme = Transcription(there, optimum.options)
+        candidate, hessian = _next_to(programme, unknowns_at(here + rate * step, there), hessian)
         found = here if candidate is None else place_of(candidate)
-        if candidate is None or np.abs(found - here).max() > LEAP:
+        if candidate is None or np.abs(found - here).max() > options.max_step:
             step, rate = 0.5 * step, 0.0 * rate
             continue
         steps += 1
         if ends:
             return Landing(certified_optimum(candidate, 0.0), steps)
         rate, here, speed = (found - here) / step, found, speed + step
-        fitting = 0.8 * LEAP / max(np.abs(rate).max(), 1e-9)
-        step = math.copysign(min(fitting, 4.0 * abs(step), abs(last - speed)), step)
-    candidate = refine(Transcription(problem), unknowns_at(here, problem))
-    return Landing(certified_optimum(candidate, 0.0) if _is_optimum(candidate) else None, 0)
-
-
-def _is_optimum(candidate: Candidate) -> bool:
-    return candidate.closed and candidate.optimal
+        fitting = options.aimed_step * options.max_step / max(np.abs(rate).max(), 1e-9)
+        step = math.copysign(min(fitting, options.step_growth * abs(step), abs(last - speed)), step)
+    candidate = refine(Transcription(problem, optimum.options), unknowns_at(here, problem))
+    return Landing(certified_optimum(candidate, 0.0) if candidate.is_optimum else None, 0)
 
 
 def _next_to(
-    programme: Transcription, guess: np.ndarray, like: Curvature | None
-) -> tuple[Candidate | None, Curvature | None]:
+    programme: Transcription, guess: np.ndarray, like: ReducedHessian | None
+) -> tuple[Candidate | None, ReducedHessian | None]:
     """Return the optimum next to a guess, by Newton's method or else a search, and what helps with the next one."""
     scaled = programme.scaled(guess)
-    polish = Polish(programme, scaled, like)
-    near = polish.follow(scaled)
+    newton = NewtonKKT(programme, scaled, like)
+    near = newton.converge(programme, scaled)
     if near is not None:
         candidate = as_candidate(programme, near)
-        if _is_optimum(candidate):
-            return candidate, polish.learned
-    candidate = refine(programme, guess, _STEP_ITERATIONS)
-    return (candidate, None) if _is_optimum(candidate) else (None, None)
+        if candidate.is_optimum:
+            return candidate, newton.reduced_hessian
+    candidate = refine(programme, guess, programme.options.continuation.step_iterations)
+    return (candidate, None) if candidate.is_optimum else (None, None)
 
 
 def unknowns_at(place: np.ndarray, problem: OrbitProblem) -> np.ndarray:

@@ -3,32 +3,39 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.many.batch import check_processes, in_processes
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, better_of
-from wingbeat.orbits.solve import find_orbit, follow
+from wingbeat.orbits.solve import Progress, find_orbit, search_near
 from wingbeat.orbits.status import Status
-
-# Sweeps up and down the row after which handing on stops, better answers or not.
-_SWEEPS = 6
-# A neighbour's answer must better one's own by this share to take its place.
-_BETTER = 1e-4
 
 
 def find_series(
-    problems: Sequence[OrbitProblem], starts: int | None = None, seed: int = 0, most_starts: int | None = None
+    problems: Sequence[OrbitProblem],
+    starts: int | None = None,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
+    most_starts: int | None = None,
+    advise: bool = False,
+    options: SolverOptions = DEFAULTS,
 ) -> list[Solution]:
     """Solve problems in a row, such as speeds in order, each searched from its neighbours' answers, too.
 
-    One search from a stock wingbeat meets whichever family of orbits is near; handed up and down the row, the best
-    family met anywhere reaches wherever it leads. Problems must have the same free parameters.
+    One search from a stock wingbeat finds whichever family of orbits is near. Handed up and down the row, the best
+    family found anywhere reaches wherever it leads. Problems must have the same free parameters.
 
     Parameters
     ----------
     problems : in such an order that neighbours are alike.
-    starts, seed, most_starts : as in `find_orbit`, for each problem before anything is handed on.
+    starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem before answers are handed on.
+    processes : how many Python processes share these searches. The answers are the same.
+    progress : called with (problems searched, problems in all).
 
     Returns
     -------
@@ -36,19 +43,22 @@ def find_series(
 
     Raises
     ------
-    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
+    InvalidInputError : problems that differ in what is free; starts, seed, most_starts or processes out of range.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
         if problem.free != problems[0].free:
             fix = f"give all of a row the same, as the first: {', '.join(problems[0].free)}"
             faults.add(f"problems[{i}].free", problem.free, "is not what is free beside it", fix)
+    check_processes(faults, processes)
     faults.raise_if_any()
-    best = [find_orbit(p, starts, seed, threads=1, most_starts=most_starts, advise=False) for p in problems]
+    asked = {"starts": starts, "seed": seed, "most_starts": most_starts, "advise": advise, "options": options}
+    search = functools.partial(find_orbit, threads=1, **asked)
+    best = list(in_processes(search, problems, processes, progress))
     tried: set[tuple[bytes, int]] = set()
     upward = [(i, i + 1) for i in range(len(best) - 1)]
     downward = [(i + 1, i) for i in reversed(range(len(best) - 1))]
-    for sweep in range(_SWEEPS):
+    for sweep in range(options.continuation.sweeps):
         better = False
         for giver, taker in upward if sweep % 2 == 0 else downward:
             key = (best[giver].unknowns.tobytes(), taker)
@@ -65,8 +75,8 @@ def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
     """Return one's own answer, or that of a search from a neighbour's if it is better, and whether it is."""
     below = float("inf")
     if own.status is Status.CONVERGED:
-        below = own.objective - _BETTER * abs(own.objective)
-    found = follow(own.problem, giver.unknowns, below)
+        below = own.objective - own.options.continuation.improvement * abs(own.objective)
+    found = search_near(own.problem, giver.unknowns, below, own.options)
     if found is None:
         return dataclasses.replace(own, starts=own.starts + 1), False
     return better_of(own, found), True

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.many.branches import LEAP, Branches, Join
+from wingbeat.orbits.many.branches import Branches, BranchLink
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 
@@ -35,7 +35,7 @@ def marks_of(branches: Branches) -> list[Mark]:
         if not certified(below) or not certified(above):
             marks.append(Mark(GAP, *ends, "no certified orbit at one of these speeds"))
             continue
-        if _join_of_best(branches, interval) is None:
+        if _link_of_best(branches, interval) is None:
             marks.append(Mark(BRANCH, *ends, _how_it_changes(branches, interval)))
         gone = [name for name in below.active_bounds if name not in above.active_bounds]
         come = [name for name in above.active_bounds if name not in below.active_bounds]
@@ -48,16 +48,16 @@ def marks_of(branches: Branches) -> list[Mark]:
 def unmarked_jumps(branches: Branches, marks: list[Mark]) -> list[tuple[float, float]]:
     """Return the intervals over which unknowns change by more than their continuation can, and no mark says so.
 
-    A continuation in n steps changes no unknown by more than n times `LEAP`, in the optimiser's scale.
+    A continuation in n steps changes no unknown by more than n times `max_step`, in the optimiser's scale.
     """
     marked = {(m.lower_speed, m.upper_speed) for m in marks if m.kind in (GAP, BRANCH)}
     jumps = []
     for interval, (below, above) in enumerate(_neighbours(branches)):
         ends = below.problem.speed, above.problem.speed
-        join = _join_of_best(branches, interval)
-        steps = 0 if join is None else join.steps
+        link = _link_of_best(branches, interval)
+        steps = 0 if link is None else link.steps
         change = np.abs(above.place - below.place).max()
-        if ends not in marked and not change <= steps * LEAP * (1.0 + 1e-6):
+        if ends not in marked and not change <= steps * below.options.continuation.max_step * (1.0 + 1e-6):
             jumps.append(ends)
     return jumps
 
@@ -70,7 +70,7 @@ def families(branches: Branches) -> list[list[int]]:
     labels = [[-1] * len(optima) for optima in branches.optima]
     count = 0
     for place, optima in enumerate(branches.optima):
-        ways = [join for join in branches.joins if join.interval == place - 1]
+        ways = [join for join in branches.links if join.interval == place - 1]
         taken: set[int] = set()
         for join in sorted(ways, key=lambda j: j.steps):
             if labels[place][join.upper] < 0 and join.lower not in taken:
@@ -95,13 +95,13 @@ def _neighbours(branches: Branches) -> list[Any]:
     return list(itertools.pairwise(best))
 
 
-def _join_of_best(branches: Branches, interval: int) -> Join | None:
-    return next((j for j in branches.joins if (j.interval, j.lower, j.upper) == (interval, 0, 0)), None)
+def _link_of_best(branches: Branches, interval: int) -> BranchLink | None:
+    return next((j for j in branches.links if (j.interval, j.lower, j.upper) == (interval, 0, 0)), None)
 
 
 def _how_it_changes(branches: Branches, interval: int) -> str:
     """Say whether two families cross, and where, or one of them ends."""
-    ways = {j.lower: j.upper for j in branches.joins if j.interval == interval}
+    ways = {j.lower: j.upper for j in branches.links if j.interval == interval}
     back = {upper: lower for lower, upper in ways.items()}
     below, above = branches.optima[interval : interval + 2]
     if 0 in ways and 0 in back:

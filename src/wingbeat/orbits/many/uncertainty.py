@@ -14,7 +14,7 @@ from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.sensitivity import Sensitivity
-from wingbeat.orbits.solve import Progress, find_orbit, follow, settle
+from wingbeat.orbits.solve import Progress, correct_guess, find_orbit, search_near
 from wingbeat.orbits.status import Status
 
 # A uniform spread's standard deviation, as a share of its width.
@@ -126,8 +126,8 @@ def sample_orbits(
 ) -> Samples:
     """Solve a problem with its parameters drawn from their spreads, again and again.
 
-    Every draw is settled from where the slopes foretell its optimum, and so belongs to the same family of orbits;
-    where that leads to none it is searched.
+    Every draw is corrected from where the slopes predict its optimum, and so belongs to the same family of orbits.
+    Where that leads to none it is searched.
 
     Parameters
     ----------
@@ -143,8 +143,8 @@ def sample_orbits(
     parameters = [p for spread in spreads for p in spread.parameters]
     deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
-    foretold = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
-    drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, foretold, strict=True)]
+    predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
+    drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, predicted, strict=True)]
     work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed)
     values = np.array(list(in_processes(work, drawn, processes, progress)))
     certified = np.asarray(np.isfinite(values).all(axis=1))
@@ -160,7 +160,7 @@ def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: n
 def _read_off(drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int) -> list[float]:
     """Return quantities of the orbit of one draw, not-a-number where there is none."""
     problem, guess = drawn
-    found = settle(problem, guess) or follow(problem, guess)
+    found = correct_guess(problem, guess) or search_near(problem, guess)
     if found is None:
         found = find_orbit(problem, 1, seed, threads=1, most_starts=1)
     if found.status is not Status.CONVERGED:

@@ -1,4 +1,4 @@
-"""Which problems of a batch are alike, and what the answers of some foretell of another's."""
+"""Which problems of a batch are alike, and what the answers of some predict of another's."""
 
 from __future__ import annotations
 
@@ -8,17 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jax
-from wingbeat.orbits.nlp.newton_kkt import Curvature
+from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
+from wingbeat.orbits.options.continuation import ContinuationOptions
+from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.problem import OrbitProblem
-
-# Problems that are solved one after the other, each helped by those before: few enough to share a batch out over
-# processes. Of more that are alike so many go first and help all others.
-TOGETHER = 256
-FIRST = 128
-# Answers nearer than this share of the farthest one asked weigh alike.
-_NEAR = 0.3
-# Relative differences between numbers that come from rounding.
-_ROUNDING = 1e-12
 
 
 class Group(NamedTuple):
@@ -28,22 +21,28 @@ class Group(NamedTuple):
     parts: list[list[int]]
 
 
-def alike(problems: Sequence[OrbitProblem]) -> list[Group]:
+def group_similar(
+    problems: Sequence[OrbitProblem], options: ContinuationOptions = DEFAULTS.continuation
+) -> list[Group]:
     """Return the problems in groups that differ in numbers only, all in an order to learn from.
 
-    A group is of one species and one coefficient model, by name; its parts have neighbouring numbers. Orders go to
-    what is farthest from all that came before. Groups hang on the problems alone, not on who solves them.
+    A group is of one species and one coefficient model, by name; its parts have neighbouring numbers. Each order
+    goes on with what is farthest from all before. Groups depend on the problems alone, not on who solves them.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
         kinds.setdefault(kind(problem), []).append(i)
     groups = []
     for members in kinds.values():
-        places = differences([numbers_of(problems[i]) for i in members])
+        places = differences([numbers_of(problems[i]) for i in members], options.rounding)
         whole = np.arange(len(members))
-        first = _spread(places, whole, len(members) if len(members) <= TOGETHER else FIRST)
+        first = _spread(places, whole, len(members) if len(members) <= options.batch_size else options.batch_first)
         rest = np.setdiff1d(whole, first)
-        parts = [_spread(places, part, part.size) for part in _parts(places, rest)] if rest.size else []
+        parts = (
+            [_spread(places, part, part.size) for part in _parts(places, rest, options.batch_size)]
+            if rest.size
+            else []
+        )
         groups.append(Group([members[j] for j in first], [[members[j] for j in part] for part in parts]))
     return groups
 
@@ -62,7 +61,7 @@ def kind(problem: OrbitProblem) -> Hashable:
     return names, tree, shapes
 
 
-def differences(described: Sequence[np.ndarray]) -> np.ndarray:
+def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
     """Return where problems of one kind are, from their mean, in as few directions as they differ in.
 
     Distances are those between the numbers that describe them, each over its largest; shape (problems, directions).
@@ -70,8 +69,8 @@ def differences(described: Sequence[np.ndarray]) -> np.ndarray:
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
     places, sizes, _ = np.linalg.svd(numbers - numbers.mean(axis=0), full_matrices=False)
-    told = sizes > _ROUNDING * np.sqrt(numbers.size)
-    return places[:, told] * sizes[told]
+    counts = sizes > rounding * np.sqrt(numbers.size)
+    return places[:, counts] * sizes[counts]
 
 
 def numbers_of(problem: OrbitProblem) -> np.ndarray:
@@ -82,14 +81,14 @@ def numbers_of(problem: OrbitProblem) -> np.ndarray:
     return np.nan_to_num(np.concatenate([np.ravel(a) for a in (*leaves, problem.speed, problem.climb, bounds)]))
 
 
-def _parts(places: np.ndarray, members: np.ndarray) -> list[np.ndarray]:
+def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarray]:
     """Halve where the numbers differ most, until the parts are small enough."""
-    if members.size <= TOGETHER:
+    if members.size <= most:
         return [members]
     here = places[members]
     order = members[np.argsort(here[:, np.ptp(here, axis=0).argmax()], kind="stable")] if here.size else members
     half = members.size // 2
-    return _parts(places, order[:half]) + _parts(places, order[half:])
+    return _parts(places, order[:half], most) + _parts(places, order[half:], most)
 
 
 def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
@@ -113,27 +112,33 @@ class Known(NamedTuple):
     numbers : that tell it from others of its kind.
     unknowns : its answer.
     active : the bounds active there.
-    learned : what was learned of the optimum.
+    reduced_hessian : the curvature at the optimum.
     """
 
     numbers: np.ndarray
     unknowns: np.ndarray
     active: tuple[str, ...]
-    learned: Curvature | None
+    reduced_hessian: ReducedHessian | None
 
 
 class Answers:
-    """Answers of problems of one kind, and what the nearest of them foretell of those to come.
+    """Answers of problems of one kind, and what the nearest of them predict of those to come.
 
     Parameters
     ----------
     known : solved before.
     coming : the numbers of those to come, which are then known by their place among them.
+    options : of the prediction.
     """
 
-    def __init__(self, known: Sequence[Known], coming: Sequence[np.ndarray]) -> None:
-        self._before = len(known)
-        self._places = differences([*(one.numbers for one in known), *coming])
+    def __init__(
+        self,
+        known: Sequence[Known],
+        coming: Sequence[np.ndarray],
+        options: ContinuationOptions = DEFAULTS.continuation,
+    ) -> None:
+        self._before, self._near_share = len(known), options.near_share
+        self._places = differences([*(one.numbers for one in known), *coming], options.rounding)
         self._known = list(known)
         self._at = list(range(len(known)))
 
@@ -142,10 +147,10 @@ class Answers:
         self._at.append(self._before + place)
         self._known.append(known)
 
-    def foretell(self, place: int) -> list[tuple[np.ndarray, Curvature | None]]:
-        """Foretell unknowns, and lend what was learned nearest, from the answers with the same bounds active.
+    def predict(self, place: int) -> list[tuple[np.ndarray, ReducedHessian | None]]:
+        """Predict unknowns from the answers with the same bounds active, with the curvature of the nearest.
 
-        Where families meet, the nearest answers differ in their active bounds, and each family foretells its own.
+        Where families meet, the nearest answers differ in their active bounds, and each family predicts its own.
         The list is empty where too little is known of one of them.
         """
         away = self._places[self._at] - self._places[self._before + place]
@@ -155,15 +160,15 @@ class Answers:
         members = [np.array([i for i in order if self._known[i].active == family]) for family in families]
         if any(alike.size < enough for alike in members):
             return []
-        return [self._foretold(alike, away[alike]) for alike in members]
+        return [self._predicted(alike, away[alike]) for alike in members]
 
-    def _foretold(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, Curvature | None]:
+    def _predicted(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, ReducedHessian | None]:
         known = [self._known[i] for i in alike]
-        unknowns = _regression(away, np.array([one.unknowns for one in known]))
-        return unknowns, next((one.learned for one in known if one.learned is not None), None)
+        unknowns = _regression(away, np.array([one.unknowns for one in known]), self._near_share)
+        return unknowns, next((one.reduced_hessian for one in known if one.reduced_hessian is not None), None)
 
 
-def _regression(away: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.ndarray:
     """Return the value at 0 of a parabola through values, nearest first, or of a line where they are too few."""
     directions = away.shape[1]
     columns = np.hstack([np.ones((len(away), 1)), away])
@@ -172,5 +177,5 @@ def _regression(away: np.ndarray, values: np.ndarray) -> np.ndarray:
         columns = np.hstack([columns, away[:, one] * away[:, other]])
     count = 2 * max(columns.shape[1], directions + 2)
     distance = np.linalg.norm(away[:count], axis=1)
-    weights = 1.0 / (distance + _NEAR * distance[-1])[:, None]
+    weights = 1.0 / (distance + near_share * distance[-1])[:, None]
     return np.linalg.lstsq(columns[:count] * weights, values[:count] * weights)[0][0]

@@ -11,24 +11,9 @@ import numpy as np
 
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.flight.certify import Certificate, certify
-from wingbeat.orbits.nlp.local_search import OPTIMAL, Candidate, optimality, optimise
-from wingbeat.orbits.nlp.newton_kkt import STILL, Curvature, Polish
+from wingbeat.orbits.nlp.local_search import Candidate, optimality, optimise
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
-
-CERTIFIED = 1e-6
-_AIM = 3e-7
-_EXCESS = 1e-6
-# Blocks of steps of the flight that gives the corrected closure its derivative; how far from there, in the
-# optimiser's scale, that derivative will do; and how near to the optimum that is not yet the last is near enough.
-_FINE = 6
-SETTLED = 2e-2
-_SETTLING = 4
-_NEARLY = 1e-3
-_CORRECTIONS = 12
-# After so many corrections the miss must have shrunk to this share, or it will not shrink to nothing.
-_TRIED, _SHRUNK = 4, 0.1
-# How often what binds is asked anew where a beat closes but is no optimum.
-_TURNS = 2
 
 
 @dataclass(frozen=True)
@@ -38,103 +23,117 @@ class Corrected:
     scaled: np.ndarray
     wingbeat: Wingbeat
     certificate: Certificate
-    miss: np.ndarray
+    residual: np.ndarray
     programme: Transcription
-    learned: Curvature | None = None
+    reduced_hessian: ReducedHessian | None = None
 
     @functools.cached_property
     def optimality(self) -> float:
         """Largest residual of the optimality conditions."""
         return optimality(self.programme, self.scaled)
 
-    def is_orbit(self, closed: float = CERTIFIED) -> bool:
-        """Whether it closes, keeps to its limits along the path, and is an optimum."""
+    def is_orbit(self, closure_tolerance: float | None = None) -> bool:
+        """Whether it closes, keeps to its limits along the path, and is an optimum.
+
+        The tolerance is that of a certificate if not given.
+        """
+        options = self.programme.options
+        closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance
+        limits = self.programme.certified_inequalities(self.scaled, self.certificate)
         return bool(
-            size(self.miss) <= closed
-            and self.programme.certified_margins(self.scaled, self.certificate).min() >= -_EXCESS
-            and self.optimality <= OPTIMAL
+            size(self.residual) <= closed
+            and limits.min() >= -options.certificate.limit_tolerance
+            and self.optimality <= options.search.optimality_tolerance
         )
 
 
-def correct(problem: Transcription, scaled: np.ndarray) -> Corrected:
-    """Fly a candidate by the certifier and take its miss off the closure until the certifier's own miss is gone.
+def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
+    """Fly a candidate by the certifier and take its residual off the closure until the certifier's own is gone.
 
     The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
     value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
     """
-    problem = problem.anew()
-    return follow_to_certificate(problem, Polish(problem, scaled), scaled)
+    programme = programme.uncorrected()
+    return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)
 
 
-def follow_to_certificate(problem: Transcription, polish: Polish, scaled: np.ndarray) -> Corrected:
-    """Correct a candidate in a programme not corrected yet, as `correct` does, with a given polish."""
-    for _ in range(_SETTLING):
-        problem.tilt_at(scaled, _FINE)
-        tilted, scaled = scaled, _settle(polish, scaled, _NEARLY)
-        if np.abs(scaled - tilted).max() <= SETTLED:
+def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: np.ndarray) -> Corrected:
+    """Correct a candidate in a programme not corrected yet, as `correct` does, with a given Newton's method."""
+    options = programme.options.certificate
+    for _ in range(options.linearisations):
+        programme = programme.linearised_at(scaled, options.fine_blocks)
+        anchor, scaled = scaled, _optimum(programme, newton, scaled, options.linearised_step)
+        if np.abs(scaled - anchor).max() <= options.linear_range:
             break
-    rough = _fly(problem, scaled, rough=problem.asked is None)[1]
+    rough = _fly(programme, scaled, rough=programme.outputs is None)[1]
     if np.isfinite(rough.end).all():
-        problem.shift_at(scaled, rough)
-        scaled = _settle(polish, scaled)
+        programme = programme.matched_to(scaled, rough)
+        scaled = _optimum(programme, newton, scaled)
     best: Corrected | None = None
-    turns, first = 0, np.inf
-    for tried in range(_CORRECTIONS):
-        here = certified(problem, scaled)
-        if here.is_orbit(_AIM):
-            return dataclasses.replace(here, learned=polish.learned)
-        if best is None or size(here.miss) < size(best.miss):
+    updates, first = 0, np.inf
+    for tried in range(options.corrections):
+        here = certified(programme, scaled)
+        if here.is_orbit(options.aimed_closure):
+            return dataclasses.replace(here, reduced_hessian=newton.reduced_hessian)
+        if best is None or size(here.residual) < size(best.residual):
             best = here
         if tried == 0:
-            first = size(here.miss)
-        hopeless = tried == _TRIED and size(best.miss) > _SHRUNK * first
-        if hopeless or not np.isfinite(here.miss).all():
+            first = size(here.residual)
+        hopeless = tried == options.trial_corrections and size(best.residual) > options.trial_reduction * first
+        if hopeless or not np.isfinite(here.residual).all():
             break
-        closes = size(here.miss) <= _AIM
-        if closes and turns == _TURNS:
+        closes = size(here.residual) <= options.aimed_closure
+        if closes and updates == options.bound_updates:
             break
-        problem.shift_at(scaled, here.certificate)
+        programme = programme.matched_to(scaled, here.certificate)
         if closes:
-            # A bound that the search's few steps lean on may let go in a finer flight, or another begin to bind.
-            scaled = optimise(problem, scaled, iterations=40, tolerance=1e-14)[0]
-            polish = Polish(problem, scaled)
-            turns += 1
-        scaled = _settle(polish, scaled)
+            # A bound that is active in the search's few steps may let go in a finer flight, or another become so.
+            scaled = optimise(programme, scaled, options.iterations, options.tolerance)[0]
+            newton = NewtonKKT(programme, scaled)
+            updates += 1
+        scaled = _optimum(programme, newton, scaled)
     assert best is not None
-    return dataclasses.replace(best, learned=polish.learned)
+    return dataclasses.replace(best, reduced_hessian=newton.reduced_hessian)
 
 
-def first_certified(problem: Transcription, found: list[Candidate]) -> Corrected | None:
+def first_certified(programme: Transcription, found: list[Candidate]) -> Corrected | None:
     """Return the best candidate that the certifier closes, if any."""
-    for candidate in sorted((c for c in found if c.closed and c.optimal), key=lambda c: c.objective):
+    for candidate in sorted((c for c in found if c.is_optimum), key=lambda c: c.objective):
         corrected = correct(candidate.programme, candidate.scaled)
-        problem.certify_seconds += corrected.programme.certify_seconds
+        programme.count_certifying(corrected.programme.certify_seconds)
         if corrected.is_orbit():
             return corrected
     return None
 
 
-def _settle(polish: Polish, scaled: np.ndarray, still: float = STILL) -> np.ndarray:
-    polished = polish.follow(scaled, still)
-    return optimise(polish.problem, scaled, iterations=40, tolerance=1e-14)[0] if polished is None else polished
+def _optimum(
+    programme: Transcription, newton: NewtonKKT, scaled: np.ndarray, step_tolerance: float | None = None
+) -> np.ndarray:
+    """Return the optimum next to a point by Newton's method, or else by SLSQP."""
+    options = programme.options.certificate
+    found = newton.converge(programme, scaled, step_tolerance)
+    return optimise(programme, scaled, options.iterations, options.tolerance)[0] if found is None else found
 
 
-def _fly(problem: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:
-    physical = problem.physical(scaled)
+def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:
+    options = programme.options.certificate
+    physical = programme.physical(scaled)
     begun = time.perf_counter()
-    wingbeat = problem.problem.wingbeat(physical)
-    certificate = certify(problem.model, wingbeat, physical[:4], rough=rough)
-    problem.certify_seconds += time.perf_counter() - begun
+    wingbeat = programme.problem.wingbeat(physical)
+    certificate = certify(
+        programme.model, wingbeat, physical[:4], options.rough_rtol if rough else options.rtol, rough=rough
+    )
+    programme.count_certifying(time.perf_counter() - begun)
     return wingbeat, certificate
 
 
-def certified(problem: Transcription, scaled: np.ndarray) -> Corrected:
+def certified(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Fly unknowns by the certifier as they are."""
-    wingbeat, certificate = _fly(problem, scaled)
-    miss = problem.problem.closure(certificate.end, problem.physical(scaled), wingbeat.frequency)
-    return Corrected(scaled, wingbeat, certificate, miss, problem)
+    wingbeat, certificate = _fly(programme, scaled)
+    residual = programme.problem.closure(certificate.end, programme.physical(scaled), wingbeat.frequency)
+    return Corrected(scaled, wingbeat, certificate, residual, programme)
 
 
-def size(miss: np.ndarray) -> float:
-    """Return the largest part of a miss, infinite where it is not a number."""
-    return float(np.abs(np.nan_to_num(miss, nan=np.inf)).max())
+def size(residual: np.ndarray) -> float:
+    """Return the largest part of a residual, infinite where it is not a number."""
+    return float(np.abs(np.nan_to_num(residual, nan=np.inf)).max())

@@ -1,7 +1,7 @@
-"""The last digits of an optimum: Newton's method on the optimality conditions, active bounds held.
+"""Newton's method on the optimality conditions, with the active bounds held: the last digits of an optimum.
 
-A search ends where its quasi-Newton matrix has told it to, which costs many flights per digit in directions along
-which the objective hardly changes. Here the curvature along the few free directions is measured instead, once.
+A search ends where its quasi-Newton matrix says that it is done, which costs many flights per digit in directions
+along which the objective hardly changes. Here the curvature along the few free directions is measured once.
 """
 
 from __future__ import annotations
@@ -11,167 +11,184 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.nlp.transcription import AT_BOUND, Transcription
-
-# Step of the difference quotient of the curvature, and the Newton step whose successor counts as none, in the
-# optimiser's scale.
-_STEP = 1e-4
-STILL = 1e-5
-_ITERATIONS = 10
-# A step tells of the curvature along the null space if its part across is shorter than this share of it, and if
-# the curvature is more than this share of what was thought.
-_ASIDE = 0.05
-_BENT = 0.1
-# Conditions smaller than this share of the largest say nothing new.
-_SAME_TWICE = 1e-13
-# Newton's method that leaves this far from closure has lost its way.
-_LOST = 5.0
-# Conditions that hold so well, and a slope along them so small, are as good as the next step could make them.
-_HELD = 3e-8
-_FLAT = 3e-6
+from wingbeat.orbits.nlp.transcription import Transcription
 
 
-class Curvature(NamedTuple):
-    """What Newton's method learned of one optimum, for optima near by where the same is active.
+class ReducedHessian(NamedTuple):
+    """The Lagrangian's curvature at one optimum, for optima near by with the same active set.
 
     Parameters
     ----------
-    free : which unknowns lean on no bound.
-    on_path : which margins are met.
-    along : directions of the free unknowns that keep what is active, in columns.
+    free : which unknowns are at no bound, shape (n,).
+    active : which inequalities are active.
+    basis : directions of the free unknowns that keep what is active, in columns.
     matrix : the Lagrangian's second derivative along them.
     """
 
     free: np.ndarray
-    on_path: np.ndarray
-    along: np.ndarray
+    active: np.ndarray
+    basis: np.ndarray
     matrix: np.ndarray
 
 
-class Polish:
-    """Newton's method from an optimum to that of a slightly changed problem, with what is active at the first.
+class NewtonKKT:
+    """Newton's method from one optimum to that of a slightly changed problem, with what is active at the first.
 
-    The curvature is that of `like`, where that was found near by with the same active, or else it is measured.
+    Parameters
+    ----------
+    programme : the first problem.
+    scaled : its optimum.
+    like : curvature found near by. It is used where the same is active; else the curvature is measured.
+
+    Attributes
+    ----------
+    free, active : which unknowns are at no bound, and which inequalities are active.
+    fits : whether there are enough unknowns for the conditions, and a curvature that holds the optimum.
     """
 
-    def __init__(self, problem: Transcription, scaled: np.ndarray, like: Curvature | None = None) -> None:
-        self.problem = problem
-        reach = AT_BOUND * (problem.upper - problem.lower)
-        self.free = (scaled - problem.lower > reach) & (problem.upper - scaled > reach)
-        self.on_path = problem.margins(scaled) <= AT_BOUND
-        _, jacobian = self._rows(scaled)
+    def __init__(self, programme: Transcription, scaled: np.ndarray, like: ReducedHessian | None = None) -> None:
+        self._options = programme.options.certificate.newton
+        tolerance = programme.options.search.bound_tolerance
+        reach = tolerance * (programme.upper - programme.lower)
+        self.free = (scaled - programme.lower > reach) & (programme.upper - scaled > reach)
+        self.active = programme.inequalities(scaled) <= tolerance
+        _, jacobian = self._conditions(programme, scaled)
         # Fewer unknowns than conditions cannot meet them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1] and bool(np.isfinite(jacobian).all())
         if not self.fits:
             return
-        if like is not None and self._has_the_active_of(like):
-            self.along, self.curvature = like.along, like.matrix
+        if like is not None and self._has_active_set_of(like):
+            self._basis, self._hessian = like.basis, like.matrix
         else:
-            conditions = Conditions(jacobian)
-            self.along = conditions.null
-            self.curvature = self._curvature(scaled, jacobian, conditions)
-            self.fits = bool(np.isfinite(self.curvature).all() and (np.linalg.eigvalsh(self.curvature) > 0).all())
+            null_space = self._null_space(jacobian)
+            self._basis = null_space.basis
+            self._hessian = self._measured(programme, scaled, jacobian, null_space)
+            self.fits = bool(np.isfinite(self._hessian).all() and (np.linalg.eigvalsh(self._hessian) > 0).all())
 
     @property
-    def learned(self) -> Curvature | None:
-        """What to lend to a problem near by, if Newton's method fits this one."""
-        return Curvature(self.free, self.on_path, self.along, self.curvature) if self.fits else None
+    def reduced_hessian(self) -> ReducedHessian | None:
+        """The curvature, for a problem near by; none where the method does not fit."""
+        return ReducedHessian(self.free, self.active, self._basis, self._hessian) if self.fits else None
 
-    def _has_the_active_of(self, other: Curvature) -> bool:
-        return np.array_equal(self.free, other.free) and np.array_equal(self.on_path, other.on_path)
+    def _has_active_set_of(self, other: ReducedHessian) -> bool:
+        return np.array_equal(self.free, other.free) and np.array_equal(self.active, other.active)
 
-    def _rows(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        values, jacobian = self.problem.conditions(scaled, self.on_path)
+    def _conditions(self, programme: Transcription, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        values, jacobian = programme.active_conditions(scaled, self.active)
         return values, jacobian[:, self.free]
 
-    def _curvature(self, scaled: np.ndarray, jacobian: np.ndarray, conditions: Conditions) -> np.ndarray:
+    def _null_space(self, jacobian: np.ndarray) -> NullSpace:
+        return NullSpace(jacobian, self._options.rank_tolerance)
+
+    def _measured(
+        self, programme: Transcription, scaled: np.ndarray, jacobian: np.ndarray, null_space: NullSpace
+    ) -> np.ndarray:
         """Return the Lagrangian's second derivative along the null space, by differences of its gradient."""
-        gradient = self.problem.objective_gradient(scaled)[self.free]
-        multipliers = conditions.multipliers(gradient)
+        gradient, step = programme.objective_gradient(scaled)[self.free], self._options.difference_step
+        multipliers = null_space.multipliers(gradient)
         change = []
-        for direction in self.along.T:
+        for direction in self._basis.T:
             moved = scaled.copy()
-            moved[self.free] += _STEP * direction
-            there = self.problem.objective_gradient(moved)[self.free] - gradient
-            change.append(there - (self._rows(moved)[1] - jacobian).T @ multipliers)
-        curvature = np.reshape(change, (-1, self.free.sum())) @ self.along / _STEP
+            moved[self.free] += step * direction
+            there = programme.objective_gradient(moved)[self.free] - gradient
+            change.append(there - (self._conditions(programme, moved)[1] - jacobian).T @ multipliers)
+        curvature = np.reshape(change, (-1, self.free.sum())) @ self._basis / step
         return 0.5 * (curvature + curvature.T)
 
-    def approach(self, scaled: np.ndarray, near: float) -> np.ndarray | None:
-        """Return a point from which the next step is shorter than `near`, or None as `follow` does.
+    def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
+        """Return a point from which the next step is shorter than `near`, or None as `converge` does.
 
         That step is not made: one from known answers to the optimum of a search's few steps would lead away.
         """
-        return next((here for here, step in self._steps(scaled) if np.abs(step).max() <= near), None)
+        steps = self._steps(programme, scaled)
+        return next((here for here, step in steps if np.abs(step).max() <= near), None)
 
-    def follow(self, scaled: np.ndarray, still: float = STILL) -> np.ndarray | None:
-        """Return the optimum next to a point, or None where Newton's method leads to none within the bounds.
+    def converge(
+        self, programme: Transcription, scaled: np.ndarray, step_tolerance: float | None = None
+    ) -> np.ndarray | None:
+        """Return the optimum next to a point, or None where the method leads to none within the bounds.
 
-        It ends with a step shorter than `still`, or where nothing is left to be gained.
+        It ends with a step shorter than the tolerance, that of the options if not given, or where nothing is left
+        to be gained.
         """
-        for here, step in self._steps(scaled):
+        still = self._options.step_tolerance if step_tolerance is None else step_tolerance
+        for here, step in self._steps(programme, scaled):
             there = here + step
-            if np.abs(step).max() <= still and not self._is_outside(there):
-                # None where a bound on the path is broken that was not met before.
-                return there if self.problem.margins(there).min() >= -AT_BOUND else None
+            if np.abs(step).max() <= still and not _is_outside(programme, there):
+                # None where a limit is exceeded that was not active before.
+                exceeded = programme.inequalities(there).min() < -programme.options.search.bound_tolerance
+                return None if exceeded else there
         return None
 
-    def _steps(self, scaled: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield where Newton's method comes by and its next step, while it keeps to the bounds."""
-        problem = self.problem
+    def _steps(self, programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield each iterate and its next step, while they keep to the bounds."""
+        options = self._options
         before: tuple[np.ndarray, ...] | None = None
-        for _ in range(_ITERATIONS if self.fits else 0):
-            values, jacobian = self._rows(scaled)
-            if not (np.isfinite(values).all() and np.isfinite(jacobian).all()) or np.abs(values).max() > _LOST:
+        for _ in range(options.iterations if self.fits else 0):
+            values, jacobian = self._conditions(programme, scaled)
+            if not (np.isfinite(values).all() and np.isfinite(jacobian).all()):
                 return
-            gradient = problem.objective_gradient(scaled)[self.free]
-            conditions = Conditions(jacobian)
+            if np.abs(values).max() > options.diverged:
+                return
+            gradient = programme.objective_gradient(scaled)[self.free]
+            null_space = self._null_space(jacobian)
             # Conditions of another rank leave other directions free, of which the curvature says nothing.
-            if conditions.null.shape != self.along.shape:
+            if null_space.basis.shape != self._basis.shape:
                 return
             step = np.zeros(scaled.size)
-            if np.abs(values).max() <= _HELD and np.abs(conditions.null.T @ gradient).max(initial=0.0) <= _FLAT:
+            slope = np.abs(null_space.basis.T @ gradient).max(initial=0.0)
+            if np.abs(values).max() <= options.residual_tolerance and slope <= options.gradient_tolerance:
                 yield scaled, step
                 return
             if before is not None:
-                along, sliding, gradient_before, jacobian_before = before
-                turned = (jacobian - jacobian_before).T @ conditions.multipliers(gradient)
-                self._learn(sliding, along.T @ (gradient - gradient_before - turned))
-            left, _, right = np.linalg.svd(conditions.null.T @ self.along)
-            along = conditions.null @ left @ right
-            closing = conditions.shortest(-values)
-            sliding = -np.linalg.solve(self.curvature, along.T @ gradient)
-            step[self.free] = closing + along @ sliding
-            slides = np.abs(closing).max() <= _ASIDE * np.abs(sliding).max(initial=0.0)
-            before = (along, sliding, gradient, jacobian) if slides else None
+                basis, tangential, gradient_before, jacobian_before = before
+                turned = (jacobian - jacobian_before).T @ null_space.multipliers(gradient)
+                self._update(tangential, basis.T @ (gradient - gradient_before - turned))
+            left, _, right = np.linalg.svd(null_space.basis.T @ self._basis)
+            basis = null_space.basis @ left @ right
+            normal = null_space.least_norm_step(-values)
+            tangential = -np.linalg.solve(self._hessian, basis.T @ gradient)
+            step[self.free] = normal + basis @ tangential
+            tells = np.abs(normal).max() <= options.normal_share * np.abs(tangential).max(initial=0.0)
+            before = (basis, tangential, gradient, jacobian) if tells else None
             yield scaled, step
             scaled = scaled + step
-            if self._is_outside(scaled):
+            if _is_outside(programme, scaled):
                 return
 
-    def _is_outside(self, scaled: np.ndarray) -> bool:
-        return bool((scaled < self.problem.lower).any() or (scaled > self.problem.upper).any())
-
-    def _learn(self, sliding: np.ndarray, change: np.ndarray) -> None:
+    def _update(self, tangential: np.ndarray, change: np.ndarray) -> None:
         """Take into the curvature how a step along the null space changed the Lagrangian's gradient (BFGS)."""
-        told = self.curvature @ sliding
-        if sliding @ change > _BENT * (sliding @ told):
-            by_step = np.outer(change, change) / (sliding @ change)
-            self.curvature = self.curvature - np.outer(told, told) / (sliding @ told) + by_step
+        expected = self._hessian @ tangential
+        if tangential @ change > self._options.curvature_share * (tangential @ expected):
+            by_step = np.outer(change, change) / (tangential @ change)
+            self._hessian = self._hessian - np.outer(expected, expected) / (tangential @ expected) + by_step
 
 
-class Conditions:
-    """Linear conditions ``jacobian @ step = values``, taken apart once: what they leave free, and what they fix."""
+def _is_outside(programme: Transcription, scaled: np.ndarray) -> bool:
+    return bool((scaled < programme.lower).any() or (scaled > programme.upper).any())
 
-    def __init__(self, jacobian: np.ndarray) -> None:
+
+class NullSpace:
+    """Linear conditions ``jacobian @ step = values``, factored once: what they leave free, and what they fix.
+
+    Parameters
+    ----------
+    jacobian : the conditions, shape (conditions, n).
+    rank_tolerance : conditions whose size is less than this share of the largest say the same twice.
+
+    Attributes
+    ----------
+    basis : an orthonormal basis of the steps that change no condition, in columns.
+    """
+
+    def __init__(self, jacobian: np.ndarray, rank_tolerance: float) -> None:
         rows = jacobian.shape[0]
         left, sizes, right = np.linalg.svd(jacobian)
-        # Conditions that say the same twice have no size of their own.
-        told = sizes > _SAME_TWICE * sizes[0]
-        self.null = right[told.sum() :].T
-        self._inverse = right[:rows][told].T @ (left[:, told] / sizes[told]).T
+        independent = sizes > rank_tolerance * sizes[0]
+        self.basis = right[independent.sum() :].T
+        self._inverse = right[:rows][independent].T @ (left[:, independent] / sizes[independent]).T
 
-    def shortest(self, values: np.ndarray) -> np.ndarray:
+    def least_norm_step(self, values: np.ndarray) -> np.ndarray:
         """Return the shortest step that meets the conditions."""
         return self._inverse @ values
 

@@ -12,10 +12,6 @@ from wingbeat.orbits.flight.shooting import Flown
 from wingbeat.orbits.flight.stroke_distances import ROWS
 from wingbeat.orbits.problem.problem import OrbitProblem
 
-# Corners keep this share of the wing's length off the plane of symmetry, 3 micrometres of 0.3 m: ten times what the
-# search's tolerances leave open.
-_ALLOWANCE = 1e-5
-
 _UPRIGHT = 0.5 * math.pi
 
 
@@ -24,12 +20,17 @@ class StrokeLimits:
 
     Where nothing that is free shapes the stroke, or wings may cross, there are none.
 
+    Parameters
+    ----------
+    problem : the orbit problem.
+    clearance : of strip corners from the plane of symmetry, in wing lengths.
+
     Attributes
     ----------
     names : name and sign of the limit of each row.
     """
 
-    def __init__(self, problem: OrbitProblem) -> None:
+    def __init__(self, problem: OrbitProblem, clearance: float) -> None:
         limited = problem.shapes_stroke and not problem.wings_may_cross
         beside = has_room(problem.vehicle)
         self._kept = slice(0 if beside else 2 * PARTS, None if limited else 0)
@@ -38,7 +39,7 @@ class StrokeLimits:
         if not limited:
             return
         low, high = problem.bounds["flap"] if beside else np.clip(problem.bounds["flap"], -_UPRIGHT, _UPRIGHT)
-        self._limits = np.array([*[_ALLOWANCE] * 2 * PARTS, low, low, -high, -high])
+        self._limits = np.array([*[clearance] * 2 * PARTS, low, low, -high, -high])
 
     def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
         """Return how far inside its limit each row of a flight is, and the derivative by the free parameters.

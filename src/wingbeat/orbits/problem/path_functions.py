@@ -1,7 +1,7 @@
-"""What a problem asks of the beat, read off flights: values with derivatives, in the optimiser's scale.
+"""Quantities as functions of one beat: values with derivatives, in the optimiser's scale.
 
-A quantity that is a number has one row. One that is a series has a row for the largest value in each quarter of the
-beat; one of several series, in columns, has those of each.
+A quantity that is a number has one value. A series has the largest value in each quarter of the beat; several
+series, in columns, have those of each.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.objectives import Quantity
 
-# Of a beat that is only looked at for its shapes.
+# Of a beat that only serves for its shapes.
 _SAMPLES = 1 + 2 * PARTS
 
 
 @functools.partial(jax.jit, static_argnums=0)
-def _rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+def _values(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
     return tuple(_of_one(jnp.asarray(function(beat), dtype=float)) for function in functions)
 
 
@@ -35,14 +35,14 @@ def _of_one(value: Any) -> Any:
 
 
 @functools.partial(jax.jit, static_argnums=0)
-def _sampled_rows(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
+def _sampled_values(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
     values = [jnp.asarray(function(beat), dtype=float) for function in functions]
     return tuple(highest(value).ravel() if value.ndim else value[None] for value in values)
 
 
 @functools.partial(jax.jit, static_argnums=0)
-def _change_of_rows(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any, ...]:
-    return jax.vmap(lambda change: jax.jvp(lambda b: _rows(functions, b), (beat,), (change,))[1])(changes)
+def _changes(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any, ...]:
+    return jax.vmap(lambda change: jax.jvp(lambda b: _values(functions, b), (beat,), (change,))[1])(changes)
 
 
 @dataclass(frozen=True)
@@ -55,42 +55,42 @@ class _Lacking:
         return -jnp.max(self.of(beat))
 
 
-class Readings:
-    """The rows of several quantities, one after the other, each over its scale."""
+class OutputFunctions:
+    """The values of several quantities, one after the other, each over its scale."""
 
     def __init__(self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int) -> None:
         kept = [c.quantity.of if c.at_most else _Lacking(c.quantity.of) for c in constraints]
         self._functions = tuple([q.of for q in quantities] + kept)
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        self.counts = [row_count(function, strips) for function in self._functions]
+        self.counts = [value_count(function, strips) for function in self._functions]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
         limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
 
-    def of(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
-        """Return the rows, of a series the peaks of a smooth curve through it, or its highest samples.
+    def values(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
+        """Return the values, of a series the peaks of a smooth curve through it, or its highest samples.
 
         Raises
         ------
         InvalidInputError : a quantity gives what is no number where the beat is finite.
         """
-        rows = [np.asarray(a) for a in (_sampled_rows if sampled else _rows)(self._functions, beat)]
-        for name, row in zip(self._names, rows, strict=True):
-            if not np.isfinite(row).all() and all(np.isfinite(a).all() for a in beat):
+        values = [np.asarray(a) for a in (_sampled_values if sampled else _values)(self._functions, beat)]
+        for name, value in zip(self._names, values, strict=True):
+            if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in beat):
                 fix = "its function must be finite for every flight"
-                raise InvalidInputError([Fault(f"quantity {name}", float(row[0]), "is not finite", fix)])
-        return np.concatenate(rows) / self._scale
+                raise InvalidInputError([Fault(f"quantity {name}", float(value[0]), "is not finite", fix)])
+        return np.concatenate(values) / self._scale
 
-    def changes_of(self, beat: Beat, changes: Beat) -> np.ndarray:
-        """Return the derivatives of the rows, shape (rows, directions)."""
-        found = _change_of_rows(self._functions, beat, changes)
+    def derivatives(self, beat: Beat, changes: Beat) -> np.ndarray:
+        """Return the derivatives of the values, shape (values, directions)."""
+        found = _changes(self._functions, beat, changes)
         return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
 
 
-def row_count(function: Callable[[Beat], Any], strips: int) -> int:
-    """Return how many rows a quantity's function has: 1 if it gives a number."""
+def value_count(function: Callable[[Beat], Any], strips: int) -> int:
+    """Return how many values a quantity's function has: 1 if it gives a number."""
     shape = _given_by(function, strips).shape
     return PARTS * math.prod(shape[1:]) if shape else 1
 

@@ -1,0 +1,1 @@
+"""The tuning numbers of the solvers, as frozen values that a user can pass."""

@@ -1,0 +1,82 @@
+"""Options of the correction of an optimum, and of its certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from wingbeat.mechanics.flights import RTOL
+from wingbeat.orbits.options.checks import check_options
+
+
+@dataclass(frozen=True)
+class NewtonOptions:
+    """Options of Newton's method on the optimality conditions, in the optimiser's scale.
+
+    Parameters
+    ----------
+    iterations : at most.
+    step_tolerance : a step whose successor counts as none.
+    difference_step : of the quotient that measures the curvature along the null space.
+    residual_tolerance, gradient_tolerance : conditions that hold so well, and a slope along them so small, are as
+        good as the next step could make them.
+    rank_tolerance : conditions smaller than this share of the largest say nothing new.
+    normal_share : a step tells of the curvature along the null space if its part across is shorter than this share.
+    curvature_share : and if the curvature is more than this share of what was expected.
+    diverged : a violation this large ends it.
+    """
+
+    iterations: int = 10
+    step_tolerance: float = 1e-5
+    difference_step: float = 1e-4
+    residual_tolerance: float = 3e-8
+    gradient_tolerance: float = 3e-6
+    rank_tolerance: float = 1e-13
+    normal_share: float = 0.05
+    curvature_share: float = 0.1
+    diverged: float = 5.0
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+
+@dataclass(frozen=True)
+class CertificateOptions:
+    """Options of the correction of an optimum to a closed orbit, and of the flight that certifies it.
+
+    Parameters
+    ----------
+    closure_tolerance : a certified orbit closes to this [m, rad, m/s, rad/s].
+    limit_tolerance : body pitch, the stroke and constraints keep to their limits to this, in their scales.
+    aimed_closure : what the correction aims at, so that rounding does not decide.
+    rtol : relative tolerance of the certifying flight (Dopri8).
+    rough_rtol : of flights that only correct. They are right to 1e-8 and take half the time.
+    fine_blocks : a corrected flight has so many times the steps of a search's.
+    linear_range : how far, in the optimiser's scale, the derivative of a finer flight holds.
+    linearisations : derivatives of finer flights that are taken, at most.
+    linearised_step : how near to the optimum is near enough while the derivative is not the last.
+    corrections : flights of the certifier, at most.
+    trial_corrections, trial_reduction : after so many the residual must have shrunk to this share.
+    bound_updates : times that the active bounds are found anew where a beat closes but is not optimal.
+    iterations, tolerance : of SLSQP where Newton's method fails, and its tolerance of the objective.
+    newton : the method that follows the optimum while its closure is corrected.
+    """
+
+    closure_tolerance: float = 1e-6
+    limit_tolerance: float = 1e-6
+    aimed_closure: float = 3e-7
+    rtol: float = RTOL
+    rough_rtol: float = 2e-9
+    fine_blocks: int = 6
+    linear_range: float = 2e-2
+    linearisations: int = 4
+    linearised_step: float = 1e-3
+    corrections: int = 12
+    trial_corrections: int = 4
+    trial_reduction: float = 0.1
+    bound_updates: int = 2
+    iterations: int = 40
+    tolerance: float = 1e-14
+    newton: NewtonOptions = field(default_factory=NewtonOptions)
+
+    def __post_init__(self) -> None:
+        check_options(self)

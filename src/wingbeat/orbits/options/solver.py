@@ -1,0 +1,62 @@
+"""All options of the solvers in one value."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Any
+
+from wingbeat.orbits.options.certificate import CertificateOptions
+from wingbeat.orbits.options.checks import check_options
+from wingbeat.orbits.options.continuation import ContinuationOptions, SensitivityOptions
+from wingbeat.orbits.options.diagnosis import ChangeOptions, DiagnosisOptions
+from wingbeat.orbits.options.search import SearchOptions
+
+
+@dataclass(frozen=True)
+class SolverOptions:
+    """Every tuning number of the solvers, each with its default.
+
+    Parameters
+    ----------
+    search : of the searches from several starts.
+    certificate : of the correction of an optimum, and of the flight that certifies it.
+    continuation : along speed, and from problem to problem.
+    diagnosis, changes : where there is no orbit: what is short, and which changes are tried.
+    sensitivity : of derivatives of an optimum.
+
+    Raises
+    ------
+    InvalidInputError : a value of another class.
+
+    >>> from wingbeat.orbits.options.search import SearchOptions
+    >>> SolverOptions(search=SearchOptions(iterations=100)).changed()
+    {'search': {'iterations': 100}}
+    """
+
+    search: SearchOptions = field(default_factory=SearchOptions)
+    certificate: CertificateOptions = field(default_factory=CertificateOptions)
+    continuation: ContinuationOptions = field(default_factory=ContinuationOptions)
+    diagnosis: DiagnosisOptions = field(default_factory=DiagnosisOptions)
+    changes: ChangeOptions = field(default_factory=ChangeOptions)
+    sensitivity: SensitivityOptions = field(default_factory=SensitivityOptions)
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+    def changed(self) -> dict[str, Any]:
+        """Return the options that are not the defaults, as a nested dictionary that JSON can hold."""
+        return _differences(self, DEFAULTS)
+
+
+def _differences(options: Any, usual: Any) -> dict[str, Any]:
+    found = {}
+    for each in dataclasses.fields(options):
+        value, default = getattr(options, each.name), getattr(usual, each.name)
+        if value != default:
+            nested = dataclasses.is_dataclass(value)
+            found[each.name] = _differences(value, default) if nested else value
+    return found
+
+
+DEFAULTS = SolverOptions()

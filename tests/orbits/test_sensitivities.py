@@ -1,0 +1,252 @@
+"""Derivatives of optima against solving anew, prices of bounds, and error bars against draws."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+import wingbeat as wb
+from wingbeat.aero.model_file import FittedCurve, FittedModel
+from wingbeat.cli import main
+from wingbeat.cli.uncertainty import _plain, _print
+from wingbeat.errors import InvalidInputError
+from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_order
+from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.sensitivity import OptimumSlopes
+from wingbeat.orbits.solve import correct_guess, find_orbit
+from wingbeat.results.sensitivities import Comparison
+
+POWER = QUANTITIES["mean_positive_power"]
+SHARE = 0.005
+
+
+def solved(name, speed, **asked):
+    problem = wb.OrbitProblem(wb.load_species(name), speed=speed, **asked)
+    return find_orbit(problem, starts=4)
+
+
+def numbers(optimum):
+    """Objective, a power, and the unknowns in their scale, of an optimum by the flights that slopes are of."""
+    count = optimum.unknowns.size
+    return np.array([optimum.objective, *optimum.values([POWER]), *(optimum.unknowns / optimum.scale[:count])])
+
+
+def solved_anew(solution, slope, share):
+    """Return the derivative by solving at both sides of a parameter, or one and twice that where it ends there."""
+    parameter, step = slope.parameter, share * slope.parameter.size
+    moved = np.array([*slope.initial_state.values(), *slope.wingbeat.values()])
+
+    def at(steps):
+        problem = parameter.changed(solution.problem, parameter.value + steps * step)
+        return numbers(OptimumSlopes(problem, solution.unknowns + steps * step * moved))
+
+    try:
+        return (at(1) - at(-1)) / (2 * step)
+    except InvalidInputError:
+        return (4 * at(1) - at(2) - 3 * at(0)) / (2 * step)
+
+
+# The last is flown for a few parameters only, for its flights cost most.
+CASES = [("pigeon", 10.0, "frequency", 1), ("bat", 10.0, "frequency", 1), ("bat", 8.0, "mean_positive_power", 7)]
+
+
+@pytest.mark.parametrize(("name", "speed", "minimise", "every"), CASES)
+def test_every_derivative_is_that_of_solving_anew(name, speed, minimise, every):
+    solution = solved(name, speed, minimise=minimise)
+    optimum = OptimumSlopes(solution.problem, solution.unknowns)
+    checked = 0
+    for parameter in parameters_of(solution.problem)[::every]:
+        slope = optimum.by(parameter, [POWER])
+        wide, near = (solved_anew(solution, slope, share) for share in (SHARE, SHARE / 2))
+        # What is left when the square of the step is taken out, and how far that can be trusted.
+        anew = (4 * near - wide) / 3
+        doubt = np.abs(wide - near)
+        changes = np.array([*slope.initial_state.values(), *slope.wingbeat.values()]) / optimum.scale
+        found = np.array([slope.objective, slope.quantities["mean_positive_power"], *changes])
+        least = 1e-6 / (SHARE * parameter.size)
+        # An optimum is found to some 1e-6 of its numbers.
+        allowed = 0.01 * np.abs(anew) + least * np.maximum(1.0, np.abs(numbers(optimum))) + doubt
+        # An unknown that hardly moves has a part in the whole move's error.
+        allowed[2:] += 0.002 * np.abs(anew[2:]).max()
+        assert (np.abs(found - anew) <= allowed).all(), parameter.path
+        # The objective needs no such care, but where the step itself is a large one.
+        if parameter.value and abs(anew[0] - wide[0]) < 0.005 * abs(anew[0]):
+            assert slope.objective == pytest.approx(wide[0], rel=0.01, abs=least), parameter.path
+            checked += 1
+    assert checked >= 18 // every
+
+
+def test_the_derivative_is_that_of_certified_orbits():
+    solution = solved("pigeon", 10.0)
+    optimum = OptimumSlopes(solution.problem, solution.unknowns)
+    for parameter in parameters_of(solution.problem):
+        if parameter.path in ("wing.mass", "air.density", "aero.drag.constant"):
+            step = SHARE * parameter.size
+            pair = [parameter.changed(solution.problem, parameter.value + sign * step) for sign in (1, -1)]
+            anew = [correct_guess(problem, solution.unknowns).objective for problem in pair]
+            slope = optimum.by(parameter).objective
+            assert slope == pytest.approx((anew[0] - anew[1]) / (2 * step), rel=0.01)
+
+
+@pytest.fixture(scope="module")
+def pigeon():
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
+    orbit = wb.solve_orbit(problem, starts=1)
+    return orbit, wb.sensitivities(orbit)
+
+
+def test_the_price_of_a_bound_is_what_widening_it_gains(pigeon):
+    orbit, found = pigeon
+    (price,) = found.prices
+    assert price.parameter.path == "bounds.flap_amplitude.upper"
+    low, high = orbit.problem.bounds["flap_amplitude"]
+    step = math.radians(0.5)
+    wider, narrower = (
+        wb.solve_orbit(
+            wb.OrbitProblem(orbit.problem.species, speed=10.0, bounds={"flap_amplitude": (low, high + d)}), starts=1
+        )
+        for d in (step, -step)
+    )
+    anew = (wider.wingbeat.frequency - narrower.wingbeat.frequency) / (2 * step)
+    assert price.objective == pytest.approx(anew, rel=0.01)
+    assert price.wingbeat["flap_amplitude"] == pytest.approx(1.0)
+
+
+def test_a_limit_that_binds_has_a_price():
+    limits = [46.0, 46.05]
+    found = [solved("pigeon", 10.0, subject_to=[f"mean_positive_power<={limit}"]) for limit in limits]
+    optimum = OptimumSlopes(found[0].problem, found[0].unknowns)
+    (limit,) = [p for p in optimum.active() if p.path.startswith("limit.")]
+    anew = (found[1].objective - found[0].objective) / (limits[1] - limits[0])
+    assert optimum.by(limit).objective == pytest.approx(anew, rel=0.02)
+    assert anew < 0
+
+
+def test_turning_the_stroke_plane_or_thinning_the_honey_changes_nothing(pigeon):
+    slopes = {s.parameter.path: s for s in pigeon[1].slopes}
+    assert abs(slopes["wing.stroke_plane_angle"].objective) < 1e-5
+    assert slopes["wing.stroke_plane_angle"].initial_state["body_pitch"] == pytest.approx(1.0, abs=1e-4)
+    assert slopes["air.viscosity"].objective == 0.0
+    assert slopes["wing.shoulder.y"].objective == 0.0
+
+
+def test_a_loaded_orbit_has_the_same_sensitivities_and_keeps_its_ranges(pigeon, tmp_path):
+    orbit, found = pigeon
+    orbit.save(tmp_path / "p.nc")
+    again = wb.sensitivities(wb.load_orbit(tmp_path / "p.nc"))
+    for one, other in zip(found.table(), again.table(), strict=True):
+        assert one["parameter"] == other["parameter"]
+        assert one["plausible"] == other["plausible"]
+        assert other["objective"] == pytest.approx(one["objective"], rel=1e-6, abs=1e-9)
+
+
+def test_what_is_not_certified_or_not_known_is_refused(pigeon):
+    tiny = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, bounds={"flap_amplitude": (0.01, 0.02)})
+    with pytest.raises(InvalidInputError, match="not certified"):
+        wb.sensitivities(wb.solve_orbit(tiny, starts=1))
+    with pytest.raises(InvalidInputError, match="elegance"):
+        wb.sensitivities(pigeon[0], ["elegance"])
+    with pytest.raises(InvalidInputError, match="quantity"):
+        pigeon[1].error_bar("peak_power")
+    with pytest.raises(InvalidInputError, match="share"):
+        pigeon[1].error_bar("frequency", share=0.0)
+    with pytest.raises(InvalidInputError, match="samples"):
+        wb.uncertainty_by_samples(pigeon[1], samples=2)
+
+
+def test_error_bars_add_up_and_name_what_they_are_due_to(pigeon):
+    bar = pigeon[1].error_bar("frequency")
+    assert bar.value == pytest.approx(pigeon[0].wingbeat.frequency, rel=1e-6)
+    assert bar.deviation == pytest.approx(math.hypot(*bar.due_to.values()))
+    assert next(iter(bar.due_to)) == "wing.semi_span"
+    slope = next(s for s in pigeon[1].slopes if s.parameter.path == "wing.semi_span")
+    assert bar.due_to["wing.semi_span"] == pytest.approx(
+        abs(slope.quantities["frequency"]) * (0.335 - 0.25) / math.sqrt(12)
+    )
+
+
+def test_draws_and_first_order_agree_where_the_problem_is_smooth(pigeon):
+    for one in wb.uncertainty_by_samples(pigeon[1], samples=120, share=0.1).values():
+        assert one.certified == one.drawn == 120
+        assert one.explained > 0.99
+        assert abs(one.deviation - one.first_order.deviation) < 3 * one.standard_error
+        shifted = one.first_order.value + one.first_order.shift
+        assert abs(one.mean - shifted) < 3 * one.deviation / math.sqrt(120) + 0.2 * one.deviation
+
+
+def test_a_fit_brings_its_covariance_with_errors_that_go_together(pigeon):
+    found, coefficients = pigeon[1], wb.aero.SuFan()
+    covariance = np.array([[4e-4, -3e-4], [-3e-4, 9e-4]])
+    drag = FittedCurve(coefficients.drag_terms, ("constant", "amplitude"), covariance)
+    lift = FittedCurve(coefficients.lift_terms, (), np.zeros((0, 0)))
+    fit = FittedModel("plate", "", (0.0, 90.0), None, lift, drag, None)
+    slopes = {s.parameter.path: s.quantities["frequency"] for s in found.slopes}
+    slope = np.array([slopes["aero.drag.constant"], slopes["aero.drag.amplitude"]])
+    bar = found.error_bar("frequency", fit)
+    assert bar.due_to["aero.drag"] == pytest.approx(math.sqrt(slope @ covariance @ slope))
+    other = fit._replace(drag=drag._replace(terms=wb.aero.Dickinson().drag_terms))
+    with pytest.raises(InvalidInputError, match="other drag terms"):
+        found.error_bar("frequency", other)
+    drawn = ParameterSpread("aero.drag", tuple(s.parameter for s in found.slopes[:2]), covariance).draw(
+        np.random.default_rng(0), 20_000
+    )
+    assert np.cov(drawn.T) == pytest.approx(covariance, rel=0.05)
+
+
+def test_a_spread_that_no_slope_knows_cannot_pass(pigeon):
+    found = pigeon[1]
+    alone = first_order(found.slopes, [], "frequency", "Hz", 9.0)
+    assert alone.deviation == 0.0
+    assert alone.due_to == {}
+
+
+def test_the_command_line_tells_what_an_orbit_hangs_on(capsys, tmp_path):
+    figure = tmp_path / "tornado.png"
+    assert (
+        main(["orbit", "pigeon", "--speed", "10", "--starts", "1", "--sensitivities", "--tornado", str(figure)])
+        == 0
+    )
+    told = capsys.readouterr().out
+    assert "Hz: depends most on wing.semi_span (" in told
+    assert "+-" not in told.partition("change to the low")[0]
+    assert "1 deg more of bounds.flap_amplitude.upper: -0.1" in told
+    assert figure.read_bytes()[:4] == b"\x89PNG"
+    assert main(["orbit", "pigeon", "--speed", "10", "--starts", "1", "--sensitivities", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["sensitivities"][0]["parameter"] == "wing.semi_span"
+    assert "error_bars" not in record
+    first = record["rankings"][0]
+    assert (first["quantity"], next(iter(first["ranking"]))) == ("frequency", "wing.semi_span")
+    assert sum(first["ranking"].values()) == pytest.approx(1.0)
+    assert "deviation" not in first
+
+
+def test_the_command_uncertainty_prints_both_ways(capsys):
+    words = ["uncertainty", "pigeon", "--speed", "10", "--samples", "10", "--share", "0.1"]
+    assert main([*words, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["frequency"]["certified"] == 10
+    assert main(["uncertainty", "pigeon", "--speed", "10", "--set", "body.mass=3"]) == 3
+    assert "infeasible" in capsys.readouterr().err
+
+
+def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
+    """6.99 +- 17 Hz is no error bar: over whole ranges the bat's straight line misses nearly all variance."""
+    bar = ErrorBar("frequency", "Hz", 6.99, 17.0, 0.3, {"wing.shoulder.x": 16.0, "wing.mass": math.sqrt(33.0)})
+    wrong = Comparison(bar, 7.4, 2.3, 0.1, 0.06, 148, 200)
+    _print(wrong, Console())
+    told = capsys.readouterr().out
+    assert "first order is a ranking only" in told
+    assert "depends most on wing.shoulder.x (89%), wing.mass (11%) of the variance" in told
+    assert "17" not in told
+    assert "7.4 +- 2.3 Hz" in told
+    plain = _plain(wrong)
+    assert plain["first_order_holds"] is False
+    assert "deviation" not in plain["first_order"]
+    right = wrong._replace(explained=0.97)
+    _print(right, Console())
+    assert "6.99 +- 17 Hz" in capsys.readouterr().out
+    assert _plain(right)["first_order"]["deviation"] == 17.0

@@ -1,0 +1,207 @@
+"""Curves along speed: certified, continued, every jump marked; characteristic speeds; files that come back."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from wingbeat.cli import main
+from wingbeat.errors import FileError, InvalidInputError
+from wingbeat.nomenclature import find, label_of
+from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
+from wingbeat.orbits.many.transitions import families, marks_of, unmarked_jumps
+from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.solve import find_optima
+from wingbeat.orbits.status import Status
+from wingbeat.results.characteristic import characteristic_speeds
+
+SPEEDS = [5.0, 6.0, 7.0]
+
+
+def problem_at(name, **asked):
+    return wb.OrbitProblem(wb.load_species(name), speed=6.0, **asked)
+
+
+@pytest.fixture(scope="module")
+def bat():
+    """From 6 to 7 m/s the bat's least frequency passes from one family of orbits to another."""
+    return trace(problem_at("bat"), SPEEDS, starts=6, seed=0)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return wb.solve_curve(problem_at("bat"), SPEEDS, power_limit=20.0)
+
+
+def test_every_optimum_of_a_curve_is_certified_and_none_beats_the_first(bat):
+    for optima in bat.optima:
+        assert [o.status for o in optima] == [Status.CONVERGED] * len(optima)
+        assert all(max(map(abs, o.closure.values())) <= 1e-6 for o in optima)
+        assert [o.objective for o in optima] == sorted(o.objective for o in optima)
+        assert all(o.distinct_optima == len(optima) and o.starts >= 2 for o in optima)
+        assert len(optima) > 1
+
+
+def test_the_change_of_family_is_marked_and_nothing_jumps_beside_the_marks(bat):
+    marks = marks_of(bat)
+    assert [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"] == [(6.0, 7.0)]
+    assert "another family becomes the better near 6." in next(m.what for m in marks if m.kind == "branch")
+    assert [m.what for m in marks if m.kind == "bounds"] == ["flap_mean met"]
+    assert unmarked_jumps(bat, marks) == []
+    assert unmarked_jumps(bat, []) == [(6.0, 7.0)]
+    label = families(bat)
+    assert label[0][0] == label[1][0] != label[2][0]
+    assert label[1][0] in label[2]
+
+
+def test_a_jump_put_into_a_smooth_curve_is_found_or_marked(bat):
+    # At 5 m/s another optimum poses as the best, with the links of the true one.
+    worse = tuple(reversed(bat.optima[0]))
+    planted = Branches((worse, *bat.optima[1:]), bat.links)
+    assert (5.0, 6.0) in unmarked_jumps(planted, marks_of(planted))
+    untold = [j for j in bat.links if (j.interval, j.lower, j.upper) != (0, 0, 0)]
+    marks = marks_of(Branches(bat.optima, tuple(untold)))
+    assert (5.0, 6.0) in [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"]
+
+
+def test_a_gap_is_marked(bat):
+    lost = dataclasses.replace(bat.optima[1][0], status=Status.INFEASIBLE)
+    marks = marks_of(Branches((bat.optima[0], (lost,), bat.optima[2]), ()))
+    assert [m.kind for m in marks] == ["gap", "gap"]
+
+
+def test_a_family_has_one_optimum_at_a_speed_where_two_are_continued_into_one(bat):
+    two = (bat.optima[0][0], bat.optima[0][1])
+    links = (BranchLink(0, 0, 0, 5), BranchLink(0, 1, 0, 2))
+    assert families(Branches((two, bat.optima[1][:1]), links)) == [[1, 0], [0]] or families(
+        Branches((two, bat.optima[1][:1]), links)
+    ) == [[0, 1], [1]]
+
+
+def test_continuing_goes_in_steps_and_comes_back():
+    there = find_optima(problem_at("pigeon"), 1)[0]
+    up = carry(there, dataclasses.replace(there.problem, speed=9.0))
+    assert up.optimum is not None
+    assert up.steps >= np.abs(up.optimum.place - there.place).max() / DEFAULTS.continuation.max_step
+    back = carry(up.optimum, there.problem)
+    assert back.optimum is not None
+    assert back.steps
+    assert back.optimum.objective == pytest.approx(there.objective, rel=1e-6)
+
+
+def test_the_answer_does_not_hang_on_the_threads():
+    one, two = (trace(problem_at("pigeon"), [8.0, 9.0], 2, 0, threads=n) for n in (1, 2))
+    assert one.links == two.links
+    assert [[o.objective for o in row] for row in one.optima] == [[o.objective for o in row] for row in two.optima]
+
+
+@pytest.mark.parametrize(("a", "b"), [(60.0, 0.01), (5.0, 0.004)])
+def test_characteristic_speeds_of_a_known_curve(a, b):
+    speed = np.arange(3.0, 21.0)
+    found = characteristic_speeds(speed, a / speed + b * speed**3, np.ones(17, dtype=bool), power_limit=20.0)
+    slowest_power, best_range = (a / (3 * b)) ** 0.25, (a / b) ** 0.25
+    assert found["minimum_power"]["speed"] == pytest.approx(slowest_power, abs=0.05)
+    assert found["minimum_power"]["power"] == pytest.approx(a / slowest_power + b * slowest_power**3, rel=2e-3)
+    assert found["maximum_range"]["speed"] == pytest.approx(best_range, abs=0.05)
+    roots = np.roots([b, 0, 0, -20.0, a])
+    fastest = max(r.real for r in roots if abs(r.imag) < 1e-9)
+    assert found["fastest_sustained"]["speed"] == pytest.approx(fastest, abs=0.03)
+    low, high = found["minimum_power"]["within_2_percent"]
+    assert low < slowest_power < high
+    assert not any(one["at_edge"] or one["jump_beside"] for one in found.values() if one["speed"] > 3)
+
+
+def test_characteristic_speeds_at_edges_jumps_and_gaps():
+    speed, falling = np.array([0.0, 3.0, 4.0, 5.0]), np.array([9.0, 7.0, 5.0, 4.0])
+    whole = np.ones(3, dtype=bool)
+    edge = characteristic_speeds(speed, falling, whole, 6.0)
+    assert edge["minimum_power"]["speed"] == 5.0
+    assert edge["minimum_power"]["at_edge"]
+    assert edge["fastest_sustained"] == {"speed": 5.0, "power": 4.0, "at_edge": True, "jump_beside": False}
+    assert edge["slowest_sustained"]["speed"] == pytest.approx(3.5)
+    assert characteristic_speeds(speed, falling, whole, 3.0)["fastest_sustained"] is None
+    valley = np.array([9.0, 5.0, 4.0, 8.0])
+    torn = characteristic_speeds(speed, valley, np.array([True, True, False]), 6.0)
+    assert torn["minimum_power"]["jump_beside"]
+    assert torn["minimum_power"]["speed"] == torn["fastest_sustained"]["speed"] == 4.0
+    gap = characteristic_speeds(speed, np.array([9.0, 5.0, 4.0, np.nan]), whole, 6.0)
+    assert gap["minimum_power"]["at_edge"]
+    assert characteristic_speeds(speed, np.full(4, np.nan), whole)["minimum_power"] is None
+
+
+def test_a_saved_curve_comes_back(curve, tmp_path):
+    curve.save(tmp_path / "curve.nc")
+    again = wb.load_curve(tmp_path / "curve.nc")
+    assert again.record() == curve.record()
+    assert curve.gaps == []
+    data = again.dataset
+    assert all("units" in data[n].attrs for n in data.data_vars if data[n].dtype == float)
+    best = curve.record()["points"][1]["optima"][0]
+    orbit = wb.solve_orbit(problem_at("bat"), starts=6)
+    assert best["frequency"] == pytest.approx(orbit.wingbeat.frequency, rel=1e-4)
+    assert best["mean_positive_power"] == pytest.approx(orbit.record()["mean_positive_power"], rel=1e-2)
+    json.dumps(curve.record(), allow_nan=False)
+
+
+def test_files_that_are_no_curves_are_refused(curve, tmp_path):
+    path = tmp_path / "other.nc"
+    curve.dataset.assign_attrs(marks="{").to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(FileError, match="is damaged"):
+        wb.load_curve(path)
+    curve.dataset.assign_attrs(wingbeat_kind="orbit").to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(FileError, match="it is none"):
+        wb.load_curve(path)
+
+
+@pytest.mark.parametrize("speeds", [[5.0], [5.0, 5.0], [6.0, 5.0], [-1.0, 5.0], [5.0, float("nan")], [5.0, "6"]])
+def test_bad_speeds_are_refused(speeds):
+    with pytest.raises(InvalidInputError, match="speeds"):
+        wb.solve_curve(problem_at("pigeon"), speeds)
+
+
+def test_the_command_line_draws_saves_and_prints(tmp_path, capsys):
+    saved, page = tmp_path / "pigeon.nc", tmp_path / "pigeon.svg"
+    words = ["curve", "pigeon", "--speeds", "9:11:1", "--starts", "1", "--power-limit", "60", "--json"]
+    assert main([*words, "-o", str(saved), "--plot", str(page)]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert [point["speed"] for point in record["points"]] == [9.0, 10.0, 11.0]
+    assert record["characteristic_speeds"]["fastest_sustained"]["at_edge"]
+    assert page.stat().st_size > 10_000
+    assert main(["show", str(saved), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == record
+    assert main(["show", str(saved)]) == 0
+    printed = capsys.readouterr().out
+    assert "3 of 3 speeds certified" in printed
+    assert "least power: 9 m/s" in printed
+    assert main(["plot", str(saved), "-o", str(tmp_path / "again.svg")]) == 0
+    assert (tmp_path / "again.svg").read_bytes() == page.read_bytes()
+
+
+def test_the_command_line_tells_when_nothing_is_certified(capsys):
+    words = ["curve", "bat", "--speeds", "8:9:1", "--starts", "1", "--subject-to", "flap_amplitude<=6 deg"]
+    assert main(words) == 3
+    assert "0 of 2 speeds certified" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words", [["--speeds", "3:2:1"], ["--speeds", "5"], ["--speeds", "3:5:1", "--power-limit", "-1"], []]
+)
+def test_bad_words_exit_with_2(words, capsys):
+    assert main(["curve", "pigeon", *words]) == 2
+    assert "error: " in capsys.readouterr().err
+
+
+def test_every_column_of_a_curve_is_said_by_the_table(curve):
+    dataset = curve.dataset
+    for name, variable in dataset.variables.items():
+        name = str(name)
+        if name.startswith("constraint_"):
+            continue  # of a quantity, which may be the user's own
+        path = name.replace("initial_", "initial_state.").replace("closure_", "closure.")
+        term = find(path)
+        assert term is not None, name
+        assert variable.attrs["long_name"] == label_of(path), name
+        if name != "objective_value":  # its unit is that of the objective
+            assert variable.attrs.get("units", "") == term.unit, name

@@ -78,7 +78,7 @@ def _summary(record: dict[str, Any]) -> Summary:
 
 
 class Orbit:
-    """One periodic orbit, from `solve_orbit`, `solve_orbits`, `solve_series`, `load_orbit` or a study.
+    """One periodic orbit, from `solve_orbit`, `solve_orbits`, `load_orbit` or a study.
 
     What can be done with it::
 

@@ -74,6 +74,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     Parameters
     ----------
     steps : where the certifier stepped.
+    model, wingbeat : what flies.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:

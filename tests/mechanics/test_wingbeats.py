@@ -73,7 +73,7 @@ def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
     on = jax.jit(lambda values: motion_table(model, unpack(free, PLAIN, values), PHASES))(values)
     off = table(model, PLAIN, PHASES)
     assert off.unpitched is off.sweeping_speed is off.tilt is None
-    assert np.all(on.level[0] == 1.0)
+    assert np.all(on.unpitched[0] == 1.0)
     for name in (field for field in off._fields if getattr(off, field) is not None):
         for one, other in zip(jax.tree.leaves(getattr(on, name)), jax.tree.leaves(getattr(off, name)), strict=True):
             one = one[:1] if name == "ahead" else one

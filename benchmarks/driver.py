@@ -92,7 +92,7 @@ def plan(folder: str, count: int) -> wb.Study:
     """Return a study of so many points, whose store is in a folder."""
     vary = {"speed": {"range": [8.0, 12.0]}, "wing.mass": {"relative_range": [0.9, 1.1]}}
     sample = {"method": "latin-hypercube", "n": count}
-    return wb.study(species="pigeon", starts=1, vary=vary, sample=sample, store=f"{folder}/a.study.sqlite")
+    return wb.plan_study(species="pigeon", starts=1, vary=vary, sample=sample, store=f"{folder}/a.study.sqlite")
 
 
 def memory(which: str) -> int:

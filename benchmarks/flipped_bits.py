@@ -96,7 +96,7 @@ class Sample:
     def __init__(self, folder: Path, known: dict[str, Outcome] | None = None) -> None:
         self.folder, self.file = folder, folder / "whole.toml"
         self.file.write_text(STUDY)
-        self.study = wb.study(self.file)
+        self.study = wb.plan_study(self.file)
         self.store = self.study.store
         if known is None:
             self.study.run()

@@ -174,7 +174,7 @@ def outcome(mutant: Mutant, folder: Path) -> str:
     path.write_bytes(mutant.content)
     try:
         if mutant.kind == "study":
-            len(wb.study(path))
+            len(wb.plan_study(path))
         else:
             wb.load_species(path)
     except wb.WingbeatError as error:

@@ -1,6 +1,6 @@
 """Cost against strips, steps, lanes and free parameters, measured on one core, drawn with its exponents.
 
-Run from the root of a clone; it rewrites docs/scaling.png and docs/scaling.csv::
+Run from the root of a clone; it rewrites docs/scaling.png and data/scaling.csv::
 
     taskset -c 0 uv run python benchmarks/scaling.py
 """
@@ -16,8 +16,10 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.bench import median_seconds, right_hand_side
 from wingbeat.orbits.flight.shooting import STEPS, flier
+from wingbeat.plots import save_figure
+from wingbeat.style import BLUE, PAGE, VERMILION, drawing, new_figure
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+ROOT = Path(__file__).resolve().parents[1]
 REPEATS = 60
 FREE = (
     "frequency",
@@ -34,7 +36,7 @@ START = np.array([0.2, 10.0, 0.0, 0.0])
 def flight(strips: int = 10, free: int = 5, blocks: int = 1) -> float:
     """Return the time of a flight with its derivatives [s]."""
     species = wb.load_species("bat")
-    model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips), species.air)
+    model = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips), species.air)
     names = FREE[:free]
     values = np.array([getattr(species.wingbeat, name) for name in names])
     fly = flier(model, species.wingbeat, names)
@@ -63,20 +65,18 @@ def exponent(sizes: Any, times: Any) -> float:
     return float(np.polyfit(np.log(sizes[upper:]), np.log(times[upper:]), 1)[0])
 
 
+@drawing()
 def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
-    import matplotlib
-
-    matplotlib.use("agg")
-    import matplotlib.pyplot as plt
     from matplotlib.ticker import NullFormatter, ScalarFormatter
 
-    figure, panels = plt.subplots(2, 2, figsize=(7.2, 5.4), layout="constrained")
+    figure = new_figure(PAGE, 137.0)
+    panels = figure.subplots(2, 2)
     for axes, (name, (sizes, times, label)) in zip(panels.flat, results.items(), strict=True):
         ms = 1e3 * np.array(times)
         power = exponent(sizes, times)
-        axes.loglog(sizes, ms, "o-", color="#0072B2", markersize=4, label="measured")
+        axes.loglog(sizes, ms, "o-", color=BLUE, markersize=4, label="measured")
         reference = ms[-1] * np.array(sizes) / sizes[-1]
-        axes.loglog(sizes, reference, "--", color="#D55E00", linewidth=1, label="proportional")
+        axes.loglog(sizes, reference, "--", color=VERMILION, linewidth=1, label="proportional")
         axes.set(xlabel=f"{name} [-]", ylabel=label)
         axes.set_xticks(sizes if len(sizes) < 8 else sizes[::2], minor=False)
         axes.xaxis.set_major_formatter(ScalarFormatter())
@@ -87,16 +87,15 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.set_ylim(0.6 * min(ms), 2 * max(ms))
-        axes.tick_params(labelsize=8)
-        axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=9)
-        axes.legend(frameon=False, fontsize=8)
-        axes.grid(True, which="major", color="0.9", linewidth=0.6)
-    figure.savefig(DOCS / "scaling.png", dpi=150)
+        axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=8)
+        axes.legend()
+        axes.grid()
+    save_figure(figure, ROOT / "docs" / "scaling.png")
 
 
 def main() -> None:
     results = {}
-    with (DOCS / "scaling.csv").open("w", newline="") as file:
+    with (ROOT / "data" / "scaling.csv").open("w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["varied", "value", "seconds"])
         for name, (sizes, cost, label) in SWEEPS.items():

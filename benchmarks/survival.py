@@ -67,7 +67,7 @@ def beside_the_solver(file: Path, pairs: int) -> int:
     taken = []
     for _ in range(pairs):
         file.with_suffix(".study.sqlite").unlink(missing_ok=True)
-        study = wb.study(file)
+        study = wb.plan_study(file)
         begun = time.perf_counter()
         study.run()
         seconds = time.perf_counter() - begun

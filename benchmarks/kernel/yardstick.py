@@ -95,7 +95,7 @@ class Case:
     def __init__(self, found: ctypes.CDLL, name: str) -> None:
         species = wb.load_species(name)
         self.found, self.wingbeat, self.rng = found, species.wingbeat, np.random.default_rng(20230219)
-        self.model = wb.flight_model(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air)
+        self.model = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()), species.air)
         self.numbers = numbers(self.model)
         self.jax_rates = jax.jit(body_rates)
         self.jax_march = jax.jit(rk4)

@@ -5,21 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, told apart by the colour-blind, with a marker each.
+from wingbeat.plots import save_figure
+from wingbeat.style import BLUE, GREEN, PAGE, PURPLE, VERMILION, drawing, new_figure
+
 KINDS = {
-    "warm": ("#0072B2", "o", "warm, one case each"),
-    "cold": ("#D55E00", "D", "cold, nothing on disk"),
-    "again": ("#009E73", "s", "new process, caches kept"),
+    "warm": (BLUE, "o", "warm, one case each"),
+    "cold": (VERMILION, "D", "cold, nothing on disk"),
+    "again": (GREEN, "s", "new process, caches kept"),
 }
-BLACK = "#000000"
 
 
+@drawing()
 def draw(results: dict[str, dict], versions: dict[str, str], path: Path) -> None:
     """Write the figure: seconds on the left, how well the orbits close when re-flown on the right."""
     names = list(results)[::-1]
-    figure = Figure(figsize=(7.2, 1.6 + 0.36 * len(names)), layout="constrained")
+    figure = new_figure(PAGE, 41.0 + 9.0 * len(names))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(3, 2))
     for row, name in enumerate(names):
         solved = [entry for entry in results[name]["cases"] if entry["first"]["success"]]
@@ -30,17 +31,15 @@ def draw(results: dict[str, dict], versions: dict[str, str], path: Path) -> None
             style = {"color": colour, "marker": marker, "s": 14, "alpha": 0.7, "linewidths": 0}
             left.scatter(seconds[kind], [shift] * len(seconds[kind]), label=label if row == 0 else None, **style)
         if solved:
-            left.plot([np.median(seconds["warm"])] * 2, [row - 0.2, row + 0.2], color=BLACK, lw=1.5)
+            left.plot([np.median(seconds["warm"])] * 2, [row - 0.2, row + 0.2], color="k", lw=1.5)
             misses = [max(entry["first"]["miss"], 1e-12) for entry in solved]
-            right.scatter(misses, [row] * len(misses), color="#CC79A7", s=14, alpha=0.7, linewidths=0)
+            right.scatter(misses, [row] * len(misses), color=PURPLE, s=14, alpha=0.7, linewidths=0)
     left.set(xscale="log", xlabel="time to an optimum [s]", yticks=range(len(names)), yticklabels=names)
     right.set(xscale="log", xlabel="largest closure miss, re-flown\n[m, rad, m/s, rad/s]")
-    right.axvline(1e-6, color=BLACK, lw=0.8, ls=":")
+    right.axvline(1e-6, color="k", lw=0.8, ls=":")
     for axes in (left, right):
-        axes.grid(axis="x", alpha=0.3)
-        axes.tick_params(labelsize=7)
-        axes.xaxis.label.set_size(8)
-    figure.legend(loc="outside upper center", ncols=3, fontsize=7, frameon=False)
+        axes.grid(axis="x")
+    figure.legend(loc="outside upper center", ncols=3)
     words = ", ".join(f"{name} {version}" for name, version in versions.items())
     figure.supxlabel(f"One core. Bars: medians. {words}", fontsize=5)
-    figure.savefig(path, dpi=200)
+    save_figure(figure, path)

@@ -29,9 +29,13 @@ if TYPE_CHECKING:
     from wingbeat.mechanics.flight_loads import flight_loads as flight_loads
     from wingbeat.mechanics.flight_model import FlightModel as FlightModel
     from wingbeat.mechanics.flight_model import State as State
-    from wingbeat.mechanics.flight_model import flight_model as flight_model
-    from wingbeat.mechanics.flights import simulate_torque_driven as simulate_torque_driven
     from wingbeat.orbits.flight.beat import Beat as Beat
+    from wingbeat.orbits.flight.certify import Certificate as Certificate
+    from wingbeat.orbits.flight.certify import certify as certify
+    from wingbeat.orbits.flight.floquet import floquet_multipliers as floquet_multipliers
+    from wingbeat.orbits.infeasible.relaxation import Relaxation as Relaxation
+    from wingbeat.orbits.many.uncertainty import ErrorBar as ErrorBar
+    from wingbeat.orbits.many.uncertainty import Samples as Samples
     from wingbeat.orbits.options.certificate import CertificateOptions as CertificateOptions
     from wingbeat.orbits.options.certificate import NewtonOptions as NewtonOptions
     from wingbeat.orbits.options.continuation import ContinuationOptions as ContinuationOptions
@@ -42,26 +46,28 @@ if TYPE_CHECKING:
     from wingbeat.orbits.options.search import SearchOptions as SearchOptions
     from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
     from wingbeat.orbits.options.start_families import StartFamily as StartFamily
+    from wingbeat.orbits.problem import objectives as objectives
+    from wingbeat.orbits.problem.filmed import filmed_problem as filmed_problem
+    from wingbeat.orbits.problem.filmed import filmed_species as filmed_species
     from wingbeat.orbits.problem.limits import Constraint as Constraint
-    from wingbeat.orbits.problem.objectives import Frequency as Frequency
-    from wingbeat.orbits.problem.objectives import PowerCost as PowerCost
     from wingbeat.orbits.problem.objectives import Quantity as Quantity
-    from wingbeat.orbits.problem.objectives import SpringPower as SpringPower
     from wingbeat.orbits.problem.problem import OrbitProblem as OrbitProblem
     from wingbeat.orbits.status import Status as Status
     from wingbeat.results.curve import Curve as Curve
     from wingbeat.results.curve import load_curve as load_curve
     from wingbeat.results.curve import solve_curve as solve_curve
     from wingbeat.results.flight import Flight as Flight
+    from wingbeat.results.flight import TorqueDrivenFlight as TorqueDrivenFlight
     from wingbeat.results.flight import simulate as simulate
+    from wingbeat.results.flight import simulate_torque_driven as simulate_torque_driven
     from wingbeat.results.glide import GlidePolar as GlidePolar
     from wingbeat.results.glide import glide_polar as glide_polar
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
     from wingbeat.results.orbit import solve_orbit as solve_orbit
     from wingbeat.results.orbit import solve_orbits as solve_orbits
-    from wingbeat.results.orbit import solve_series as solve_series
     from wingbeat.results.power import power_account as power_account
+    from wingbeat.results.sensitivities import Sensitivities as Sensitivities
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
     from wingbeat.results.spread import Spread as Spread
@@ -73,7 +79,7 @@ if TYPE_CHECKING:
     from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
     from wingbeat.studies.study import Study as Study
-    from wingbeat.studies.study import study as study
+    from wingbeat.studies.study import plan_study as plan_study
     from wingbeat.vehicle import Air as Air
     from wingbeat.vehicle import Body as Body
     from wingbeat.vehicle import Vehicle as Vehicle
@@ -83,6 +89,7 @@ _HOME = {
     "Air": "vehicle",
     "Beat": "orbits.flight.beat",
     "Body": "vehicle",
+    "Certificate": "orbits.flight.certify",
     "CertificateOptions": "orbits.options.certificate",
     "ChangeOptions": "orbits.options.diagnosis",
     "ClusterError": "errors",
@@ -90,29 +97,31 @@ _HOME = {
     "ContinuationOptions": "orbits.options.continuation",
     "Curve": "results.curve",
     "DiagnosisOptions": "orbits.options.diagnosis",
+    "ErrorBar": "orbits.many.uncertainty",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "mechanics.flight_model",
     "ForkError": "errors",
-    "Frequency": "orbits.problem.objectives",
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
-    "PowerCost": "orbits.problem.objectives",
     "Quantity": "orbits.problem.objectives",
+    "Relaxation": "orbits.infeasible.relaxation",
+    "Samples": "orbits.many.uncertainty",
     "SearchOptions": "orbits.options.search",
+    "Sensitivities": "results.sensitivities",
     "SensitivityOptions": "orbits.options.continuation",
     "SolverOptions": "orbits.options.solver",
     "Species": "species",
     "Spread": "results.spread",
-    "SpringPower": "orbits.problem.objectives",
     "StartFamily": "orbits.options.start_families",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
     "Study": "studies.study",
+    "TorqueDrivenFlight": "results.flight",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
@@ -120,36 +129,44 @@ _HOME = {
     "air_forces": "mechanics.equations_of_motion",
     "bat": "species",
     "bird": "species",
+    "certify": "orbits.flight.certify",
     "equations_of_motion": "mechanics.equations_of_motion",
+    "filmed_problem": "orbits.problem.filmed",
+    "filmed_species": "orbits.problem.filmed",
     "flight_loads": "mechanics.flight_loads",
-    "flight_model": "mechanics.flight_model",
+    "floquet_multipliers": "orbits.flight.floquet",
     "generalised_torques": "mechanics.equations_of_motion",
     "glide_polar": "results.glide",
     "load_curve": "results.curve",
     "load_orbit": "results.orbit",
     "load_species": "species",
     "orbit_spread": "results.spread",
+    "plan_study": "studies.study",
     "power_account": "results.power",
     "robot": "species",
     "sensitivities": "results.sensitivities",
     "simulate": "results.flight",
-    "simulate_torque_driven": "mechanics.flights",
+    "simulate_torque_driven": "results.flight",
     "solve_curve": "results.curve",
     "solve_orbit": "results.orbit",
     "solve_orbits": "results.orbit",
-    "solve_series": "results.orbit",
     "species_names": "species",
-    "study": "studies.study",
     "uncertainty_by_samples": "results.sensitivities",
 }
-_MODULES = ("aero", "experiment", "plots", "viewer")
+_MODULES = {
+    "aero": "aero",
+    "experiment": "experiment",
+    "objectives": "orbits.problem.objectives",
+    "plots": "plots",
+    "viewer": "viewer",
+}
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
-        return importlib.import_module(f"wingbeat.{name}")
+        return importlib.import_module(f"wingbeat.{_MODULES[name]}")
     if name in _HOME:
         return getattr(importlib.import_module(f"wingbeat.{_HOME[name]}"), name)
     raise AttributeError(f"module 'wingbeat' has no attribute {name!r}")

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from browsers import PATIENCE
 
 import wingbeat as wb
+from tests.helpers.browsers import PATIENCE
 
 
 @dataclasses.dataclass

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from app.program import PATIENCE, Program
+from tests.app.program import PATIENCE, Program
 from wingbeat.app.door import is_loopback
 
 

@@ -10,18 +10,17 @@ from pathlib import Path
 
 import pytest
 
-from app.program import PATIENCE, Program, wait_gone
+from tests.app.program import PATIENCE, Program, wait_gone
+from tests.helpers.places import ROOT
 from wingbeat.app.crew import WorkerProcess
 from wingbeat.app.links import to_plain
 from wingbeat.app.pool import Event, Pool
 from wingbeat.app.scenario import Scenario
 
-HERE = Path(__file__).parent
-
 
 @pytest.fixture(autouse=True)
 def standin(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(HERE))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
 
 
 def ended(pool, what):
@@ -39,7 +38,7 @@ def ended(pool, what):
 
 
 def test_a_worker_that_outgrows_its_memory_leaves_without_a_word(capfd):
-    worker = WorkerProcess("standin:do")
+    worker = WorkerProcess("tests.helpers.explorer_standin:do")
     told = worker.lines()
     assert next(told)["kind"] == "ready"
     worker.send({"number": 1, "what": ["outgrow", 0]})
@@ -50,7 +49,7 @@ def test_a_worker_that_outgrows_its_memory_leaves_without_a_word(capfd):
 
 
 def test_a_worker_that_is_refused_memory_is_told_of_and_replaced():
-    pool = Pool("standin:do", 1)
+    pool = Pool("tests.helpers.explorer_standin:do", 1)
     try:
         assert ended(pool, ("hoard", 1 << 40)) == Event("lost", "exit code 12: out of memory")
         assert ended(pool, ("echo", 1)).kind == "done"
@@ -79,7 +78,7 @@ def test_a_solver_without_memory_is_told_of_and_replaced():
 def test_a_worker_whose_server_was_killed_ends_whatever_it_does():
     script = """if True:
         from wingbeat.app.crew import WorkerProcess
-        worker = WorkerProcess("standin:do")
+        worker = WorkerProcess("tests.helpers.explorer_standin:do")
         told = worker.lines()
         next(told)
         worker.send({"number": 1, "what": ["deaf", 1000.0]})

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from browsers import AXE, PATIENCE
 
 import wingbeat as wb
+from tests.helpers.browsers import AXE, PATIENCE
 from wingbeat.cli import main
 
 

@@ -4,10 +4,10 @@ import os
 import signal
 import threading
 import time
-from pathlib import Path
 
 import pytest
 
+from tests.helpers.places import ROOT
 from wingbeat.app import pool as pool_module
 from wingbeat.app.pool import Event, Pool
 
@@ -41,11 +41,11 @@ class Heard:
 
 @pytest.fixture
 def make_pool(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parent))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
     pools = []
 
     def make(processes=1, **options):
-        pools.append(Pool("standin:do", processes, **options))
+        pools.append(Pool("tests.helpers.explorer_standin:do", processes, **options))
         return pools[-1]
 
     yield make

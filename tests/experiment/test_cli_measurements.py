@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
 from wingbeat.cli import main
 from wingbeat.experiment import Campaign, reduce_runs, save_runs, synthetic_runs
@@ -203,15 +204,14 @@ def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):
     assert again.aero.coefficients == own
 
 
-STUDY = Path(__file__).resolve().parents[2] / "studies/measured_wings.py"
-DATA = STUDY.parents[1] / "../shared/data"
+STUDY, DATA = ROOT / "validation/measured_wings.py", ROOT / "../shared/data"
 
 
 @pytest.mark.skipif(not DATA.is_dir(), reason="other people's measurements are not part of this repository")
 def test_the_study_of_measured_wings_writes_what_the_repository_holds(here):
     subprocess.run([sys.executable, STUDY, "--data", DATA, "-o", "."], check=True, capture_output=True)
     page = Path("measured_wings.md").read_text()
-    assert page == (STUDY.parents[1] / "docs/measured_wings.md").read_text()
+    assert page == (ROOT / "docs/measured_wings.md").read_text()
     assert page.count("| gull F") == 9 + 18
 
 

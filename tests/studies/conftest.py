@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.helpers.places import ROOT
 from wingbeat.cli import main
 from wingbeat.studies.engine import LocalProcesses
 
-HERE = Path(__file__).resolve().parent
 PROGRAM = (
-    "import sys; from wingbeat.studies.engine import LocalProcesses; LocalProcesses.work = 'standin:solve'; "
+    "import sys; from wingbeat.studies.engine import LocalProcesses; "
+    "LocalProcesses.work = 'tests.helpers.study_standin:solve'; "
     "from wingbeat.cli import main; sys.exit(main(['study', *sys.argv[1:]]))"
 )
 FORM = 'species = "pigeon"\nstarts = 1\n[vary]\nspeed = {{ grid = {speeds} }}\n'
@@ -38,7 +39,7 @@ class Cheap:
     def start(self, *words, program=PROGRAM, seconds=0.0, log=None, **popen):
         """Start the program; its processes and their workers carry this study's mark in their environment."""
         environment = os.environ | popen.pop("env", {}) | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
-        environment["PYTHONPATH"] = os.pathsep.join([str(HERE), *sys.path])
+        environment["PYTHONPATH"] = os.pathsep.join([str(ROOT), *sys.path])
         if log is not None:
             environment["STANDIN_LOG"] = str(log)
         popen = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment} | popen
@@ -85,8 +86,8 @@ class Cheap:
 @pytest.fixture
 def cheap(tmp_path, capsys, monkeypatch):
     """Return a maker of cheap studies, each in a folder of its own."""
-    monkeypatch.setattr(LocalProcesses, "work", "standin:solve")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HERE), *sys.path]))
+    monkeypatch.setattr(LocalProcesses, "work", "tests.helpers.study_standin:solve")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT), *sys.path]))
 
     def make(speeds, name="here"):
         folder = tmp_path / name

@@ -39,7 +39,7 @@ def kept(path):
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
-    study = wb.study(FORM, store=tmp_path_factory.mktemp("study") / "pigeon.study.sqlite")
+    study = wb.plan_study(FORM, store=tmp_path_factory.mktemp("study") / "pigeon.study.sqlite")
     summary = study.run(processes=2)
     assert summary.counts == {"converged": 8}
     assert summary.seconds == pytest.approx(study.to_dataframe()["run_seconds"].sum())
@@ -48,7 +48,9 @@ def done(tmp_path_factory):
 
 def test_records_are_those_of_single_orbits_and_of_one_process_in_another_order(done, tmp_path):
     vary = {"wing.mass": {"relative": [1.1, 1.0]}, "speed": {"grid": [11.0, 9.0]}}
-    turned = wb.study(FORM | {"aero": ["dickinson", "su-fan"], "vary": vary}, store=tmp_path / "a.study.sqlite")
+    turned = wb.plan_study(
+        FORM | {"aero": ["dickinson", "su-fan"], "vary": vary}, store=tmp_path / "a.study.sqlite"
+    )
     turned.run(processes=1)
     assert kept(turned.store) == kept(done.store)
     record = json.loads(kept(done.store)[next(done.plan.points()).key][1])
@@ -79,7 +81,7 @@ def test_orbits_are_those_of_the_points_and_fly_again_when_asked_for(done, tmp_p
         np.testing.assert_allclose(orbit.dataset[name], again.dataset[name], rtol=1e-5, atol=1e-6)
     orbit.save(tmp_path / "one.nc")
     assert wb.load_orbit(tmp_path / "one.nc").record()["mean_power"] == orbit.record()["mean_power"]
-    waiting = wb.study(FORM, store=tmp_path / "waiting.study.sqlite")
+    waiting = wb.plan_study(FORM, store=tmp_path / "waiting.study.sqlite")
     with Store.open(waiting.store) as store:
         store.set_plan(waiting.plan)
     assert [orbit for _, orbit in waiting.orbits()] == [None] * 8
@@ -144,28 +146,28 @@ def test_parquet(done, tmp_path):
 def test_a_study_that_was_changed_keeps_what_still_applies(done):
     before = kept(done.store)
     form = FORM | {"vary": {"speed": {"grid": [9.0, 10.0, 11.0]}}, "aero": "su-fan"}
-    changed = wb.study(form, store=done.store)
+    changed = wb.plan_study(form, store=done.store)
     assert changed.status().changed
-    assert changed.run(processes=1) == wb.study(form, store=done.store).status()
+    assert changed.run(processes=1) == wb.plan_study(form, store=done.store).status()
     assert changed.status().counts == {"converged": 3}
     assert changed.status().kept == 6
     after = kept(done.store)
     assert len(after) == 9
     assert before.items() <= after.items()
-    wb.study(FORM, store=done.store).run(processes=1)
+    wb.plan_study(FORM, store=done.store).run(processes=1)
     assert kept(done.store) == after
 
 
 def test_a_chain_hands_its_answers_on_and_does_not_hang_on_how_it_was_cut(tmp_path):
     speeds = [8.0, 8.5, 9.0, 9.5, 10.0]
     form = {"species": "bat", "starts": 1, "vary": {"speed": {"grid": speeds}}, "chain": "speed"}
-    whole = wb.study(form, store=tmp_path / "whole.study.sqlite")
+    whole = wb.plan_study(form, store=tmp_path / "whole.study.sqlite")
     whole.run(processes=1)
     # The first is searched alone, the next from the one before it; then three foretell.
     assert [int(n) for n in whole.to_dataframe()["starts"]] == [1, 1, 1, 1, 1]
     pieces = tmp_path / "pieces.study.sqlite"
     for count in (1, 4, 5):
-        wb.study(form | {"vary": {"speed": {"grid": speeds[:count]}}}, store=pieces).run(processes=1)
+        wb.plan_study(form | {"vary": {"speed": {"grid": speeds[:count]}}}, store=pieces).run(processes=1)
     assert kept(pieces) == kept(whole.store)
 
 
@@ -242,7 +244,7 @@ def test_a_record_that_no_json_holds_is_told_beside_its_point(done, monkeypatch)
 def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(work, "find_with_known", lambda *given: asked.append(given))
-    study = wb.study(species="bat", speed=9.0, minimise=least, store=tmp_path / "x.study.sqlite")
+    study = wb.plan_study(species="bat", speed=9.0, minimise=least, store=tmp_path / "x.study.sqlite")
     (point,) = study.plan.points()
     recipe = json.dumps(study.plan.bases[0].recipe.inputs())
     list(work.solve_unit(Unit(recipe, (Task(point.key, point.changes),))))

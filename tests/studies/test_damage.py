@@ -12,7 +12,7 @@ import pytest
 from flipped_bits import HARMLESS, REFUSED, STUDY, Sample, campaign
 
 import wingbeat as wb
-from studies.standin import RAISES
+from tests.helpers.study_standin import RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import database, soundness, store
 from wingbeat.studies.digests import about_digest
@@ -31,7 +31,7 @@ def sample(tmp_path_factory):
     file = folder / "keys.toml"
     file.write_text(STUDY)
     known = {}
-    for place, point in enumerate(wb.study(file).plan.points()):
+    for place, point in enumerate(wb.plan_study(file).plan.points()):
         status = "infeasible" if point.values[0] == 45.0 else "converged"
         record = {"status": status, "mean_power": 1.0 / (3 + place), "message": "certified. " * 200}
         text = "" if status == "converged" else "too fast"

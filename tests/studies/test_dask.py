@@ -13,8 +13,8 @@ import distributed
 import pytest
 
 import wingbeat as wb
-from studies.conftest import HERE
-from studies.standin import CRASHES, HANGS, KILLS_PARENT, RAISES
+from tests.helpers.places import ROOT
+from tests.helpers.study_standin import CRASHES, HANGS, KILLS_PARENT, RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import dask_engine
 from wingbeat.studies.dask_work import Order, solve_batch
@@ -29,7 +29,7 @@ class Cluster:
 
     def __init__(self, study, seconds=0.02, log="", **settings):
         self.environment = os.environ | {
-            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+            "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
             "STUDY_MARK": study.mark,
             "STANDIN_SECONDS": str(seconds),
             "STANDIN_LOG": str(log),
@@ -197,7 +197,7 @@ def test_records_are_those_of_local_processes_to_the_bit(tmp_path):
     form = {"species": "pigeon", "starts": 1, "vary": {"speed": {"grid": [9.0, 11.0]}}}
     found = []
     for name, how in (("local", {"processes": 1}), ("dask", {"dask": "local:1"})):
-        study = wb.study(form, store=tmp_path / f"{name}.study.sqlite")
+        study = wb.plan_study(form, store=tmp_path / f"{name}.study.sqlite")
         assert study.run(**how).counts == {"converged": 2}
         connection = sqlite3.connect(study.store)
         question = "SELECT key, status, record, certificate, error FROM points ORDER BY key"
@@ -210,7 +210,7 @@ def test_a_cluster_of_somebody_else_is_used_and_left_as_it_is(cheap):
     study = cheap(GRID[:5])
     words = {"dashboard_address": "127.0.0.1:0", "worker_dashboard_address": "127.0.0.1:0"}
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, **words) as theirs:
-        assert wb.study(study.file).run(dask=theirs).counts == {"converged": 5}
+        assert wb.plan_study(study.file).run(dask=theirs).counts == {"converged": 5}
         with distributed.Client(theirs, set_as_default=False) as client:
             assert client.submit(abs, -1).result() == 1
     assert study.points() == undisturbed(cheap, GRID[:5])
@@ -240,6 +240,6 @@ def test_workers_with_other_numbers_are_refused(cheap, monkeypatch):
     assert code == 2
     assert f"has a wingbeat of numerical version {NUMERICAL_VERSION}, this one is of {NUMERICAL_VERSION + 1}" in err
     # One that joined in between refuses by itself.
-    order = Order(1, [], "standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)
+    order = Order(1, [], "tests.helpers.study_standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)
     with pytest.raises(wb.ClusterError, match="install the same wingbeat there"):
         solve_batch(pickle.dumps(order))

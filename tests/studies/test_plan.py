@@ -5,17 +5,17 @@ import math
 import re
 
 import pytest
-from bad_input.conftest import GOOD, SPECIES
 from fuzz import STUDIES
 
 import wingbeat as wb
+from tests.helpers.species_texts import GOOD, SPECIES
 from wingbeat.cli import main
 from wingbeat.studies.form import check_form
 from wingbeat.studies.recipe import recipe_from
 
 
 def plan(store="x.study.sqlite", **form):
-    return wb.study({"species": "pigeon", "starts": 1} | form, store=store).plan
+    return wb.plan_study({"species": "pigeon", "starts": 1} | form, store=store).plan
 
 
 def keys(**form):
@@ -25,7 +25,7 @@ def keys(**form):
 def test_the_form_of_the_issue(tmp_path):
     file = tmp_path / "wings.toml"
     file.write_text(STUDIES[0])
-    study = wb.study(file)
+    study = wb.plan_study(file)
     assert study.store == tmp_path / "wings.study.sqlite"
     points = list(study.plan.points())
     assert len(study) == len(points) == len({p.key for p in points}) == 36
@@ -183,7 +183,7 @@ def test_every_fault_is_told_before_anything_runs(form, words):
     if "speed" in form.get("vary", {}):
         del form["speed"]
     with pytest.raises(wb.WingbeatError) as told:
-        wb.study(form, store="x.study.sqlite")
+        wb.plan_study(form, store="x.study.sqlite")
     assert words in str(told.value)
 
 
@@ -252,7 +252,7 @@ def test_a_users_file_that_leaves_is_refused(tmp_path):
     (tmp_path / "mine.py").write_text("import sys\nsys.exit(0)\n")
     (tmp_path / "study.toml").write_text('species = "pigeon"\nspeed = 9.0\nminimise = "mine.py:f"\n')
     with pytest.raises(wb.InvalidInputError, match="cannot be run: SystemExit"):
-        wb.study(tmp_path / "study.toml")
+        wb.plan_study(tmp_path / "study.toml")
 
 
 def test_too_many_points_are_refused():
@@ -286,7 +286,7 @@ def test_a_form_may_hold_what_python_holds():
 
 def test_the_estimate_counts_the_searches_that_will_be_made(tmp_path):
     def seconds(**form):
-        return wb.study({"species": "bat", "speed": 9.0} | form, store=tmp_path / "x.study.sqlite").estimate()
+        return wb.plan_study({"species": "bat", "speed": 9.0} | form, store=tmp_path / "x.study.sqlite").estimate()
 
     assert seconds(minimise="peak_power") > seconds(minimise="mean_power") > seconds() == seconds(starts=6)
 
@@ -296,7 +296,7 @@ def test_what_is_no_study_is_refused(source):
     with pytest.raises(
         wb.InvalidInputError, match=r"source = .* is neither a path nor a dictionary; give a study file"
     ):
-        wb.study(source)
+        wb.plan_study(source)
 
 
 def test_a_mistyped_subcommand_is_not_taken_for_a_file(tmp_path, monkeypatch, capsys):

@@ -13,10 +13,10 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from terminals import needs_terminal, on_terminal
 
 import wingbeat as wb
-from studies.standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
+from tests.helpers.study_standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
+from tests.helpers.terminals import needs_terminal, on_terminal
 from wingbeat.species import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
@@ -63,8 +63,9 @@ def test_killed_drivers_lose_nothing_and_repeat_nothing_that_was_kept(cheap, und
 
 
 BY_LIBRARY = (
-    "import sys; from wingbeat.studies.engine import LocalProcesses; LocalProcesses.work = 'standin:solve'; "
-    "import wingbeat as wb; wb.study(sys.argv[1]).run(processes=1)"
+    "import sys; from wingbeat.studies.engine import LocalProcesses; "
+    "LocalProcesses.work = 'tests.helpers.study_standin:solve'; "
+    "import wingbeat as wb; wb.plan_study(sys.argv[1]).run(processes=1)"
 )
 
 
@@ -240,7 +241,7 @@ def test_files_of_one_name_are_told_apart(cheap):
     form = study.file.read_text()
     study.file.write_text(form.replace('"pigeon"', '["slim.toml", "stout.toml"]'))
     assert study.run()[0] == 0
-    frame = wb.study(study.file).to_dataframe()
+    frame = wb.plan_study(study.file).to_dataframe()
     assert list(frame["species"]) == ["pigeon"] * 4
     assert list(frame["species_given"]) == ["slim.toml"] * 2 + ["stout.toml"] * 2
 
@@ -249,7 +250,7 @@ def test_speeds_at_the_top_are_drawn_over(cheap):
     study = cheap([6, 7])
     study.file.write_text('species = "pigeon"\nspeed = [6.0, 7.0]\nstarts = 1\n')
     assert study.run()[0] == 0
-    frame, varied, *_, units = wb.study(study.file).drawing()
+    frame, varied, *_, units = wb.plan_study(study.file).drawing()
     assert (varied, units, list(frame["speed"])) == (["speed"], ["m/s"], [6.0, 7.0])
 
 

@@ -1,0 +1,1 @@
+"""Wingbeats in motion."""

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-from browsers import PATIENCE
 
 import wingbeat as wb
+from tests.helpers.browsers import PATIENCE
 
 
 class Shown(NamedTuple):

@@ -1,7 +1,8 @@
 """What axe finds in the page."""
 
 import pytest
-from browsers import AXE
+
+from tests.helpers.browsers import AXE
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

@@ -7,9 +7,9 @@ import shutil
 import subprocess
 
 import pytest
-from browsers import NODE_MODULES
 
 import wingbeat as wb
+from tests.helpers.browsers import NODE_MODULES
 
 SOURCES = NODE_MODULES.parent
 

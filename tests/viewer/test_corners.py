@@ -43,7 +43,7 @@ def test_corners_are_where_the_model_puts_them(name, chord):
     if chord:
         species = species.with_values({"wing.chord": chord, "wing.shoulder": (0.01, 0.02, 0.005)})
     vehicle, beat = species.vehicle, species.wingbeat
-    model = wb.flight_model(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips=8))
+    model = wb.FlightModel(vehicle, wb.aero.BladeElement(wb.aero.SuFan(), strips=8))
     start = wb.State(x=0.3, z=-0.1, body_pitch=0.2, u=9.0, w=0.4, pitch_rate=1.0)
     data = wb.simulate(model, beat, start, beats=1, samples=16).dataset
     assert list(data["corner"].values) == ["leading inner", "leading outer", "trailing outer", "trailing inner"]

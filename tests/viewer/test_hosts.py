@@ -7,10 +7,10 @@ import sys
 
 import numpy as np
 import pytest
-from browsers import PATIENCE
 from PIL import Image
 
 import wingbeat as wb
+from tests.helpers.browsers import PATIENCE
 from wingbeat.cli import main
 
 

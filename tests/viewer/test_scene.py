@@ -19,7 +19,7 @@ def unpacked(packed):
 @pytest.fixture(scope="module")
 def pigeon_model():
     pigeon = wb.load_species("pigeon")
-    return pigeon, wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    return pigeon, wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
 
 
 def test_arrays_are_those_of_the_data_set(bats):

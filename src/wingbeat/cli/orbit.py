@@ -47,6 +47,7 @@ from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.orbits.many.uncertainty import ErrorBar
+from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
@@ -164,7 +165,7 @@ def orbit(
             problem = OrbitProblem(animal, speed, **asked)
         else:
             beat = fit_film(read_film(kinematics))
-            problem = beat.problem(animal, speed, **asked)
+            problem = filmed_problem(beat, animal, speed, **asked)
     check_outputs(output, plot, tornado)
     found = _solve(problem, starts, seed)
     if output:

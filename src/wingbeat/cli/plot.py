@@ -10,10 +10,10 @@ from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import drawn
 from wingbeat.cli.report import read_result
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
 from wingbeat.results.curve import curve_from
-from wingbeat.results.storage import KIND
 
 
 def plot(

@@ -17,9 +17,7 @@ from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lif
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.plots import check_figure_name, save_figure
-
-# Okabe and Ito's colours, told apart by colour-blind eyes.
-_BLUE, _ORANGE = "#0072B2", "#E69F00"
+from wingbeat.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 
 Columns = dict[str, list[float] | list[None]]
 
@@ -117,9 +115,9 @@ def _print_table(model: CoefficientModel, columns: Columns, about: float) -> Non
     Console().print(table)
 
 
+@drawing()
 def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: float) -> Any:
     """Return a matplotlib figure with one panel for each coefficient the model has."""
-    from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
 
     # Drawn finer than asked: a step of 2 degrees would show the blends as kinks.
@@ -135,20 +133,20 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
         theory_label += r", $C_M = \frac{\pi}{2}\alpha$"
     low, high = model.alpha_range_deg
     rows = len(labels) // 2
-    figure = Figure(figsize=(9, 1.0 + 3.2 * rows), layout="constrained")
-    figure.suptitle(_title(model), fontsize=10)
+    figure = new_figure(PAGE, 20.0 + 65.0 * rows)
+    figure.suptitle(_title(model), fontsize=8)
     for axes, (name, label) in zip(figure.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
-        axes.plot(fine, columns[name], color=_BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
+        axes.plot(fine, columns[name], color=BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
         # Limits before the lines of theory, which would leave the page.
         axes.set(ylabel=label, ylim=axes.get_ylim(), xlim=axes.get_xlim())
         if name in theory:
             ends = np.array(axes.get_xlim())
             axes.plot(ends, theory[name](np.deg2rad(ends)), ":", color="0.35", label=theory_label)
-        axes.axvspan(low, high, color=_ORANGE, alpha=0.12, linewidth=0, label=f"data, {low:g}° to {high:g}°")
+        axes.axvspan(low, high, color=ORANGE, alpha=0.12, linewidth=0, label=f"data, {low:g}° to {high:g}°")
         axes.axhline(0.0, color="0.6", linewidth=0.6)
-        axes.grid(color="0.9", linewidth=0.6)
+        axes.grid()
         axes.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 2, 3, 4.5, 5, 6, 9, 10]))
         if axes.get_subplotspec().is_last_row():
             axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
-    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
+    legend_below(figure, figure.axes, columns=3)
     return figure

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.cli.power_report import power_groups
+from wingbeat.datasets import KIND
 from wingbeat.errors import FileError
 from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import Rows, orbit_groups, power_rows, state_rows, wingbeat_rows
-from wingbeat.results.storage import KIND, load_dataset
+from wingbeat.results.storage import load_dataset
 
 if TYPE_CHECKING:
     import xarray as xr

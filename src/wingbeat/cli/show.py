@@ -10,9 +10,10 @@ from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.datasets import KIND
 from wingbeat.results.curve import curve_from
 from wingbeat.results.power import power_account
-from wingbeat.results.storage import KIND, parse_attributes
+from wingbeat.results.storage import parse_attributes
 
 
 def show(

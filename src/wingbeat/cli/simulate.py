@@ -34,7 +34,8 @@ from wingbeat.cli.options import (
 )
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
-from wingbeat.mechanics.flight_model import State, flight_model
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.orbits.problem.filmed import filmed_species
 from wingbeat.plots import film_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
@@ -100,9 +101,9 @@ def simulate(
         animal = species_with(species, set_)
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
-            animal = beat.on(animal)
+            animal = filmed_species(beat, animal)
         loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
-        model, wingbeat = flight_model(animal.vehicle, loads, animal.air), animal.wingbeat
+        model, wingbeat = FlightModel(animal.vehicle, loads, animal.air), animal.wingbeat
         start = State(u=10.0)
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)

@@ -158,9 +158,9 @@ def _written(
 
 
 def _read(file: Path) -> Study:
-    from wingbeat.studies.study import study as plan
+    from wingbeat.studies.study import plan_study
 
-    return plan(file)
+    return plan_study(file)
 
 
 def _announcement(asked: Study, total: int, left: int, processes: int) -> str:

@@ -22,8 +22,6 @@ from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.film import FILMED, Film
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat
-from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.species import Species
 
 __all__ = ["FilmedBeat", "FilmedLaw", "fit_film"]
 
@@ -33,8 +31,6 @@ _PLAIN = 3
 _WEIGHTS = (1e-12, 1e8)
 # A retraction below nothing, in standard errors, that noise may bring about.
 _NOISE = 3.0
-# How far what was filmed may be moved to trim the flight, where nothing else is free.
-_TRIM = math.radians(20.0)
 Array = NDArray[np.float64]
 
 
@@ -138,53 +134,11 @@ class FilmedBeat:
         known = {} if self.film.frequency is None else {"frequency": self.film.frequency}
         return known | _numbers({name: law.coefficients for name, law in self.laws.items()})
 
-    def on(self, species: Species) -> Species:
-        """Return a species that beats as filmed; what was not filmed stays its own.
-
-        Raises
-        ------
-        InvalidInputError : a wingbeat that cannot be.
-        """
-        return species.with_values({f"wingbeat.{name}": value for name, value in self.numbers.items()})
-
-    def trim(self, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
-        """Return what an orbit may choose: the species' own free parameters that were not filmed.
-
-        Forward and vertical speed take two. Where fewer are left, the mean of pitch and then its amplitude may move
-        from what was filmed, within the bounds returned.
-        """
+    @property
+    def held(self) -> frozenset[str]:
+        """The parameters of a wingbeat that the film gives, of which an orbit may choose none."""
         filmed = tuple(f"{name.partition('_')[0]}_" for name in self.laws)
-        given = {name for name in FREE_NAMES if name.startswith(filmed)} | self.numbers.keys()
-        free, bounds = [name for name in species.free if name not in given], {}
-        for name in ("pitch_mean", "pitch_amplitude"):
-            if len(free) < 2 and name not in free:
-                here = self.numbers.get(name, getattr(species.wingbeat, name))
-                least = here - _TRIM if name == "pitch_mean" else max(here - _TRIM, 0.0)
-                free.append(name)
-                bounds[name] = (least, here + _TRIM)
-        return tuple(free), bounds
-
-    def problem(self, species: Species, speed: float, **more: Any) -> OrbitProblem:
-        """Return the problem of the trim that flies the filmed beat at a speed [m/s].
-
-        Parameters
-        ----------
-        species : who was filmed.
-        speed : mean forward speed [m/s].
-        more : what else an `OrbitProblem` takes. If it names no objective, frequency is made least where it is free
-            and else the mean positive power.
-
-        Raises
-        ------
-        InvalidInputError : what `OrbitProblem` refuses.
-        """
-        free, bounds = self.trim(species)
-        if "frequency" not in free:
-            more.setdefault("minimise", "mean_positive_power")
-        bounds |= more.pop("bounds", {})
-        # What was filmed is held: a limit of the stroke could only hide it. An orbit that crosses draws a warning.
-        more.setdefault("wings_may_cross", True)
-        return OrbitProblem(self.on(species), speed, free=free, bounds=bounds, **more)
+        return frozenset(name for name in FREE_NAMES if name.startswith(filmed)) | self.numbers.keys()
 
     def draws(self, wingbeat: Wingbeat, count: int = 32, seed: int = 0) -> list[Wingbeat]:
         """Return wingbeats as other films of the same beat would have given them.

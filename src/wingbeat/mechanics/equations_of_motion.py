@@ -146,7 +146,7 @@ def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: A
 
     Parameters
     ----------
-    model : the flight model, from `flight_model`.
+    model : the flight model, a `FlightModel`.
     wingbeat : gives span and fold as functions of time, and the twist; its flap and pitch laws do not enter.
     q, q_dot : (x, z, body pitch, flap, root wing pitch) and rates, shape (..., 5) [m, rad; per s].
     time : [s], shape (...).
@@ -160,7 +160,7 @@ def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: A
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> terms = wb.equations_of_motion(model, pigeon.wingbeat, np.zeros(5), np.zeros(5), 0.0)
     >>> round(float(terms.mass_matrix[0, 0]), 3)
     0.316

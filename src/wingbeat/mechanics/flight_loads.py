@@ -70,7 +70,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> wb.flight_loads(model, pigeon.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 5)).alpha.shape
     (5, 10)
     """

@@ -38,25 +38,9 @@ def check_state(state: State) -> None:
 
 
 @register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"))
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class FlightModel:
-    """All numbers of the equations of motion but the wingbeat; a JAX pytree.
-
-    Build it with `flight_model`, which checks; the fields are a `Vehicle`, an `Air`, the kernel of a
-    coefficient model, the number of strips, whether the force acts at the centre of pressure, and whether it goes
-    with the whole airspeed of a strip.
-    """
-
-    vehicle: Vehicle
-    air: Air
-    kernel: Any
-    strips: int
-    at_centre_of_pressure: bool
-    full_airspeed: bool = False
-
-
-def flight_model(vehicle: Vehicle, aero: Any, air: Air | None = None) -> FlightModel:
-    """Join a vehicle, its air loads and the air into a flight model.
+    """A vehicle, its air loads and the air: all numbers of the equations of motion but the wingbeat; a JAX pytree.
 
     Parameters
     ----------
@@ -65,18 +49,42 @@ def flight_model(vehicle: Vehicle, aero: Any, air: Air | None = None) -> FlightM
         attack [rad] that returns (C_L, C_D).
     air : standard air if not given.
 
+    Attributes
+    ----------
+    vehicle, air : as given.
+    kernel : of the coefficient model.
+    strips : number of strips of a wing.
+    at_centre_of_pressure : whether the force acts at the centre of pressure.
+    full_airspeed : whether the force goes with the whole airspeed of a strip.
+
     Raises
     ------
     InvalidInputError, FileError : an `aero` that is none of these.
 
     >>> from wingbeat.species import load_species
-    >>> flight_model(load_species("pigeon").vehicle, "dickinson").strips
+    >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
     10
     """
-    loads = blade_element_of(aero)
-    at_centre = loads.force_point == "centre-of-pressure"
-    full = loads.airspeed == "full"
-    return FlightModel(vehicle, air or Air(), loads.coefficients.kernel(), loads.strips, at_centre, full)
+
+    vehicle: Vehicle
+    air: Air
+    kernel: Any
+    strips: int
+    at_centre_of_pressure: bool
+    full_airspeed: bool
+
+    def __init__(self, vehicle: Vehicle, aero: Any, air: Air | None = None) -> None:
+        loads = blade_element_of(aero)
+        fields = {
+            "vehicle": vehicle,
+            "air": air or Air(),
+            "kernel": loads.coefficients.kernel(),
+            "strips": loads.strips,
+            "at_centre_of_pressure": loads.force_point == "centre-of-pressure",
+            "full_airspeed": loads.airspeed == "full",
+        }
+        for name, value in fields.items():
+            object.__setattr__(self, name, value)
 
 
 def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int = 1) -> WingMotion:

@@ -121,7 +121,7 @@ def _drive(model: FlightModel, wingbeat: Wingbeat, start: Any, times: Any, torqu
     return integrate(rates, start, times, (model, wingbeat, args), _IN_A_FLIGHT)
 
 
-def simulate_torque_driven(
+def fly_torque_driven(
     model: FlightModel,
     wingbeat: Wingbeat,
     coordinates: Any,
@@ -129,21 +129,8 @@ def simulate_torque_driven(
     torques: Callable[[Any, Any], Any],
     times: Any,
     args: Any = None,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Fly all five coordinates (x, z, body_pitch, flap, pitch) with the hinges driven by torques.
-
-    Parameters
-    ----------
-    model : the flight model.
-    wingbeat : gives span, fold and twist; its flap and pitch laws do not enter.
-    coordinates, rates : q and q' at the first time, shape (5,) each [m, rad; per s].
-    torques : JAX-traceable function of time [s] and `args` giving (flap, pitch) torques of both wings [N m].
-    times : increasing sample times [s], shape (K,).
-    args : passed to `torques`.
-
-    Returns
-    -------
-    (q, q') : shape (K, 5) each; not-a-number where the integrator gave up.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5).
 
     Raises
     ------
@@ -158,4 +145,4 @@ def simulate_torque_driven(
         faults.add("times", when, "must be at least two increasing times", "in seconds")
     faults.raise_if_any()
     states = np.asarray(_drive(model, wingbeat, np.concatenate([q, q_dot]), when, torques, args)[0])
-    return states[:, :5], states[:, 5:]
+    return when, states[:, :5], states[:, 5:]

@@ -109,9 +109,9 @@ class Solution:
     def objective(self) -> float:
         """What was minimised."""
         minimise = self.problem.minimise
-        if isinstance(minimise, Quantity):
-            return self.value_of(minimise)
-        return minimise.value(self.problem.unknowns().names, self.unknowns)
+        if minimise.parameter:
+            return float(self.unknowns[self.problem.unknowns().names.index(minimise.parameter)])
+        return self.value_of(minimise)
 
     def as_optimum(self) -> tuple[Optimum, ...]:
         """Return the orbit as an optimum that a search ended in; none where nothing is certified."""

@@ -169,7 +169,9 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
     problem, options = programme.problem, programme.options
     for limit in problem.subject_to:
         if limit.at_most:
-            easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=limit.quantity), options)
+            # An output of the beat, as the limit is: a frequency that is held is no unknown.
+            least = dataclasses.replace(limit.quantity, parameter=None)
+            easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)
             found = first_searches(easier, starts, seed, threads)
             yield search_from_optima(Transcription(problem, options), found, threads)
 

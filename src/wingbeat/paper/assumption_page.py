@@ -14,6 +14,7 @@ from wingbeat.paper.assumptions import ASSUMPTIONS
 from wingbeat.paper.importance import Importance, importance
 from wingbeat.paper.pieces import table
 from wingbeat.plots import save_figure
+from wingbeat.style import BLUE, GREEN, VERMILION, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -143,19 +144,19 @@ def _apart(study: Judged) -> list[str]:
     return lines or ["- every pair of claims that hold in many sets holds together in some"]
 
 
+@drawing(font=9.0)
 def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     """Draw, for each claim, the share of sets that satisfy it and what its number depends on."""
     from matplotlib import colormaps
-    from matplotlib.figure import Figure
 
     count = len(study.claims)
-    figure = Figure(figsize=(10.0, 0.27 * count + 2.0), layout="constrained")
+    figure = new_figure(254.0, 51.0 + 6.9 * count)
     bars, heat, fits = figure.subplots(1, 3, sharey=True, width_ratios=(1.1, 3.0, 0.5))
     places = np.arange(count)
     told = np.isfinite(study.holds)
     share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
-    bars.barh(places, share, color="#0072B2", height=0.7)
-    bars.plot(100 * told.mean(axis=0), places, "|", color="#D55E00", markersize=9)
+    bars.barh(places, share, color=BLUE, height=0.7)
+    bars.plot(100 * told.mean(axis=0), places, "|", color=VERMILION, markersize=9)
     bars.set(xlim=(0, 103), xlabel="bar: sets that satisfy it [%]\ntick: sets that can test it [%]")
     bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
     shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
@@ -168,12 +169,12 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
         image, ax=heat, label="share of its number explained [%]; grey: too few sets", fraction=0.03, pad=0.01
     )
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
-    fits.barh(places, np.maximum(quality, 0.0), color="#009E73", height=0.7)
+    fits.barh(places, np.maximum(quality, 0.0), color=GREEN, height=0.7)
     fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
     fits.set(xlim=(0, 1), xlabel="surface R² [-]")
-    for axes, letter in ((bars, "a"), (heat, "b"), (fits, "c")):
-        axes.set_title(letter, loc="left", fontsize=9, fontweight="bold")
+    for axes in (bars, heat, fits):
         axes.tick_params(length=2)
+    letter_panels((bars, heat, fits))
     title = f"{len(study.sets)} sets of assumptions: which claims hold, and what they depend on"
     figure.suptitle(title, fontsize=10)
     return figure

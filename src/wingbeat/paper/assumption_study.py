@@ -18,7 +18,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
 from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine
-from wingbeat.studies.study import Study, study
+from wingbeat.studies.study import Study, plan_study
 
 # The speeds that the claims need [m/s], in the order in which answers are handed on: slow flight is the harder.
 SPEEDS = {"pigeon": (16.0, 12.0, 10.0), "bat": (12.0, 10.0, 8.0, 5.0)}
@@ -81,7 +81,7 @@ def _planned(sets: list[Values], animal: str, model: str, folder: Path) -> Study
     species, trims = load_species(animal), str(sets[0]["trims"])
     rows = [changes_under(values, species, model) for values in sets]
     vary: dict[str, Any] = {path: {"list": [row[path] for row in rows]} for path in rows[0]}
-    return study(
+    return plan_study(
         species=animal,
         aero=model,
         free=free_under(trims),

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.aero import LIBRARY, FormulaCoefficients, thin_aerofoil_lift, thin_aerofoil_moment
-from wingbeat.paper.figure_style import GREY, LOOKS, PAGE, STYLE, Table, dress, legend_above, letter_panels, sheet
+from wingbeat.paper.figure_style import LOOKS, Table, sheet
+from wingbeat.style import GREY, PAGE, drawing, dress, legend_above, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -72,12 +73,10 @@ def coefficients_figure() -> tuple[Figure, Table]:
 
     Su et al. 2023, doi 10.48550/arXiv.2302.09602; Dickinson et al. 1999, doi 10.1126/science.284.5422.1954.
     """
-    from matplotlib import rc_context
-
     curves = {
         name: (published(LIBRARY[name](), ALPHA_DEG), simulated(LIBRARY[name](), ALPHA_DEG)) for name in LOOKS
     }
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(PAGE, 105.0, _NOTE)
         panels = figure.subplots(2, 2)
         for axes, (quantity, label, limits) in zip(panels.flat, _PANELS, strict=True):
@@ -86,7 +85,7 @@ def coefficients_figure() -> tuple[Figure, Table]:
             axes.set(xlim=(0, 110), ylim=limits, xticks=range(0, 111, 15))
         legend_above(panels[0, 0], columns=4)
         figure.align_ylabels(panels)
-        letter_panels(panels)
+        letter_panels(panels, "A")
     return figure, _rows(curves)
 
 

@@ -6,23 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import at_station
 from wingbeat.paper.contradictions import NEAR_PEAK, Printed, near, told
-from wingbeat.paper.figure_style import (
-    COLUMN,
-    FONT_SMALL,
-    LOOKS,
-    PAGE,
-    STYLE,
-    Table,
-    dress_cycle,
-    legend_above,
-    letter_panels,
-    say,
-    sheet,
-)
+from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, Table, dress_cycle, say, sheet
 from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
 from wingbeat.paper.treatments import DEFAULT, MODELS, SAMPLE_SPEED, TREATMENTS, Case, Orbits, certified
-from wingbeat.results.record import at_station
+from wingbeat.style import COLUMN, PAGE, drawing, legend_above, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,8 +88,6 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
     -------
     The figure, and its rows: model, span fraction and phase with the three drawn quantities.
     """
-    from matplotlib import rc_context
-
     shown = sample_orbits(orbits, sample, "bat")
     strips = {orbit.dataset.sizes["station"] for orbit in shown.values()} or {"N"}
     note = (
@@ -111,7 +98,7 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
     )
     series = {(m, name): strip_series(o, s) for m, o in shown.items() for name, s in STATIONS.items()}
     note = f"{note} {told(6, _printed_of_forces(series))}"
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(PAGE, 125.0, note, absence(orbits, sample, "bat"))
         panels = figure.subplots(3, 2, sharex=True, sharey="row")
         for row, (quantity, label) in zip(panels, _FORCES, strict=True):
@@ -134,7 +121,7 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
         for axes in panels[:2].flat:
             axes.set_xlabel("")
         figure.align_ylabels(panels)
-        letter_panels(panels)
+        letter_panels(panels, "A")
     rows = []
     for (model, station), columns in series.items():
         about = {"model": model, "treatment": sample, "span_fraction": STATIONS[station]}
@@ -147,8 +134,6 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
 
     Parameters and returns are those of `forces_figure`.
     """
-    from matplotlib import rc_context
-
     shown = sample_orbits(orbits, sample, "bat")
     series = {model: {"hinge_power_W": orbit.dataset["hinge_power"].values} for model, orbit in shown.items()}
     peaks = [f"{LOOKS[m].name} {s['hinge_power_W'].max():.3g} W" for m, s in series.items()]
@@ -157,7 +142,7 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
         f"Peaks: {', '.join(peaks) or 'none to tell'}; dotted: the peaks that the paper prints for the same two "
         "models. "
     ) + told(7, _printed_of_power(series))
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
         axes = figure.subplots()
         _draw_cycle(axes, shown, series, "hinge_power_W", "hinge power [W]")
@@ -177,8 +162,6 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
 
     Parameters and returns are those of `forces_figure`.
     """
-    from matplotlib import rc_context
-
     shown = sample_orbits(orbits, sample, "bat")
     series = {m: {"body_pitch_deg": np.degrees(orbit.dataset["body_pitch"].values)} for m, orbit in shown.items()}
     ranges = [f"{LOOKS[m].name} {np.ptp(s['body_pitch_deg']):.3g} deg" for m, s in series.items()]
@@ -188,7 +171,7 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
         f"Range over the beat: {', '.join(ranges) or 'none to tell'}; bars at the right: the ranges that the paper "
         f"prints, {', '.join(printed)}. "
     ) + told(8, _printed_of_pitch(series))
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
         axes = figure.subplots()
         _draw_cycle(axes, shown, series, "body_pitch_deg", "body pitch ψ [deg]")

@@ -10,17 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.paper.contradictions import CLOSE, TWICE, Printed, told
-from wingbeat.paper.figure_style import (
-    FONT_SMALL,
-    LOOKS,
-    MEASURED,
-    PAGE,
-    STYLE,
-    Table,
-    dress,
-    letter_panels,
-    sheet,
-)
+from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, MEASURED, Table, sheet
 from wingbeat.paper.measured_bands import (
     MEASURED_FREQUENCIES,
     PAPER_BAT_FREQUENCY,
@@ -30,6 +20,7 @@ from wingbeat.paper.measured_bands import (
 )
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, DRAWN, MODELS, SPEEDS, Orbits, certified
 from wingbeat.species import load_species
+from wingbeat.style import PAGE, drawing, dress, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,13 +55,11 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
     -------
     The figure, and its rows: every orbit asked for with its status, and what was measured with its source.
     """
-    from matplotlib import rc_context
-
     series = itertools.product(FILLS, ANIMALS, MODELS)
     drawn = [orbit for each in series for orbit in certified(orbits, *each).values()]
     # Room for the legends above the measured frequencies, and for every orbit.
     top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         note = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"
         figure = sheet(PAGE, 82.0, note)
         panels = figure.subplots(1, 2)
@@ -88,7 +77,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
                 labelspacing=0.3,
             )
         _mark_printed(panels[ANIMALS.index("bat")])
-        letter_panels(panels)
+        letter_panels(panels, "A")
     return figure, [*_orbit_rows(orbits), *_measured_rows()]
 
 

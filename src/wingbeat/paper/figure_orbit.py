@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.paper.figure_cycle import absence, assumptions, sample_orbits
-from wingbeat.paper.figure_style import LOOKS, PAGE, STYLE, Table, dress, letter_panels, say, sheet
+from wingbeat.paper.figure_style import LOOKS, Table, say, sheet
 from wingbeat.paper.treatments import DEFAULT, SAMPLE_SPEED, Orbits
+from wingbeat.style import PAGE, drawing, dress, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,8 +54,6 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     -------
     The figure, and its rows: phase, time, path and velocities.
     """
-    from matplotlib import rc_context
-
     orbit = sample_orbits(orbits, sample, _ANIMAL).get(_MODEL)
     series = {} if orbit is None else portrait_series(orbit)
     beat = "" if orbit is None else f", {orbit.wingbeat.frequency:.3g} Hz"
@@ -63,7 +62,7 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
         "Asterisk: beginning of the downstroke; black dot: beginning of the upstroke; solid: downstroke, dashed: "
         "upstroke; arrow: direction of time. The paper does not say which animal its sample orbit is of."
     )
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(PAGE, 55.0, note, absence(orbits, sample, _ANIMAL, (_MODEL,)))
         panels = figure.subplots(1, 3)
         for axes, (place, speed, xlabel, ylabel) in zip(panels, _PORTRAITS, strict=True):
@@ -73,7 +72,7 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
                 _draw_portrait(axes, series["phase"], series[place], series[speed])
             else:
                 say(axes, "no certified orbit")
-        letter_panels(panels)
+        letter_panels(panels, "A")
     return figure, [dict(zip(series, values, strict=True)) for values in zip(*series.values(), strict=True)]
 
 

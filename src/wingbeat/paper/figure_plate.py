@@ -8,8 +8,9 @@ import numpy as np
 
 from wingbeat.aero import SuFan
 from wingbeat.paper.experiment_claims import CHANNEL, CHORD, SPAN, THICKNESS
-from wingbeat.paper.figure_style import FONT, GREY, LOOKS, MEASURED, PAGE, SHADE, STYLE, Table, letter_panels, sheet
+from wingbeat.paper.figure_style import LOOKS, MEASURED, Table, sheet
 from wingbeat.paper.printed import printed_centre, printed_drag, printed_lift, printed_moment
+from wingbeat.style import FONT, GREY, PAGE, SHADE, drawing, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,17 +61,15 @@ def plate_figure() -> tuple[Figure, Table]:
 
     Su et al. 2023, doi 10.48550/arXiv.2302.09602.
     """
-    from matplotlib import rc_context
-
     numbers = plate_numbers(ANGLE_DEG)
     words = {"span": SPAN, "chord": CHORD, "thickness": 1e3 * THICKNESS, "width": CHANNEL[0], "height": CHANNEL[1]}
     words |= {"angle": ANGLE_DEG, "centre": numbers["x_cp_chords"], "moment": numbers["C_M_mid_chord"]}
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(PAGE, 64.0, _NOTE.format(**words))
         panels = figure.subplots(1, 2, width_ratios=(1.0, 1.5))
         _draw_channel(panels[0])
         _draw_section(panels[1], numbers)
-        letter_panels(panels)
+        letter_panels(panels, "A")
     return figure, [numbers]
 
 

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.mechanics.wing_points import CORNERS
 from wingbeat.paper.figure_cycle import sample_orbits
-from wingbeat.paper.figure_style import PAGE, STYLE, Table, letter_panels, sheet
+from wingbeat.paper.figure_style import Table, sheet
 from wingbeat.paper.figure_vehicle_views import draw_front, draw_oblique, draw_section, draw_side, draw_top
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, SAMPLE_SPEED, Orbits
 from wingbeat.paper.vehicle_posture import Posture, flown, posture, section
+from wingbeat.style import PAGE, drawing, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,15 +33,13 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
     -------
     The figure, and its rows: corners and quarter chords of the left wing's strips at the phases drawn.
     """
-    from matplotlib import rc_context
-
     found = {animal: sample_orbits(orbits, sample, animal).get(MODELS[0]) for animal in ANIMALS}
     flights = {animal: flown(animal, orbit) for animal, orbit in found.items()}
     postures = {animal: [posture(flight, phase) for phase in PHASES] for animal, flight in flights.items()}
     pigeon, strips = postures["pigeon"][0], flights["pigeon"].model.strips
     strip = min(int(0.75 * strips), strips - 1)
     stock = [animal for animal, orbit in found.items() if orbit is None]
-    with rc_context(STYLE):  # type: ignore[arg-type]
+    with drawing():
         figure = sheet(PAGE, 92.0, _note(flights, strips, strip, stock))
         grid: Any = figure.add_gridspec(2, 4, height_ratios=(1, 1))
         cells = (grid[0, :2], grid[0, 2], grid[0, 3], *(grid[1, i] for i in range(4)))
@@ -51,7 +50,7 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
         for i, animal in enumerate(ANIMALS):
             draw_front(panels[3 + 2 * i], postures[animal], animal)
             draw_top(panels[4 + 2 * i], postures[animal][0], animal)
-        letter_panels(panels)
+        letter_panels(panels, "A")
     return figure, [row for animal in ANIMALS for each in postures[animal] for row in _rows(animal, each)]
 
 

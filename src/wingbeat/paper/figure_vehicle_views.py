@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.paper.figure_style import FONT_SMALL, GREY, LOOKS, MEASURED, dress
+from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, MEASURED
 from wingbeat.paper.vehicle_posture import Posture, Section
+from wingbeat.style import GREY, TINT, dress
 from wingbeat.vehicle import Wing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _BLUE, _RED = LOOKS["su-fan"].color, LOOKS["dickinson"].color
-_BODY, _WING, _EDGE = "0.80", "#D6E6F2", "0.35"
+_BODY, _WING, _EDGE = "0.80", TINT, "0.35"
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _GROUND = {"facecolor": "w", "linewidth": 0, "pad": 0.6, "alpha": 0.8}
 _WORDS: dict[str, Any] = {"fontsize": FONT_SMALL, "ha": "center", "va": "center"}

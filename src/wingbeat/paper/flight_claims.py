@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from wingbeat.datasets import at_station
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.measured_bands import PAPER_BAT_FREQUENCY
 from wingbeat.paper.pigeon_claims import deviation
 from wingbeat.paper.treatments import SAMPLE_SPEED
-from wingbeat.results.record import at_station, beat_mean
+from wingbeat.results.record import beat_mean
 
 # Stations of arm and hand, as fractions of the span.
 ARM, HAND = 0.25, 0.75

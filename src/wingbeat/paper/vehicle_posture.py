@@ -9,7 +9,7 @@ import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
-from wingbeat.mechanics.flight_model import FlightModel, State, flight_model
+from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch
 from wingbeat.mechanics.wing_motion import strips_of, twist_factors
 from wingbeat.mechanics.wing_points import corners_of, wing_points
@@ -75,7 +75,7 @@ def flown(animal: str, orbit: Orbit | None) -> Flown:
         species = load_species(animal)
         aero = BladeElement(load_coefficients(MODELS[0]))
         level = np.array([State(u=SAMPLE_SPEED)] * 2, dtype=float)
-        model = flight_model(species.vehicle, aero, species.air)
+        model = FlightModel(species.vehicle, aero, species.air)
         return Flown(model, species.wingbeat, np.array([0.0, 1.0]), level)
     states = np.stack([orbit.dataset[name].values for name in State._fields], axis=1)
     return Flown(orbit.problem.model, orbit.wingbeat, orbit.dataset["phase"].values, states)

@@ -11,17 +11,15 @@ import numpy as np
 
 from wingbeat.errors import FaultList
 from wingbeat.nomenclature import axis_label
+from wingbeat.style import ALARM, BLUE, GREEN, PAGE, VERMILION, drawing, new_figure
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WIDTH, _HEIGHT, _INCH = 183.0, 150.0, 25.4  # mm
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
-_STYLE |= {"axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
-# Okabe and Ito's colours, told apart by colour-blind eyes, each with a mark of its own for grey prints.
-_BEST, _OTHER, _PUBLISHED, _ALARM, _SPEEDS = "#0072B2", "0.6", "#009E73", "#C00000", "#D55E00"
+_HEIGHT = 150.0  # mm
+_BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (6, 1.5, 1, 1.5)))
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
 _NAMES = {"minimum_power": ("least power", "v"), "maximum_range": ("greatest range", "s")}
@@ -63,9 +61,6 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     ------
     InvalidInputError : the dataset is no curve.
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     from wingbeat.results.curve import Curve
 
     faults = FaultList()
@@ -77,8 +72,8 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     if dataset.attrs["objective"] == "mean_power":
         powers = ["mean_power", *powers]
     panels = [*powers, "frequency"]
-    with rc_context(_STYLE):  # type: ignore[arg-type]
-        figure = Figure(figsize=(_WIDTH / _INCH, (_HEIGHT + 45 * (len(panels) - 2)) / _INCH), layout="constrained")
+    with drawing():
+        figure = new_figure(PAGE, _HEIGHT + 45 * (len(panels) - 2))
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
         for axes, name in zip(all_axes, panels, strict=True):
             axes.set_ylabel(axis_label(name))
@@ -88,7 +83,7 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
         _draw_speeds(all_axes[0], curve, powers[0])
         all_axes[-1].set_xlabel(axis_label("speed", full=True))
         for axes in all_axes:
-            axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=6.5)
+            axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=6.5)
         figure.suptitle(_title(dataset), fontsize=8, x=0.01, ha="left")
     return figure
 
@@ -147,7 +142,7 @@ def _draw_marks(axes: Axes, marks: list[dict[str, Any]], gaps: list[float], spee
                 for u in at:
                     axes.axvline(u, color="0.3", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1)
     if gaps:
-        axes.plot(gaps, [0.03] * len(gaps), "x", color=_ALARM, label="nothing certified", **foot)
+        axes.plot(gaps, [0.03] * len(gaps), "x", color=ALARM, label="nothing certified", **foot)
 
 
 def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> None:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wingbeat.experiment import FilmedBeat
+from wingbeat.style import BLUE, COLUMN, PAGE, VERMILION, drawing, legend_below, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, as on the page of a fit.
-_POINTS, _CURVE = "#0072B2", "#D55E00"
+_POINTS, _CURVE = BLUE, VERMILION
 _LABELS = {
     "flap_deg": "flap angle, wing up [deg]",
     "pitch_deg": "wing pitch, leading edge up [deg]",
@@ -20,16 +20,15 @@ _LABELS = {
 }
 
 
+@drawing()
 def film_page(beat: FilmedBeat) -> Figure:
     """Return a figure with a panel for each column that was filmed.
 
     Points are the frames, folded into one beat; the curve is the spline with its 95 % band, and below it stands how
     far the frames are from it, with two standard deviations of a frame.
     """
-    from matplotlib.figure import Figure
-
     columns = list(beat.laws)
-    figure = Figure(figsize=(4.2 * len(columns) + 0.6, 4.6), layout="constrained")
+    figure = new_figure(min(COLUMN * len(columns), PAGE), 95.0)
     grid = figure.subplots(2, len(columns), sharex=True, squeeze=False, height_ratios=(3, 1))
     phase = np.linspace(0.0, 1.0, 401)
     for (above, below), name in zip(grid.T, columns, strict=True):
@@ -40,22 +39,19 @@ def film_page(beat: FilmedBeat) -> Figure:
         above.fill_between(
             phase, value - 2 * error, value + 2 * error, color=_CURVE, alpha=0.3, linewidth=0, label="95 % band"
         )
-        above.plot(phase, value, color=_CURVE, linewidth=1.2, label="periodic spline")
+        above.plot(phase, value, color=_CURVE, label="periodic spline")
         look = {"color": _POINTS, "marker": "o", "markersize": 3, "markerfacecolor": "none", "linestyle": ""}
         above.plot(seen % 1.0, frames, **look, label="frames")
         below.plot(seen % 1.0, rest, **look)
         below.axhspan(-2 * law.residual_sd, 2 * law.residual_sd, color="0.9", zorder=0, label="±2 sd of a frame")
         below.fill_between(phase, -2 * error, 2 * error, color=_CURVE, alpha=0.3, linewidth=0)
-        below.axhline(0.0, color=_CURVE, linewidth=1.2)
+        below.axhline(0.0, color=_CURVE)
         above.set_ylabel(_LABELS[name])
         below.set(xlabel="phase of the film [beats]", ylabel=f"rest [{'deg' if name.endswith('_deg') else '-'}]")
         for axes in (above, below):
-            axes.grid(color="0.92", linewidth=0.6)
+            axes.grid()
             axes.set_xlim(0.0, 1.0)
-    handles, labels = (
-        a + b for a, b in zip(*(axes.get_legend_handles_labels() for axes in grid[:, 0]), strict=True)
-    )
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    legend_below(figure, grid[:, 0])
     label = ": a random generator's, not filmed" if beat.film.synthetic else ""
-    figure.suptitle(beat.film.name + label, fontsize=10)
+    figure.suptitle(beat.film.name + label, fontsize=8)
     return figure

@@ -7,14 +7,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.experiment import CurveFit, WingFit
+from wingbeat.style import (
+    BLUE,
+    FONT,
+    GREEN,
+    ORANGE,
+    PAGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    drawing,
+    legend_below,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, told apart by colour-blind eyes, each with a mark of its own for grey prints.
-_STREAMS = (("#0072B2", "o"), ("#E69F00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#56B4E9", "v"))
-_CURVE, _BAND = "#D55E00", "#D55E00"
+_STREAMS = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "^"), (PURPLE, "D"), (SKY, "v"))
+_CURVE = VERMILION
 _LABELS = {
     "C_L": "lift coefficient $C_L$ [-]",
     "C_D": "drag coefficient $C_D$ [-]",
@@ -23,17 +35,16 @@ _LABELS = {
 }
 
 
+@drawing()
 def fit_page(fit: WingFit) -> Figure:
     """Return a figure with a panel for C_L, C_D and, where there are any, x_cp and C_M.
 
     Points are the measurements with two standard errors either side; the curve is the fit with the 95 % band of a
     new measurement, C_M the curve that follows from the other three.
     """
-    from matplotlib.figure import Figure
-
     shown = ["C_L", "C_D", *(name for name in ("x_cp", "C_M") if name in fit.table.mean)]
     rows = (len(shown) + 1) // 2
-    figure = Figure(figsize=(9, 1.0 + 3.1 * rows), layout="constrained")
+    figure = new_figure(PAGE, 20.0 + 63.0 * rows)
     panels = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
     for axes, name in zip(panels, shown, strict=False):
         _draw_data(axes, fit, name)
@@ -43,18 +54,15 @@ def fit_page(fit: WingFit) -> Figure:
             _draw_moment(axes, fit)
         if name != "x_cp":  # which never comes near 0, and would lie flat under it
             axes.axhline(0.0, color="0.6", linewidth=0.6, zorder=0)
-        axes.grid(color="0.92", linewidth=0.6)
+        axes.grid()
         axes.set(ylabel=_LABELS[name])
         axes.tick_params(labelbottom=True)
     for axes in panels[len(shown) :]:
         axes.set_axis_off()
     for axes in panels[: len(shown)]:
         axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
-    figure.suptitle(f"{fit.name}: form {fit.form}" + (f"; {fit.citation}" if fit.citation else ""), fontsize=10)
-    handles: dict[str, Any] = {}
-    for axes in panels[: len(shown)]:
-        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.suptitle(f"{fit.name}: form {fit.form}" + (f"; {fit.citation}" if fit.citation else ""), fontsize=8)
+    legend_below(figure, panels[: len(shown)])
     return figure
 
 
@@ -101,14 +109,14 @@ def _draw_curve(axes: Axes, curve: CurveFit) -> None:
         alpha,
         value - reach,
         value + reach,
-        color=_BAND,
+        color=_CURVE,
         alpha=0.25,
         linewidth=0,
         label="95 % of new points",
         zorder=1,
     )
-    axes.plot(alpha, value, color=_CURVE, linewidth=1.2, label="fit", zorder=3)
-    axes.set_title(f"$R^2$ = {_shown(curve.r_squared)}", loc="right", fontsize=8)
+    axes.plot(alpha, value, color=_CURVE, label="fit", zorder=3)
+    axes.set_title(f"$R^2$ = {_shown(curve.r_squared)}", loc="right", fontsize=FONT)
 
 
 def _shown(r_squared: float) -> str:
@@ -121,6 +129,4 @@ def _draw_moment(axes: Axes, fit: WingFit) -> None:
         return
     angles = fit.centre.alpha_deg
     alpha = np.linspace(angles.min(), angles.max(), 801)
-    axes.plot(
-        alpha, fit.moment(alpha), color=_CURVE, linewidth=1.2, linestyle="--", zorder=3, label="from the fits"
-    )
+    axes.plot(alpha, fit.moment(alpha), color=_CURVE, linestyle="--", zorder=3, label="from the fits")

@@ -8,18 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.style import FIRST, GREEN, PAGE, SECOND, VERMILION, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, told apart by colour-blind eyes.
-_LINE: dict[str, Any] = {"color": "#0072B2", "linewidth": 1.3, "marker": ".", "markersize": 3}
-_SECOND: dict[str, Any] = {"color": "#D55E00", "linestyle": (0, (4, 1.5)), "linewidth": 1.3}
-_MARKS = {"least_sink": ("slowest sink", "o", "#D55E00"), "best_ratio": ("flattest glide", "s", "#009E73")}
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 8, "axes.linewidth": 0.6}
-_STYLE |= {"axes.spines.top": False, "axes.spines.right": False, "axes.labelpad": 2}
+_LINE: dict[str, Any] = {**FIRST, "marker": ".", "markersize": 3}
+_MARKS = {"least_sink": ("slowest sink", "o", VERMILION), "best_ratio": ("flattest glide", "s", GREEN)}
 
 
 def glide_page(dataset: xr.Dataset) -> Figure:
@@ -33,16 +30,13 @@ def glide_page(dataset: xr.Dataset) -> Figure:
     ------
     InvalidInputError : the dataset is no glide polar.
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "glide":
         faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give that of glide_polar")
     faults.raise_if_any()
     speed = dataset["speed"].values
-    with rc_context(_STYLE):  # type: ignore[arg-type]
-        figure = Figure(figsize=(7.2, 5.4), layout="constrained")
+    with drawing():
+        figure = new_figure(PAGE, 137.0)
         figure.suptitle(_title(dataset), fontsize=9, parse_math=False)
         sink, ratio, angles, torques = figure.subplots(2, 2, sharex=True).flat
         sink.plot(speed, dataset["sink"].values, **_LINE)
@@ -54,17 +48,16 @@ def glide_page(dataset: xr.Dataset) -> Figure:
             _mark(axes, dataset, name)
         alpha, pitch = (np.degrees(dataset[name].values) for name in ("angle_of_attack", "body_pitch"))
         angles.plot(speed, alpha, label="angle of attack α", **_LINE)
-        angles.plot(speed, pitch, label="body pitch ψ", **_SECOND)
+        angles.plot(speed, pitch, label="body pitch ψ", **SECOND)
         angles.set(ylabel="angle [deg]", xlabel="speed [m/s]")
         torques.plot(speed, dataset["flap_torque"].values, label="flap torque that holds both wings", **_LINE)
-        torques.plot(speed, dataset["tail_moment"].values, label="moment asked of a tail", **_SECOND)
+        torques.plot(speed, dataset["tail_moment"].values, label="moment asked of a tail", **SECOND)
         torques.set(ylabel="torque, moment [N m]", xlabel="speed [m/s]")
         for axes in (sink, angles, torques):
-            axes.legend(frameon=False, fontsize=7)
-        for letter, axes in zip("abcd", figure.axes, strict=True):
-            axes.grid(color="0.92", linewidth=0.6)
-            corner: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
-            axes.annotate(letter, (0, 1), (-26, 4), fontweight="bold", fontsize=9, **corner)
+            axes.legend()
+        for axes in figure.axes:
+            axes.grid()
+        letter_panels(figure.axes)
     return figure
 
 

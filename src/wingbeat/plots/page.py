@@ -9,18 +9,15 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.errors import FaultList
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements
+from wingbeat.style import ALARM, FONT, GOOD, PAGE, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-_WIDTH, _PANELS, _LINE = 183.0, 148.0, 4.0  # mm: two columns of a journal, three rows of panels, a line of text
-_INCH = 25.4
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
-_STYLE |= {"axes.labelpad": 2, "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
+_PANELS, _LINE = 148.0, 4.0  # mm: three rows of panels, a line of text
 _TITLE, _TEXT = {"fontsize": 9, "fontweight": "bold"}, {"fontsize": 7.5}
-_GOOD = {"fontsize": 7.5, "color": "#1B7F3B"}
-_ALARM = {"fontsize": 7.5, "color": "#C00000"}
+_GOOD, _ALARM = {**_TEXT, "color": GOOD}, {**_TEXT, "color": ALARM}
 _NEEDED = ["flap", "wing_pitch", "fold", "span_ratio", "time", "x", "z", "u", "w", "body_pitch", "pitch_rate"]
 _NEEDED += ["alpha", "strip_force", "hinge_power", "actuator_power"]
 
@@ -43,35 +40,30 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
     >>> page = wb.plots.wingbeat_page(flight.dataset)
     >>> f"{25.4 * page.get_figwidth():.0f} mm wide"
     '183 mm wide'
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     lines, weight = _described(dataset)
     head, foot = 2.5 + _LINE * len(lines), 1.0 + _LINE
     height = head + _PANELS + foot
-    with rc_context(_STYLE):  # type: ignore[arg-type]
-        figure = Figure(figsize=(_WIDTH / _INCH, height / _INCH), layout="constrained")
+    with drawing():
+        figure = new_figure(PAGE, height)
         layout: Any = figure.get_layout_engine()
         layout.set(rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
         for i, (text, style) in enumerate(lines):
             # A name of the user's own may hold a dollar sign, which is no formula.
-            where = (2 / _WIDTH, 1 - (1.5 + _LINE * i) / height)
+            where = (2 / PAGE, 1 - (1.5 + _LINE * i) / height)
             figure.text(*where, text, va="top", parse_math=False, **style)
-        figure.text(2 / _WIDTH, 1.5 / height, _note(dataset), fontsize=7)
+        figure.text(2 / PAGE, 1.5 / height, _note(dataset), fontsize=FONT)
         panels = figure.subplots(3, 3)
         draw_motion(dataset, panels[0])
         draw_portraits(dataset, panels[1])
         draw_loads(dataset, panels[2], weight)
         figure.align_ylabels(panels)
-        for letter, axes in zip("abcdefghi", panels.flat, strict=True):
-            corner = {"xycoords": "axes fraction", "textcoords": "offset points", "in_layout": False}
-            axes.annotate(letter, (0, 1), (-28, 4), fontsize=8, fontweight="bold", **corner)
+        letter_panels(panels)
     return figure
 
 

@@ -7,18 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.results.dataset import flown
+from wingbeat.datasets import flown
+from wingbeat.style import FIRST, FONT, SECOND, THIRD, dress, legend_above, shade_downstrokes
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-# Okabe and Ito's colours, told apart by colour-blind eyes, each with a dash of its own for grey prints.
-_FIRST: dict[str, Any] = {"color": "#0072B2", "linestyle": "-"}
-_SECOND: dict[str, Any] = {"color": "#D55E00", "linestyle": (0, (4, 1.5))}
-_THIRD: dict[str, Any] = {"color": "#009E73", "linestyle": (0, (1, 1))}
 _MEAN: dict[str, Any] = {"color": "0.35", "linestyle": "-.", "linewidth": 0.8}
-_SHADE = "0.91"
 
 
 def mean_power(dataset: xr.Dataset) -> float | None:
@@ -33,7 +29,7 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     wing, pitch, power = panels
     phase = dataset["phase"].values
     _over_phase(wing, phase, "wing angles [deg]")
-    curves = [("flap", "flap φ", _FIRST), ("wing_pitch", "pitch θ", _SECOND), ("fold", "fold", _THIRD)]
+    curves = [("flap", "flap φ", FIRST), ("wing_pitch", "pitch θ", SECOND), ("fold", "fold", THIRD)]
     for name, label, style in curves if np.ptp(dataset["fold"].values) > 1e-9 else curves[:2]:
         wing.plot(phase, np.degrees(dataset[name].values), label=label, **style)
     lines = wing.get_lines()
@@ -41,17 +37,17 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
         span = wing.twinx()
         span.spines["right"].set_visible(True)
         span.set(ylabel="span L/L₀ [-]", ylim=(-0.1, 1.1), yticks=(0, 0.5, 1))
-        span.tick_params(labelsize=7, length=2, pad=2)
-        dots = {**_THIRD, "linestyle": (0, (3, 1, 1, 1))}
+        span.tick_params(labelsize=FONT, length=2, pad=2)
+        dots = {**THIRD, "linestyle": (0, (3, 1, 1, 1))}
         lines = [*lines, *span.plot(phase, dataset["span_ratio"].values, label="span", **dots)]
-    _legend(wing, lines)
+    legend_above(wing, lines)
     _over_phase(pitch, phase, "body pitch ψ [deg]")
-    pitch.plot(phase, np.degrees(dataset["body_pitch"].values), **_FIRST)
+    pitch.plot(phase, np.degrees(dataset["body_pitch"].values), **FIRST)
     _over_phase(power, phase, "power of both wings [W]")
-    lines = power.plot(phase, dataset["hinge_power"].values, label="hinge", **_FIRST)
-    lines += power.plot(phase, dataset["actuator_power"].values, label="actuator", **_SECOND)
+    lines = power.plot(phase, dataset["hinge_power"].values, label="hinge", **FIRST)
+    lines += power.plot(phase, dataset["actuator_power"].values, label="actuator", **SECOND)
     mean = mean_power(dataset)
-    _legend(power, lines + ([] if mean is None else [power.axhline(mean, label="mean", **_MEAN)]))
+    legend_above(power, lines + ([] if mean is None else [power.axhline(mean, label="mean", **_MEAN)]))
     for axes in panels:
         _clear_corner(axes)
 
@@ -64,9 +60,9 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
     u, w = dataset["u"].values, dataset["w"].values
     pitch, rate = np.degrees(dataset["body_pitch"].values), np.degrees(dataset["pitch_rate"].values)
     phase, time, reached = dataset["phase"].values, dataset["time"].values, flown(dataset)
-    _dress(panels[0], f"displacement x [{x_unit}]", "forward velocity u [m/s]")
-    _dress(panels[1], f"height z [{z_unit}]", "upward velocity w [m/s]")
-    _dress(panels[2], "body pitch ψ [deg]", "pitch rate q [deg/s]")
+    dress(panels[0], f"displacement x [{x_unit}]", "forward velocity u [m/s]")
+    dress(panels[1], f"height z [{z_unit}]", "upward velocity w [m/s]")
+    dress(panels[2], "body pitch ψ [deg]", "pitch rate q [deg/s]")
     _portrait(panels[0], phase, x, u)
     lines, _ = _portrait(panels[1], phase, z, w)
     _, marks = _portrait(panels[2], phase, pitch, rate)
@@ -76,10 +72,10 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
         mean = (dataset["x"].values[last] - dataset["x"].values[first]) / (time[last] - time[first])
         advance = (x[last] - x[first]) / (phase[last] - phase[first])
         label = f"mean {mean:.4g} m/s, {advance:.3g} {x_unit} a beat"
-        _legend(panels[0], panels[0].plot([x[first], x[last]], [mean, mean], label=label, **_MEAN))
-    _legend(panels[1], lines)
+        legend_above(panels[0], panels[0].plot([x[first], x[last]], [mean, mean], label=label, **_MEAN))
+    legend_above(panels[1], lines)
     starts = {"labels": ["start of down- and upstroke"], "handler_map": {tuple: HandlerTuple(None)}}
-    _legend(panels[2], [tuple(marks)], **starts)
+    legend_above(panels[2], [tuple(marks)], **starts)
 
 
 def _portrait(axes: Axes, phase: np.ndarray, place: np.ndarray, speed: np.ndarray) -> tuple[list, list]:
@@ -88,7 +84,7 @@ def _portrait(axes: Axes, phase: np.ndarray, place: np.ndarray, speed: np.ndarra
     axes.margins(0.08)
     down = np.mod(phase, 1.0) < 0.5 - 1e-9
     lines = []
-    for mask, label, style in ((down, "downstroke", _FIRST), (~down, "upstroke", _SECOND)):
+    for mask, label, style in ((down, "downstroke", FIRST), (~down, "upstroke", SECOND)):
         # Each piece between two samples belongs to the stroke of its first.
         on = mask | np.concatenate([[False], mask[:-1]])
         lines += axes.plot(place, np.where(on, speed, np.nan), label=label, **style)
@@ -116,11 +112,11 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
         _over_phase(axes, phase, label)
         if flown(dataset).any():  # alone, it would set limits of some 1e-17
             axes.axhline(0, color=_MEAN["color"], linewidth=0.5)
-        for station, name, style in ((0.25, "1/4 span", _FIRST), (0.75, "3/4 span", _SECOND)):
+        for station, name, style in ((0.25, "1/4 span", FIRST), (0.75, "3/4 span", SECOND)):
             # Strip centres need not lie there: linear in between, and the last one beyond.
             line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
             axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
-        _legend(axes, axes.get_lines()[-2:])
+        legend_above(axes, axes.get_lines()[-2:])
         _clear_corner(axes)
 
 
@@ -143,35 +139,7 @@ def _turned(angle: np.ndarray) -> np.ndarray:
     return np.where(np.abs(np.diff(degrees, prepend=degrees[:1])) > 180.0, np.nan, degrees)
 
 
-def _legend(axes: Axes, handles: Any, **options: Any) -> None:
-    """Put a legend in one line above the panel, where no curve can cross it."""
-    spacing = {"borderaxespad": 0, "handlelength": 1.5, "handletextpad": 0.4, "columnspacing": 0.8}
-    place = {
-        "loc": "lower left",
-        "bbox_to_anchor": (-0.04, 1.01),
-        "ncols": 3,
-        "frameon": False,
-        "fontsize": 7,
-    }
-    axes.legend(handles=handles, **place, **spacing, **options)
-
-
-def _dress(axes: Axes, xlabel: str, ylabel: str) -> None:
-    axes.set(xlabel=xlabel, ylabel=ylabel)
-    axes.tick_params(labelsize=7, length=2, pad=2)  # said here, for ticks are made only when drawn
-    axes.ticklabel_format(style="plain", useOffset=False)  # a common factor would stand in the legend
-    axes.locator_params(nbins=6)
-
-
 def _over_phase(axes: Axes, phase: np.ndarray, ylabel: str) -> None:
     """Prepare a panel over phase with every downstroke shaded."""
-    from matplotlib.collections import PolyCollection
-
-    _dress(axes, "phase t/T [-]", ylabel)
-    axes.set_xlim(phase[0], phase[-1])
-    starts = np.arange(math.floor(phase[0]), math.ceil(phase[-1]))
-    boxes = [[(s, 0), (s + 0.5, 0), (s + 0.5, 1), (s, 1)] for s in starts]
-    # One collection and not a patch each: a flight may have thousands of beats.
-    shade = PolyCollection(boxes, facecolor=_SHADE, linewidth=0, zorder=0, gid="downstroke")
-    shade.set_transform(axes.get_xaxis_transform())
-    axes.add_collection(shade, autolim=False)
+    dress(axes, "phase t/T [-]", ylabel)
+    shade_downstrokes(axes, phase[0], phase[-1])

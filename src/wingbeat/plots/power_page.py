@@ -7,21 +7,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.results.power import SHARES, power_account
+from wingbeat.style import (
+    FIRST,
+    PAGE,
+    SECOND,
+    THIRD,
+    VERMILION,
+    drawing,
+    legend_above,
+    letter_panels,
+    new_figure,
+    shade_downstrokes,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, told apart by colour-blind eyes, each with a dash of its own for grey prints.
 _WHOLE: dict[str, Any] = {"color": "k", "linewidth": 1.5}
-_LOOKS: dict[str, dict[str, Any]] = {
-    "aerodynamic": {"color": "#0072B2", "linestyle": "-"},
-    "inertial": {"color": "#D55E00", "linestyle": (0, (4, 1.5))},
-    "body": {"color": "#009E73", "linestyle": (0, (1, 1))},
-}
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7.5, "axes.linewidth": 0.6}
-_STYLE |= {"axes.spines.top": False, "axes.spines.right": False, "axes.labelpad": 2, "lines.linewidth": 1.1}
+_LOOKS = {"aerodynamic": FIRST, "inertial": SECOND, "body": THIRD}
 
 
 def power_page(dataset: xr.Dataset) -> Figure:
@@ -39,12 +44,9 @@ def power_page(dataset: xr.Dataset) -> Figure:
     ------
     InvalidInputError : the dataset is no orbit.
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     account = power_account(dataset)
-    with rc_context(_STYLE):  # type: ignore[arg-type]
-        figure = Figure(figsize=(7.2, 2.9), layout="constrained")
+    with drawing():
+        figure = new_figure(PAGE, 74.0)
         name, speed = str(dataset.attrs["species"]), dataset.attrs["speed"]
         certified = "" if dataset.attrs["status"] == "converged" else ", NOT CERTIFIED"
         title = f"{name[:1].upper()}{name[1:]} at {speed:.4g} m/s: hinge power of both wings{certified}"
@@ -53,21 +55,19 @@ def power_page(dataset: xr.Dataset) -> Figure:
         _draw_shares(shares, dataset)
         _draw_torque(loop, dataset, account["best_spring"])
         _draw_costs(costs, account)
-        for letter, axes in zip("abc", figure.axes, strict=True):
-            corner: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
-            axes.annotate(letter, (0, 1), (-24, 4), fontweight="bold", fontsize=8.5, in_layout=False, **corner)
+        letter_panels(figure.axes)
     return figure
 
 
 def _draw_shares(axes: Axes, dataset: xr.Dataset) -> None:
     phase = dataset["phase"].values
-    axes.axvspan(0.0, 0.5, color="0.93", linewidth=0, zorder=0)
+    shade_downstrokes(axes, 0.0, 1.0)
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.plot(phase, dataset["hinge_power"].values, label="hinge power", **_WHOLE)
     for name, variable in SHARES.items():
         axes.plot(phase, dataset[variable].values, label=f"{name} share", **_LOOKS[name])
-    axes.set(xlabel="phase t/T [-], downstroke shaded", ylabel="power [W]", xlim=(0, 1))
-    _legend(axes)
+    axes.set(xlabel="phase t/T [-], downstroke shaded", ylabel="power [W]")
+    legend_above(axes, columns=2)
 
 
 def _draw_torque(axes: Axes, dataset: xr.Dataset, spring: dict[str, Any]) -> None:
@@ -79,7 +79,7 @@ def _draw_torque(axes: Axes, dataset: xr.Dataset, spring: dict[str, Any]) -> Non
         axes.plot(np.degrees(flap), given, label="best spring", **_LOOKS["inertial"])
         axes.plot(np.degrees(flap), torque - given, label="left to actuators", **_LOOKS["aerodynamic"])
     axes.set(xlabel="flap angle φ [deg]", ylabel="torque [N m]")
-    _legend(axes)
+    legend_above(axes, columns=2)
 
 
 def _draw_costs(axes: Axes, account: dict[str, Any]) -> None:
@@ -91,16 +91,10 @@ def _draw_costs(axes: Axes, account: dict[str, Any]) -> None:
         "best spring": account["best_spring"]["mean_positive_power"],
         "all returned": by_returned[1.0],
     }
-    colors = ["0.65" if name != "best spring" else "#D55E00" for name in bars]
+    colors = ["0.65" if name != "best spring" else VERMILION for name in bars]
     found = axes.barh(list(bars), [np.nan if v is None else v for v in bars.values()], color=colors, height=0.7)
     axes.bar_label(found, fmt="%.3g", fontsize=7, padding=2)
     axes.invert_yaxis()
     axes.margins(x=0.15)
     axes.tick_params(axis="y", length=0)
     axes.set(xlabel="mean power [W]", ylabel="negative work ...")
-
-
-def _legend(axes: Axes) -> None:
-    """Put the legend above the panel, where no curve can cross it."""
-    look: dict[str, Any] = {"frameon": False, "fontsize": 6.5, "handlelength": 1.4, "columnspacing": 0.8}
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.05, 1.0), ncols=2, **look)

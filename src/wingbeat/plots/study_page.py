@@ -9,19 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.style import ALARM, FONT, MARKED, PAGE, drawing, new_figure
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WIDTH, _ROW, _INCH = 183.0, 70.0, 25.4  # mm
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "lines.linewidth": 1.1}
-_STYLE |= {"axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False}
-# Okabe and Ito's colours, told apart by colour-blind eyes, each line with a mark of its own for grey prints.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-_MARKS = ("o", "s", "^", "D", "v", "P", "X")
-_MAP, _FAILED = "cividis", "#C00000"
+_ROW = 70.0  # mm
+_MAP = "cividis"
 _DASHES = ("-", "--", ":", "-.")
 # Panels of maps and of parallel coordinates, and lines in one of these, that can still be read.
 _MOST, _STRANDS = (12, 4), 2000
@@ -53,9 +49,6 @@ def study_page(
     ------
     InvalidInputError : a column that is absent or holds no numbers, or nothing certified to draw.
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     faults = FaultList()
     if not varied:
         faults.add("varied", list(varied), "holds no number to draw over", "vary one, or take the table")
@@ -71,10 +64,10 @@ def study_page(
     faults.raise_if_any()
     axes_labels = [f"{name} [{unit}]" for name, unit in zip(varied, units, strict=True)]
     groups = _groups(frame, varied)
-    with rc_context(_STYLE):  # type: ignore[arg-type]
+    with drawing():
         shown = groups if len(varied) == 1 else groups[: _MOST[len(varied) > 2]]
         rows = {1: 1, 2: math.ceil(len(shown) / 2)}.get(len(varied), len(shown))
-        figure = Figure(figsize=(_WIDTH / _INCH, max(_ROW * rows, 90.0) / _INCH), layout="constrained")
+        figure = new_figure(PAGE, max(_ROW * rows, 90.0))
         if len(varied) == 1:
             _draw_lines(figure, shown, varied[0], quantity, axes_labels[0], label)
         else:
@@ -113,18 +106,20 @@ def _draw_lines(
         part = part.sort_values(path)
         good = (part["status"] == "converged").to_numpy()
         x = part[path].to_numpy(dtype=float)
-        style: dict[str, Any] = {"color": _COLOURS[i % len(_COLOURS)], "label": name, "markersize": 3.0}
-        style |= {"linestyle": _DASHES[i // len(_COLOURS) % len(_DASHES)], "marker": _MARKS[i % len(_MARKS)]}
+        again, which = divmod(i, len(MARKED))
+        color, marker = MARKED[which]
+        style: dict[str, Any] = {"color": color, "label": name, "markersize": 3.0}
+        style |= {"linestyle": _DASHES[again % len(_DASHES)], "marker": marker}
         # Not-a-number where there is no orbit breaks the line there.
         axes.plot(x, np.where(good, part[quantity].to_numpy(dtype=float), np.nan), **style)
         if not good.all():
             foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "label": failed}
-            foot |= {"color": _FAILED, "linestyle": "none", "marker": "x", "markersize": 4}
+            foot |= {"color": ALARM, "linestyle": "none", "marker": "x", "markersize": 4}
             axes.plot(x[~good], np.full(int((~good).sum()), 0.02), **foot)
             failed = "_"
     axes.set_xlabel(x_label)
     axes.set_ylabel(label)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=6.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=6.5)
 
 
 def _draw_panels(
@@ -137,9 +132,9 @@ def _draw_panels(
     for axes, (name, part) in zip(panels, groups, strict=False):
         good = (part["status"] == "converged").to_numpy()
         table = part[names].to_numpy(dtype=float)
-        axes.set_title(name, fontsize=7)
+        axes.set_title(name, fontsize=FONT)
         if not good.any():
-            axes.text(0.5, 0.5, "nothing certified", transform=axes.transAxes, ha="center", color=_FAILED)
+            axes.text(0.5, 0.5, "nothing certified", transform=axes.transAxes, ha="center", color=ALARM)
             continue
         drawn = _map(axes, table, good, labels) if maps else _strands(axes, table[good], [*labels, label])
         figure.colorbar(drawn, ax=axes, label=label)
@@ -152,8 +147,8 @@ def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> 
     x, y = table[:, 0], table[:, 1]
     drawn = _mesh(axes, x, y, np.where(good, table[:, 2], np.nan))
     if not good.all():
-        axes.plot(x[~good], y[~good], "x", color=_FAILED, markersize=4, label="not certified", linestyle="none")
-        axes.legend(loc="upper right", fontsize=6)
+        axes.plot(x[~good], y[~good], "x", color=ALARM, markersize=4, label="not certified", linestyle="none")
+        axes.legend(loc="upper right", fontsize=6, frameon=True)
     axes.set_xlabel(labels[0])
     axes.set_ylabel(labels[1])
     return drawn

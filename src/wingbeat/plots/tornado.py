@@ -5,16 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.results.sensitivities import Sensitivities
+from wingbeat.style import BLUE, PAGE, VERMILION, drawing, legend_below, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_WIDTH, _ROW, _HEAD = 183.0, 5.0, 24.0  # mm
-_INCH = 25.4
+_ROW, _HEAD = 5.0, 24.0  # mm
 _MOST = 12
-_LOW, _HIGH = "#0072B2", "#D55E00"  # Okabe and Ito's blue and vermilion
-_STYLE: dict[str, Any] = {"font.family": "sans-serif", "font.size": 7, "axes.linewidth": 0.6, "axes.labelpad": 2}
-_STYLE |= {"axes.spines.top": False, "axes.spines.right": False, "axes.spines.left": False}
 
 
 def tornado_page(found: Sensitivities) -> Figure:
@@ -33,12 +30,9 @@ def tornado_page(found: Sensitivities) -> Figure:
     >>> len(wb.plots.tornado_page(found).axes)
     2
     """
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
     count = min(_MOST, sum(s.parameter.plausible is not None for s in found.slopes))
-    with rc_context(_STYLE):  # type: ignore[arg-type]
-        figure = Figure(figsize=(_WIDTH / _INCH, (_HEAD + _ROW * count) / _INCH), layout="constrained")
+    with drawing():
+        figure = new_figure(PAGE, _HEAD + _ROW * count)
         problem = found.problem
         figure.suptitle(
             f"{problem.species.name} at {problem.speed:g} m/s, least {problem.minimise.name.replace('_', ' ')}: "
@@ -48,7 +42,7 @@ def tornado_page(found: Sensitivities) -> Figure:
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
         for panel, name in zip(panels, found.values, strict=True):
             _draw(panel, found, name)
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False)
+        legend_below(figure, panels[0], columns=2)
     return figure
 
 
@@ -57,8 +51,9 @@ def _draw(panel: Any, found: Sensitivities, name: str) -> None:
     largest = max((abs(end) for slope in ranked for end in found.swing(slope, name)), default=0.0) or 1.0
     for row, slope in enumerate(ranked):
         low, high = found.swing(slope, name)
-        for change, color, end in ((low, _LOW, "low end of the range"), (high, _HIGH, "high end")):
+        for change, color, end in ((low, BLUE, "low end of the range"), (high, VERMILION, "high end")):
             panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
+    panel.spines["left"].set_visible(False)
     panel.axvline(0.0, color="0.2", linewidth=0.8)
     panel.set_yticks(range(len(ranked)), [s.parameter.path for s in ranked])
     panel.tick_params(axis="y", length=0)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList, FileError
 from wingbeat.orbits.many.branches import trace
 from wingbeat.orbits.many.transitions import marks_of
@@ -26,7 +27,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND, inputs_hash, load_dataset
+from wingbeat.results.storage import inputs_hash, load_dataset
 from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._version import __version__
+from wingbeat.datasets import KIND
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
@@ -20,7 +21,7 @@ from wingbeat.orbits.many.transitions import Mark, certified, families
 from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.record import aero_record, vehicle_record
-from wingbeat.results.storage import KIND, inputs_hash
+from wingbeat.results.storage import inputs_hash
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -80,10 +80,5 @@ def flight_dataset(
     )
 
 
-def flown(dataset: xr.Dataset) -> np.ndarray:
-    """Return which samples were reached before the vehicle tumbled, if it did."""
-    return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
-
-
 def _columns(values: np.ndarray, *names: str) -> dict[str, np.ndarray]:
     return {name: values[..., i] for i, name in enumerate(names)}

@@ -1,23 +1,25 @@
-"""Flights from an initial state with prescribed wings: the verb, and what it gives back."""
+"""Flights from an initial state, with prescribed wings or driven by torques: the verbs, and what they return."""
 
 from __future__ import annotations
 
 import functools
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._version import __version__
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State, check_state
-from wingbeat.mechanics.flights import fly_beats
+from wingbeat.mechanics.flights import fly_beats, fly_torque_driven
+from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,7 +68,7 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
 
     Parameters
     ----------
-    model : the flight model, from `flight_model`.
+    model : the flight model, a `FlightModel`.
     wingbeat : the prescribed wingbeat.
     state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
     beats : number of wingbeats.
@@ -78,7 +80,7 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), beats=1)
     >>> flight.states.shape, flight.completed
     ((129, 6), True)
@@ -89,3 +91,92 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     faults.raise_if_any()
     check_state(state)
     return Flight(model, wingbeat, *fly_beats(model, wingbeat, state, beats, samples))
+
+
+# The generalised coordinates and their rates, as a data set names them.
+_COORDINATES = ("x", "z", "body_pitch", "flap", "wing_pitch")
+_RATES = ("u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate")
+
+
+@dataclass(frozen=True)
+class TorqueDrivenFlight:
+    """A flight whose wings are driven by torques.
+
+    Attributes
+    ----------
+    time : sample times [s], shape (K,).
+    coordinates : x, z [m], body pitch, flap and wing pitch [rad], shape (K, 5).
+    rates : of the coordinates, shape (K, 5).
+    """
+
+    time: np.ndarray
+    coordinates: np.ndarray
+    rates: np.ndarray
+
+    @property
+    def completed(self) -> bool:
+        """Whether the flight went to the end; False where the vehicle tumbled and the integrator gave up."""
+        return bool(np.isfinite(self.coordinates).all())
+
+    @functools.cached_property
+    def dataset(self) -> xr.Dataset:
+        """The time series, labelled."""
+        import xarray as xr
+
+        names, values = (*_COORDINATES, *_RATES), np.hstack([self.coordinates, self.rates]).T
+        series = zip(names, values, strict=True)
+        return xr.Dataset(
+            {name: ("time", value, attributes_of(NOMENCLATURE[name])) for name, value in series},
+            {"time": ("time", self.time, attributes_of(NOMENCLATURE["time"]))},
+            {"Conventions": "CF-1.11", KIND: "torque-driven flight", "version": __version__},
+        )
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Raises
+        ------
+        InvalidInputError : another suffix.
+        FileError : the file cannot be written.
+        """
+        save_result(self.dataset, path)
+
+
+def simulate_torque_driven(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    coordinates: Any,
+    rates: Any,
+    torques: Callable[[Any, Any], Any],
+    times: Any,
+    args: Any = None,
+) -> TorqueDrivenFlight:
+    """Fly all five coordinates (x, z, body_pitch, flap, wing_pitch) with the hinges driven by torques.
+
+    Parameters
+    ----------
+    model : the flight model.
+    wingbeat : gives span, fold and twist; its flap and pitch laws do not enter.
+    coordinates, rates : q and q' at the first time, shape (5,) each [m, rad; per s].
+    torques : JAX-traceable function of time [s] and `args` that gives (flap, pitch) torques of both wings [N m].
+    times : increasing sample times [s], shape (K,).
+    args : passed to `torques`.
+
+    Raises
+    ------
+    InvalidInputError : wrong shapes, not finite, or times that do not increase.
+
+    The equations are ``D(q) q'' + C(q, q') q' + g = Q_air + B tau`` of Su et al. 2023
+    (doi 10.48550/arXiv.2302.09602).
+
+    >>> import jax.numpy as jnp, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> start, rates = [0.0, 0.0, 0.1, 0.4, 0.2], [10.0, 0.0, 0.0, 0.0, 0.0]
+    >>> limp = wb.simulate_torque_driven(
+    ...     model, pigeon.wingbeat, start, rates, lambda time, _: jnp.zeros(2), [0.0, 0.01]
+    ... )
+    >>> limp.completed, limp.dataset["flap"].attrs["units"]
+    (True, 'rad')
+    """
+    return TorqueDrivenFlight(*fly_torque_driven(model, wingbeat, coordinates, rates, torques, times, args))

@@ -15,13 +15,13 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
-from wingbeat.mechanics.flight_model import flight_model
+from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
 from wingbeat.results.saving import save_result
-from wingbeat.results.storage import KIND
 from wingbeat.species import Species
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def glide_polar(
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
     loads = blade_element_of(SuFan() if aero is None else aero)
-    model = flight_model(species.vehicle, loads, species.air)
+    model = FlightModel(species.vehicle, loads, species.air)
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)
     reach = species.path_bounds["body_pitch"] if trim == "body-pitch" else mean

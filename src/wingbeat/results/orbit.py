@@ -277,6 +277,7 @@ def solve_orbits(
     progress: Progress | None = None,
     most_starts: int | None = None,
     advise: bool = False,
+    in_order: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
@@ -299,11 +300,15 @@ def solve_orbits(
         sooner.
     advise : for each problem without an orbit find the single changes that make one, as `solve_orbit` does; it
         takes seconds each.
+    in_order : the problems are a series, such as speeds in order, with the same free parameters. After its own
+        searches each is searched from its neighbours' answers, up and down the series until nothing gets better. So
+        the best family of orbits found anywhere reaches wherever it leads.
     options : of the solvers.
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
+    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range, or problems in
+        order that differ in what is free.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -311,40 +316,8 @@ def solve_orbits(
     >>> [orbit.status.value for orbit in orbits]
     ['converged', 'converged', 'converged']
     """
-    found = find_orbits(problems, starts, seed, processes, progress, most_starts, advise, options)
-    asked = (usual_starts(problem, options.search) if starts is None else starts for problem in problems)
-    return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
-
-
-def solve_series(
-    problems: Sequence[OrbitProblem],
-    starts: int | None = None,
-    seed: int = 0,
-    most_starts: int | None = None,
-    options: SolverOptions = DEFAULTS,
-) -> list[Orbit]:
-    """Find and certify orbits of problems in a row, such as speeds in order, each helped by its neighbours.
-
-    After its own searches each problem is searched from its neighbours' answers, up and down the row until
-    nothing gets better: the best family of orbits met anywhere reaches wherever it leads.
-
-    Parameters
-    ----------
-    problems : with the same free parameters, in an order in which neighbours are alike.
-    starts, seed, most_starts, options : as in `solve_orbits`, for each problem before answers are handed on.
-
-    Raises
-    ------
-    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
-
-    >>> import wingbeat as wb
-    >>> bat = wb.load_species("bat")
-    >>> orbits = wb.solve_series([wb.OrbitProblem(bat, speed=u) for u in (7.0, 8.0, 9.0)])
-    >>> all(orbit.record()["starts"] > 1 for orbit in orbits)
-    True
-    """
-    check_search(1 if starts is None else starts, seed)
-    found = find_series(problems, starts, seed, most_starts, options)
+    solve = find_series if in_order else find_orbits
+    found = solve(problems, starts, seed, processes, progress, most_starts, advise, options)
     asked = (usual_starts(problem, options.search) if starts is None else starts for problem in problems)
     return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.results.record import beat_mean, finite_or_none
-from wingbeat.results.storage import KIND
 
 if TYPE_CHECKING:
     import xarray as xr

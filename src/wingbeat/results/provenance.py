@@ -19,7 +19,7 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective, named_quantity
+from wingbeat.orbits.problem.objectives import Quantity, named_objective, named_quantity
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
@@ -198,7 +198,7 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
     return {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
 
 
-def _asked_for(quantity: Frequency | Quantity) -> str:
+def _asked_for(quantity: Quantity) -> str:
     """Return the name that brings a quantity back, or one that never will: a user's function is in no file."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity

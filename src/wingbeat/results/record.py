@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, FunctionCoefficients
+from wingbeat.datasets import at_station
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
@@ -135,15 +136,6 @@ def alpha_range(beat: Beat, station: float) -> list[float]:
     """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
     alpha = at_station(beat.alpha, station)
     return [float(alpha.min()), float(alpha.max())]
-
-
-def at_station(values: np.ndarray, station: float) -> np.ndarray:
-    """Interpolate values at strip centres (last axis) linearly to one span fraction."""
-    count = values.shape[-1]
-    place = np.clip(station * count - 0.5, 0, count - 1)
-    low = min(int(place), max(count - 2, 0))
-    high = min(low + 1, count - 1)
-    return values[..., low] + (place - low) * (values[..., high] - values[..., low])
 
 
 def finite_or_none(value: Any) -> Any:

@@ -10,6 +10,7 @@ import stat
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.datasets import KIND
 from wingbeat.errors import FileError
 from wingbeat.files import write_atomically
 from wingbeat.results.plausibility import is_judgement, statements
@@ -17,7 +18,6 @@ from wingbeat.results.plausibility import is_judgement, statements
 if TYPE_CHECKING:
     import xarray as xr
 
-KIND = "wingbeat_kind"
 # What a record holds, by kind; any other attribute is somebody else's, as the `history` of other tools.
 _TEXTS = ("status", "message", "species", "objective", "version")
 _TABLES = ("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints")

@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
-from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
+from wingbeat.orbits.problem.objectives import Quantity, named_objective
 
 __all__ = ["as_inputs", "from_inputs", "named"]
 
@@ -35,7 +35,7 @@ def named(text: str) -> str:
     return text.rpartition(":")[2] if _MARK in text else named_objective(text).name
 
 
-def from_inputs(inputs: dict[str, str]) -> Frequency | Quantity:
+def from_inputs(inputs: dict[str, str]) -> Quantity:
     """Return the objective that `as_inputs` described.
 
     Raises

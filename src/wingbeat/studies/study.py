@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed.deploy.cluster import Cluster
 
-__all__ = ["Study", "Summary", "study"]
+__all__ = ["Study", "Summary", "plan_study"]
 
 _SUFFIX = ".study.sqlite"
 # Seconds that a point may be given, ten days and more: operating systems refuse to wait for years.
@@ -307,7 +307,7 @@ def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
     faults.raise_if_any()
 
 
-def study(
+def plan_study(
     source: str | PathLike[str] | Mapping[str, Any] | None = None,
     *,
     store: str | PathLike[str] | None = None,
@@ -327,7 +327,7 @@ def study(
     FileError : the study file cannot be read.
 
     >>> import wingbeat as wb
-    >>> plan = wb.study(species="pigeon", vary={"speed": {"grid": [8.0, 10.0]}}, store="pigeon.study.sqlite")
+    >>> plan = wb.plan_study(species="pigeon", vary={"speed": {"grid": [8.0, 10.0]}}, store="pigeon.study.sqlite")
     >>> len(plan)
     2
     """

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import flown
 from wingbeat.files import writing
-from wingbeat.results.dataset import flown
+from wingbeat.style import GREEN, drawing
 from wingbeat.vehicle import Body
 from wingbeat.viewer.scene import scene
 from wingbeat.viewer.shape import body_axes
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 _FRAMES = 48
 _SECONDS = 2.4  # of one beat as it is shown
 _MOST_ALPHA = 60.0  # deg; the ends of the colours
-_LOAD = "#009E73"
 
 
 def animate(
@@ -47,11 +47,11 @@ def animate(
     """
     shown = scene(flights)["flights"]
     flights = [(label, data.isel(phase=flown(data))) for label, data in flights]
-    from matplotlib import cm, rc_context
+    from matplotlib import cm
     from matplotlib.animation import PillowWriter
     from matplotlib.figure import Figure
 
-    with rc_context({"font.size": 9}), writing(path) as beside:
+    with drawing(font=9.0), writing(path) as beside:
         figure = Figure(figsize=(4.6 * len(flights) + 0.9, 3.6), dpi=110, layout="constrained")
         axes: Any = figure.subplots(1, len(flights), subplot_kw={"projection": "3d"}, squeeze=False)[0]
         load = max(float(np.linalg.norm(data["strip_force"].values, axis=-1).max()) for _, data in flights)
@@ -95,7 +95,7 @@ class _Panel:
         self.colours, self.norm = colormaps["RdBu_r"], Normalize(-_MOST_ALPHA, _MOST_ALPHA)
         # One collection of body and wings: matplotlib sorts faces by depth within each alone.
         self.faces = Poly3DCollection([], linewidth=0.4)
-        self.loads = Line3DCollection([], colors=_LOAD, linewidths=1.3)
+        self.loads = Line3DCollection([], colors=GREEN, linewidths=1.3)
         body = json.loads(dataset.attrs["vehicle"])["body"]
         self.body = _ellipsoid(*body_axes(Body(**body)))
         axes.add_collection3d(self.faces, autolim=False)

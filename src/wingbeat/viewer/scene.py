@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import KIND, at_station, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.results.dataset import flown
-from wingbeat.results.record import at_station
-from wingbeat.results.storage import KIND
 from wingbeat.vehicle import Body
 from wingbeat.viewer.shape import body_axes
 
@@ -57,7 +55,7 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.flight_model(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
     >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0))
     >>> scene([("pigeon", flight.dataset)])["flights"][0]["strips"]
     10

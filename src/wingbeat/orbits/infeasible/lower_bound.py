@@ -16,14 +16,13 @@ from wingbeat.orbits.infeasible.relaxation import Change, Relaxation, relaxation
 from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified
 from wingbeat.orbits.nlp.local_search import search
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.objectives import Frequency
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.starts import start_point
 
 
 def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: float) -> bool:
     """Say whether the frequency is minimised and is at its lower bound: no search can better that."""
-    if not isinstance(problem.minimise, Frequency):
+    if problem.minimise.parameter != "frequency":
         return False
     low, high = problem.bounds["frequency"]
     return problem.frequency(unknowns) - low <= tolerance * (high - low)
@@ -32,7 +31,7 @@ def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: fl
 def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
     """Say whether least frequency may end at its bound: in a descent, or where a beat at the bound closed."""
     problem, tolerance = programme.problem, programme.options.search.bound_tolerance
-    if not isinstance(problem.minimise, Frequency):
+    if problem.minimise.parameter != "frequency":
         return False
     return problem.climb < 0 or any(is_at_lower_bound(problem, unknowns, tolerance) for unknowns in closed)
 

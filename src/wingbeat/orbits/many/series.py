@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.many.batch import check_processes, in_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, better_of
-from wingbeat.orbits.solve import find_orbit, search_near
+from wingbeat.orbits.solve import Progress, find_orbit, search_near
 from wingbeat.orbits.status import Status
 
 
@@ -17,7 +19,10 @@ def find_series(
     problems: Sequence[OrbitProblem],
     starts: int | None = None,
     seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
     most_starts: int | None = None,
+    advise: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Solution]:
     """Solve problems in a row, such as speeds in order, each searched from its neighbours' answers, too.
@@ -28,7 +33,9 @@ def find_series(
     Parameters
     ----------
     problems : in such an order that neighbours are alike.
-    starts, seed, most_starts, options : as in `find_orbit`, for each problem before anything is handed on.
+    starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem before answers are handed on.
+    processes : how many Python processes share these searches. The answers are the same.
+    progress : called with (problems searched, problems in all).
 
     Returns
     -------
@@ -36,18 +43,18 @@ def find_series(
 
     Raises
     ------
-    InvalidInputError : problems that differ in what is free; starts, seed or most_starts out of range.
+    InvalidInputError : problems that differ in what is free; starts, seed, most_starts or processes out of range.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
         if problem.free != problems[0].free:
             fix = f"give all of a row the same, as the first: {', '.join(problems[0].free)}"
             faults.add(f"problems[{i}].free", problem.free, "is not what is free beside it", fix)
+    check_processes(faults, processes)
     faults.raise_if_any()
-    best = [
-        find_orbit(p, starts, seed, threads=1, most_starts=most_starts, advise=False, options=options)
-        for p in problems
-    ]
+    asked = {"starts": starts, "seed": seed, "most_starts": most_starts, "advise": advise, "options": options}
+    search = functools.partial(find_orbit, threads=1, **asked)
+    best = list(in_processes(search, problems, processes, progress))
     tried: set[tuple[bytes, int]] = set()
     upward = [(i, i + 1) for i in range(len(best) - 1)]
     downward = [(i + 1, i) for i in reversed(range(len(best) - 1))]

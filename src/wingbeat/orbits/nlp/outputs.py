@@ -7,7 +7,6 @@ import numpy as np
 from wingbeat.orbits.flight.beat import beat_reader, flown_beat
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.flight.shooting import Flown
-from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.path_functions import OutputFunctions
 from wingbeat.orbits.problem.problem import OrbitProblem
 
@@ -28,7 +27,7 @@ class Outputs:
     def __init__(self, problem: OrbitProblem) -> None:
         self._problem = problem
         self._velocity = problem.speed, problem.climb
-        objective = [problem.minimise] if isinstance(problem.minimise, Quantity) else []
+        objective = [] if problem.minimise.parameter else [problem.minimise]
         self._functions = OutputFunctions(objective, problem.subject_to, problem.aero.strips)
         self._reader = beat_reader(problem.model, problem.species.wingbeat, problem.free, self._velocity)
         self.of_objective = self._functions.counts[0] if objective else 0

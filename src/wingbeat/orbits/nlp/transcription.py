@@ -14,7 +14,6 @@ from wingbeat.orbits.nlp.outputs import Outputs
 from wingbeat.orbits.nlp.point import Correction, Point, with_column
 from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.objectives import Frequency
 from wingbeat.orbits.problem.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
 
 # Sums of a flight's numbers beyond this overflow when squared, or soon will.
@@ -285,9 +284,7 @@ class Transcription:
             return float(scaled[-1])
         if self._minimised:
             return float(self._outputs(scaled)[0])
-        minimise = self.problem.minimise
-        assert isinstance(minimise, Frequency)
-        return minimise.value(self.unknowns.names, self.physical(scaled)) / minimise.scale
+        return float(self.physical(scaled)[self._parameter]) / self.problem.minimise.scale
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
         """Return its derivative, shape (n,)."""
@@ -295,10 +292,13 @@ class Transcription:
             return np.eye(1, scaled.size, scaled.size - 1)[0]
         if self._minimised:
             return self.point(scaled).outputs_jacobian[0] + self._correction.outputs_slope[0]
-        minimise = self.problem.minimise
-        assert isinstance(minimise, Frequency)
-        gradient = minimise.gradient(self.unknowns.names, self.physical(scaled))
-        return gradient * self.unknowns.scale / minimise.scale
+        unit = np.eye(1, self.unknowns.scale.size, self._parameter)[0]
+        return unit * self.unknowns.scale / self.problem.minimise.scale
+
+    @property
+    def _parameter(self) -> int:
+        """Which of the unknowns the objective is, where it is one."""
+        return self.unknowns.names.index(self.problem.minimise.parameter)
 
 
 def highest_sample(values: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Quantities of a beat that can be made least or kept within limits, and the limits."""
+"""Quantities of a beat that can be minimised or kept within limits."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from wingbeat._jax.config import jnp
 from wingbeat.errors import FaultList, suggest
 from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
@@ -17,26 +15,11 @@ from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.springs import SpringCost
 
+__all__ = ["QUANTITIES", "Frequency", "PowerCost", "Quantity", "SpringPower", "named_objective", "named_quantity"]
 
-@dataclass(frozen=True)
-class Frequency:
-    """The wingbeat frequency, which Su et al. 2023 (doi 10.48550/arXiv.2302.09602) make least.
 
-    >>> Frequency().value(("body_pitch", "frequency"), [0.1, 6.0])
-    6.0
-    """
-
-    name: str = "frequency"
-    unit: str = plain_unit("frequency")
-    scale: float = 3.0
-
-    def value(self, names: tuple[str, ...], unknowns: Any) -> float:
-        """Return the frequency [Hz]."""
-        return float(unknowns[names.index("frequency")])
-
-    def gradient(self, names: tuple[str, ...], unknowns: Any) -> Any:
-        """Return the unit vector of the frequency."""
-        return np.eye(len(names))[names.index("frequency")]
+def __dir__() -> list[str]:
+    return __all__
 
 
 @dataclass(frozen=True)
@@ -49,6 +32,7 @@ class Quantity:
     of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or (K, m) of K phases.
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
+    parameter : the wingbeat parameter that the quantity is, if it is one: as an objective it then needs no flight.
 
     Raises
     ------
@@ -63,6 +47,7 @@ class Quantity:
     of: Callable[[Beat], Any]
     unit: str = "1"
     scale: float = 1.0
+    parameter: str | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -103,6 +88,15 @@ class _Cost:
         power = getattr(beat, self.power)
         positive = beat.mean_positive(power)
         return positive - self.returned * (positive - beat.mean(power))
+
+
+def Frequency() -> Quantity:
+    """Return the wingbeat frequency, which Su et al. 2023 (doi 10.48550/arXiv.2302.09602) minimise.
+
+    >>> Frequency().name, Frequency().unit
+    ('frequency', 'Hz')
+    """
+    return Quantity("frequency", _Series("frequency"), plain_unit("frequency"), 3.0, "frequency")
 
 
 def PowerCost(returned: float = 0.0) -> Quantity:
@@ -195,7 +189,7 @@ def _known(name: str, of: Callable[[Beat], Any], scale: float = 1.0) -> Quantity
 QUANTITIES = {
     quantity.name: quantity
     for quantity in (
-        _known("frequency", _Series("frequency"), 3.0),
+        Frequency(),
         _known("mean_power", _Cost("hinge_power", 1.0)),
         _known("mean_positive_power", _Cost("hinge_power", 0.0)),
         _known("peak_power", _Series("hinge_power"), 5.0),
@@ -242,7 +236,7 @@ def named_quantity(name: str) -> Quantity:
     return QUANTITIES[name]
 
 
-def named_objective(name: str) -> Frequency | Quantity:
+def named_objective(name: str) -> Quantity:
     """Return the objective of a name, which may be written with hyphens, as on the command line.
 
     Raises
@@ -251,4 +245,4 @@ def named_objective(name: str) -> Frequency | Quantity:
     """
     word, bracket, numbers = str(name).partition("(")
     name = word.replace("-", "_") + bracket + numbers  # a minus in the brackets is one
-    return Frequency() if name == "frequency" else named_quantity(_SHORT.get(name, name))
+    return named_quantity(_SHORT.get(name, name))

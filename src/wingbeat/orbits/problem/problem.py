@@ -15,7 +15,7 @@ from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList, InvalidInputError, suggest
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
-from wingbeat.mechanics.flight_model import FlightModel, flight_model
+from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
 from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
@@ -68,7 +68,7 @@ class OrbitProblem:
         flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
         searches inside the species' plausible ranges: bounds are drawn in to them, and what is read off the beat
         becomes a limit of `subject_to`.
-    minimise : the objective, `Frequency()` as in the paper.
+    minimise : the objective, a `Quantity` or the name of one; the frequency, as in the paper, if not given.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter holds it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
@@ -77,8 +77,6 @@ class OrbitProblem:
 
     By default the whole stroke keeps each wing on its own side. Where every parameter that shapes the stroke is
     held, there is nothing to choose and an orbit that crosses draws a warning.
-
-    `minimise` may also be a `Quantity`, or the name of one: ``"mean_positive_power"``.
 
     Raises
     ------
@@ -158,8 +156,8 @@ class OrbitProblem:
                 faults.add("subject_to", text, "leaves nothing free", "hold fewer parameters of the wingbeat")
         if faults.faults:
             return
-        if not isinstance(minimise, Frequency | Quantity):
-            faults.add("minimise", minimise, "is not an objective", "use Frequency() or a Quantity")
+        if not isinstance(minimise, Quantity):
+            faults.add("minimise", minimise, "is not an objective", "use its name, or a Quantity")
         for i, constraint in enumerate(constraints):
             if not isinstance(constraint, Constraint):
                 faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
@@ -217,13 +215,13 @@ class OrbitProblem:
         return moved
 
     def _quantities(self) -> list[Quantity]:
-        """Return what is read off the beat."""
-        objective = [self.minimise] if isinstance(self.minimise, Quantity) else []
+        """Return the outputs of the beat that objective and constraints are."""
+        objective = [] if self.minimise.parameter else [self.minimise]
         return [*objective, *(constraint.quantity for constraint in self.subject_to)]
 
     @property
     def has_outputs(self) -> bool:
-        """Whether objective or constraints are read off the beat, not off the unknowns."""
+        """Whether objective or constraints are outputs of the beat, and not all read off the unknowns."""
         return bool(self._quantities())
 
     @property
@@ -239,7 +237,7 @@ class OrbitProblem:
     @property
     def minimises_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
-        return isinstance(self.minimise, Quantity) and value_count(self.minimise.of, self.aero.strips) > 1
+        return value_count(self.minimise.of, self.aero.strips) > 1
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:
@@ -256,8 +254,10 @@ class OrbitProblem:
             faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it held")
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
-        if isinstance(self.minimise, Frequency) and "frequency" not in free:
-            faults.add("free", free, "leaves frequency nothing to change", "minimise something else")
+        if self.minimise.parameter and self.minimise.parameter not in free:
+            faults.add(
+                "free", free, f"leaves {self.minimise.parameter} nothing to change", "minimise something else"
+            )
         asked: Bounds = self.bounds
         for name, pair in asked.items():
             if name not in (*PATH_NAMES, *free):
@@ -288,7 +288,7 @@ class OrbitProblem:
     @functools.cached_property
     def model(self) -> FlightModel:
         """The flight model: vehicle, air loads, air; joined once, for its coefficients take a flight's time."""
-        return flight_model(self.vehicle, self.aero, self.air)
+        return FlightModel(self.vehicle, self.aero, self.air)
 
     def unknowns(self) -> Unknowns:
         """Return names, bounds and scales of the unknowns.

@@ -1,0 +1,27 @@
+"""What every reader of a wingbeat data set needs to know of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
+KIND = "wingbeat_kind"
+
+
+def flown(dataset: xr.Dataset) -> np.ndarray:
+    """Return which samples were reached before the vehicle tumbled, if it did."""
+    return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
+
+
+def at_station(values: np.ndarray, station: float) -> np.ndarray:
+    """Interpolate values at strip centres (last axis) linearly to one span fraction."""
+    count = values.shape[-1]
+    place = np.clip(station * count - 0.5, 0, count - 1)
+    low = min(int(place), max(count - 2, 0))
+    high = min(low + 1, count - 1)
+    return values[..., low] + (place - low) * (values[..., high] - values[..., low])

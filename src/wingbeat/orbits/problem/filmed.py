@@ -1,0 +1,88 @@
+"""The orbit problem of a wingbeat that was filmed: what was filmed is held, what was not trims the flight."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.species import Species
+
+# How far what was filmed may be moved to trim the flight, where nothing else is free [rad].
+_TRIM_RANGE = math.radians(20.0)
+
+
+class Filmed(Protocol):
+    """A wingbeat fitted to a film, such as `wingbeat.experiment.FilmedBeat`."""
+
+    @property
+    def numbers(self) -> Mapping[str, Any]:
+        """The fields of a `Wingbeat` that the film gives, SI and radians."""
+        ...
+
+    @property
+    def held(self) -> frozenset[str]:
+        """The parameters of which an orbit may choose none."""
+        ...
+
+
+def filmed_species(beat: Filmed, species: Species) -> Species:
+    """Return a species that beats as filmed; what was not filmed stays its own.
+
+    Parameters
+    ----------
+    beat : from `wingbeat.experiment.fit_film`.
+    species : who was filmed.
+
+    Raises
+    ------
+    InvalidInputError : a wingbeat that cannot be.
+    """
+    return species.with_values({f"wingbeat.{name}": value for name, value in beat.numbers.items()})
+
+
+def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
+    """Return what an orbit may choose, and bounds: the species' own free parameters that were not filmed.
+
+    Forward and vertical speed take two. Where fewer are left, the mean of pitch and then its amplitude may move
+    from what was filmed, within the bounds returned.
+    """
+    free, bounds = [name for name in species.free if name not in beat.held], {}
+    for name in ("pitch_mean", "pitch_amplitude"):
+        if len(free) < 2 and name not in free:
+            here = beat.numbers.get(name, getattr(species.wingbeat, name))
+            least = here - _TRIM_RANGE if name == "pitch_mean" else max(here - _TRIM_RANGE, 0.0)
+            free.append(name)
+            bounds[name] = (least, here + _TRIM_RANGE)
+    return tuple(free), bounds
+
+
+def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) -> OrbitProblem:
+    """Return the problem of the trim that flies a filmed wingbeat at a speed.
+
+    Parameters
+    ----------
+    beat : from `wingbeat.experiment.fit_film`.
+    species : who was filmed.
+    speed : mean forward speed [m/s].
+    more : what else an `OrbitProblem` takes. If it names no objective, the frequency is minimised where it is free,
+        else the mean positive power.
+
+    Raises
+    ------
+    InvalidInputError : what `OrbitProblem` refuses.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> film = wb.experiment.synthetic_film(pigeon.wingbeat, frames=60, noise_deg=1.0)
+    >>> wb.filmed_problem(wb.experiment.fit_film(film), pigeon, speed=10.0).free
+    ('pitch_mean', 'pitch_amplitude')
+    """
+    free, bounds = trim_of(beat, species)
+    if "frequency" not in free:
+        more.setdefault("minimise", "mean_positive_power")
+    bounds |= more.pop("bounds", {})
+    # What was filmed is held: a limit of the stroke could only hide it. An orbit that crosses draws a warning.
+    more.setdefault("wings_may_cross", True)
+    return OrbitProblem(filmed_species(beat, species), speed, free=free, bounds=bounds, **more)

@@ -1,0 +1,106 @@
+"""How every figure looks: colours, lines and sizes, and what panels of all pages share."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+PAGE, COLUMN, INCH = 183.0, 89.0, 25.4  # mm: two columns of a journal, and one
+FONT = 7.0  # points
+
+# Okabe and Ito's colours, which colour-blind eyes tell apart.
+BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", "#009E73"
+PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
+ALARM, GOOD = "#C00000", "#1B7F3B"
+GREY, SHADE, TINT = "0.45", "0.91", "#D6E6F2"
+
+# Each line has a dash of its own, and each series of points a mark, for grey prints.
+FIRST: dict[str, Any] = {"color": BLUE, "linestyle": "-"}
+SECOND: dict[str, Any] = {"color": VERMILION, "linestyle": (0, (4, 1.5))}
+THIRD: dict[str, Any] = {"color": GREEN, "linestyle": (0, (1, 1))}
+MARKED = ((BLUE, "o"), (VERMILION, "s"), (GREEN, "^"), (PURPLE, "D"), (ORANGE, "v"), (SKY, "P"), ("k", "X"))
+
+_STYLE: dict[str, Any] = {
+    "font.family": "sans-serif",
+    "lines.linewidth": 1.1,
+    "axes.labelpad": 2,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "grid.color": "0.92",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+}
+
+
+@contextmanager
+def drawing(font: float = FONT) -> Iterator[None]:
+    """Draw in this style, in a block or, as a decorator, in a function; the user's own settings return after it.
+
+    Parameters
+    ----------
+    font : size of the letters [points].
+    """
+    from matplotlib import rc_context
+
+    with rc_context({**_STYLE, "font.size": font}):  # type: ignore[arg-type]
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure of a width and a height [mm]."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width / INCH, height / INCH), layout="constrained")
+
+
+def dress(axes: Axes, xlabel: str, ylabel: str) -> None:
+    """Name the axes and style their ticks."""
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    axes.tick_params(labelsize=FONT, length=2, pad=2)  # said here, for ticks are made only when drawn
+    axes.ticklabel_format(style="plain", useOffset=False)  # a common factor would stand in the legend
+    axes.locator_params(nbins=6)
+
+
+def shade_downstrokes(axes: Axes, first: float, last: float) -> None:
+    """Shade every downstroke between two phases, and set the limits of the axis to these."""
+    from matplotlib.collections import PolyCollection
+
+    axes.set_xlim(first, last)
+    starts = np.arange(math.floor(first), math.ceil(last))
+    boxes = [[(s, 0), (s + 0.5, 0), (s + 0.5, 1), (s, 1)] for s in starts]
+    # One collection and not a patch each: a flight may have thousands of beats.
+    shade = PolyCollection(boxes, facecolor=SHADE, linewidth=0, zorder=0, gid="downstroke")
+    shade.set_transform(axes.get_xaxis_transform())
+    axes.add_collection(shade, autolim=False)
+
+
+def letter_panels(panels: Any, first: str = "a") -> None:
+    """Write a letter above the upper left corner of each panel, in the order of the alphabet."""
+    corner: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
+    for i, axes in enumerate(np.ravel(panels)):
+        axes.annotate(chr(ord(first) + i), (0, 1), (-26, 4), fontsize=FONT + 1, fontweight="bold", **corner)
+
+
+def legend_above(axes: Axes, handles: Any = None, columns: int = 3, **options: Any) -> None:
+    """Put a legend in lines above the panel, where no curve can cross it."""
+    spacing = {"borderaxespad": 0, "handlelength": 1.5, "handletextpad": 0.4, "columnspacing": 0.8}
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.01), "ncols": columns}
+    named = {} if handles is None else {"handles": handles}
+    axes.legend(fontsize=FONT, **place, **spacing, **named, **options)
+
+
+def legend_below(figure: Figure, panels: Any, columns: int = 4) -> None:
+    """Put one legend of all that panels show below them."""
+    handles: dict[str, Any] = {}
+    for axes in np.ravel(panels):
+        handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=columns)

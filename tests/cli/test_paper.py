@@ -1,0 +1,55 @@
+"""``wingbeat paper`` from end to end on few orbits, and what it refuses."""
+
+import json
+
+import pytest
+
+from tests.helpers.places import ROOT
+from wingbeat.cli import main
+from wingbeat.paper import treatments
+from wingbeat.paper.claim import NOT_ASKED
+
+EARLIER = ["--before", str(ROOT / "data" / "claims_before.json")]
+
+
+def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(treatments, "QUICK_SPEEDS", (10.0,))
+    folder = tmp_path / "paper"
+    assert main(["paper", "--quick", "--figures", "1,3,7-8", "--processes", "1", "-o", str(folder), *EARLIER]) == 0
+    out, err = capsys.readouterr()
+    assert "of 8 orbits certified" in err
+    for number in (1, 3, 7, 8):
+        for ending in ("png", "pdf", "csv"):
+            assert (folder / f"figure{number}.{ending}").stat().st_size > 100
+    assert not (folder / "figure2.png").exists()
+    rows = json.loads((folder / "claims.json").read_text())
+    assert f"{rows[0]['id']}: {rows[0]['verdict']}" in out
+    assert (folder / "claims.md").is_file()
+    assert {row["verdict"] for row in rows if row["id"] in ("twice-the-frequency", "wing-shape")} == {NOT_ASKED}
+    text = (folder / "claims.md").read_text()
+    assert "| `two-dimensional` | fails | cannot be tested | the flow was not measured" in text
+    assert "twice-the-frequency: not asked with --quick" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--figures", "0-3"], "is not among the figures"),
+        (["--figures", "two"], "as in 1-8 or 3,5"),
+        (["assumptions", "--before", "claims.json"], "has no part in 'paper assumptions'"),
+        (["--before", "nowhere.json"], "nowhere.json"),
+        (["--sets", "5"], "has no part in 'paper claims'"),
+        (["assumptions", "--quick"], "has no part in 'paper assumptions'"),
+        (["assumptions", "--sets", "0"], "from 1 to 1000000"),
+        (["assumptions", "--seed", "-1"], "must not be negative"),
+        (["--only", "1"], "has no part in 'paper claims'"),
+        (["assumptions", "--sets", "5", "--piece", "2", "--only", "2-4"], "give 1 to 3"),
+        (["assumptions", "--only", "first"], "must name pieces"),
+        (["assumptions", "--piece", "0"], "from 1 to 1000000"),
+        (["--processes", "0"], "from 1 to 1024"),
+        (["all"], "all"),
+    ],
+)
+def test_what_cannot_be_is_refused(words, said, capsys):
+    assert main(["paper", *words]) == 2
+    assert said in capsys.readouterr().err

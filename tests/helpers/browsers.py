@@ -1,0 +1,12 @@
+"""How the tests start a real browser, and what they look for in it."""
+
+from tests.helpers.places import ROOT
+
+FLAGS = (
+    *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
+    *("--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"),
+)
+PATIENCE = 60_000  # ms; a browser on a busy machine starts slowly
+# What the viewer's bundler and the accessibility tests bring, where somebody has run npm.
+NODE_MODULES = ROOT / "viewer" / "node_modules"
+AXE = NODE_MODULES / "axe-core" / "axe.min.js"

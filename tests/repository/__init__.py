@@ -1,0 +1,1 @@
+"""Pages, data and the repository as a whole."""

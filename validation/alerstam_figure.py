@@ -1,0 +1,84 @@
+"""The one figure of the study: speeds and frequencies of birds, flown and measured."""
+
+from __future__ import annotations
+
+import numpy as np
+from alerstam_flights import Bird
+from alerstam_summary import AIR, FITTED, Row, column
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from wingbeat.species import scaling
+from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, letter_panels, new_figure
+
+SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
+FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
+
+
+@drawing()
+def draw(found: list[Row], timed: list[Bird]) -> Figure:
+    """Return four panels: speeds, their residuals, frequencies over the law, speeds over those of C_L 1."""
+    figure = new_figure(PAGE, 150.0)
+    panels = figure.subplots(2, 2)
+    measured, reynolds = column(found, "airspeed"), column(found, "reynolds")
+    pairs = (
+        (column(found, "min_power_speed"), SLOW, "minimum power"),
+        (column(found, "max_range_speed"), FAST, "maximum range"),
+    )
+    ends = np.array([5.0, 40.0])
+    panels[0, 0].fill_between(ends, ends / 1.2, ends * 1.2, color=SHADE, zorder=0)
+    panels[0, 0].plot(ends, ends, "--", color="0.4", linewidth=1)
+    for values, look, label in pairs:
+        panels[0, 0].loglog(measured, values, label=label, **look)
+        panels[0, 1].loglog(reynolds, values / measured, label=label, **look)
+        at_one = np.sqrt(2 * column(found, "mass") * AIR.gravity / (AIR.density * column(found, "wing_area")))
+        panels[1, 1].semilogx(reynolds, values / at_one, label=label, **look)
+    panels[1, 1].semilogx(reynolds, measured / at_one, "x", color="0.3", markersize=4, label="measured")
+    _frequencies(panels[1, 0], found, timed)
+    _finish(panels)
+    return figure
+
+
+def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
+    law, reynolds = column(found, "pennycuick_frequency"), column(found, "reynolds")
+    looks = (
+        ("least_power_frequency", SLOW, "flown, least power"),
+        ("least_frequency", FAST, "flown, least frequency"),
+    )
+    for name, look, label in looks:
+        axes.loglog(reynolds, column(found, name) / law, label=label, **look)
+    wing = column(found, "wing_law_frequency") / law
+    axes.loglog(reynolds, wing, "+", color=GREEN, markersize=4, label="law of wing length")
+    for i, bird in enumerate(timed):
+        own = scaling.BIRD_FREQUENCY(bird.mass, bird.span, bird.area, AIR.density, AIR.gravity)
+        at = bird.airspeed * bird.area / bird.span / AIR.viscosity
+        bars = {"yerr": bird.frequency_sd / own, "capsize": 2, "label": "measured" if i == 0 else None}
+        axes.errorbar(at, bird.frequency / own, fmt="s", color="black", markersize=4, **bars)
+
+
+def _finish(panels: np.ndarray) -> None:
+    labels = (
+        ("measured airspeed [m/s]", "predicted speed [m/s]"),
+        ("Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]"),
+        ("Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]"),
+        ("Reynolds number of chord and measured airspeed [-]", "speed over that at lift coefficient 1 [-]"),
+    )
+    for axes, letter, (x, y) in zip(panels.flat, "ABCD", labels, strict=True):
+        axes.set(xlabel=x, ylabel=y)
+        axes.grid()
+        axes.legend()
+        if letter != "A":
+            axes.axvspan(*FITTED, color=SHADE, zorder=0)
+            axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")
+            axes.set_xticks([2e4, 5e4, 1e5, 2e5, 4e5], ["20 000", "50 000", "100 000", "200 000", "400 000"])
+        axes.minorticks_off()
+        if letter in "BC":
+            axes.set_yticks([0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0])
+            axes.yaxis.set_major_formatter("{x:g}")
+    panels[0, 0].set(xlim=(6.5, 27), ylim=(3, 30), xticks=[7, 10, 15, 20, 25], yticks=[3, 5, 7, 10, 15, 20, 30])
+    for axis in (panels[0, 0].xaxis, panels[0, 0].yaxis):
+        axis.set_major_formatter("{x:g}")
+    panels[0, 1].set_ylim(0.28, 1.7)
+    panels[1, 0].set_ylim(0.3, 4.6)
+    panels[1, 0].legend(ncols=2, loc="lower left")
+    letter_panels(panels, "A")

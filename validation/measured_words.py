@@ -1,0 +1,181 @@
+"""The study's page: a table of numbers and what they mean, every one of them computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from measured_summary import CRUISE, LINEAR_SHARE, Row, Verdict
+
+from wingbeat.aero import SuFan
+from wingbeat.experiment import FORMS, CurveFit
+
+HEAD = """# Measured wings against the paper's plate
+
+Written by `python validation/measured_wings.py`; no number in the tables or below them is typed in. The data are
+other people's and not part of this project: printed half wings of a gull (nine postures of elbow and wrist, two
+tunnel speeds each; the coefficients rest on a reading of the source's units that its numbers bear out), a live
+jackdaw gliding (forces from its wake, wings alone: KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi
+10.1242/jeb.132480), and thin plates of small aspect ratio, read by eye off a figure of Pelletier and Mueller
+2000 (J. Aircraft 37:825).
+
+![lift, drag, lift over drag and moment](measured_wings.png)
+
+A: lift over angle from zero lift (the gulls' mount angle is that of a twisted wing). B, C: drag and lift over
+drag against lift, which need no angle. D: moment about the shoulder (gulls) or the leading edge (Su-Fan);
+slopes compare.
+"""
+
+COLUMNS = (
+    *("wing", "Re / 1000", "lift slope [1/rad]", "zero lift [deg]", "C_L max", "at [deg]", "least C_D"),
+    *("best L/D", f"L/D at C_L {CRUISE[0]:g} to {CRUISE[1]:g}", "centre [chords]"),
+)
+
+NOTES = f"""
+Gulls and plates: means at each angle. Lift slope: least squares between no lift and {LINEAR_SHARE:.0%} of
+the largest, with its 95 % interval; the plate's lift is bent there, so its line is a mean. Jackdaw: of the
+parabola C_D = least + rise (C_L - at)^2, since the best of hundreds of scattered ratios is the luckiest;
+its largest C_L is that of a bird that glides steadily, not of a stalled wing. Centre: -dC_M/dC_N below
+stall, in mean aerodynamic chords behind the shoulder for gulls, in chords behind the leading edge for
+Su-Fan. Models: 0 to 60 degrees. A dash: not measured.
+"""
+
+
+def page(rows: list[Row], verdicts: list[Verdict]) -> str:
+    """Return the page as Markdown."""
+    table = [f"| {' | '.join(COLUMNS)} |", "|---" * len(COLUMNS) + "|", *(_line(row) for row in rows)]
+    return "\n".join([HEAD, *table, NOTES, *_meaning(rows), "", *_forms(verdicts)]) + "\n"
+
+
+def _line(row: Row) -> str:
+    low, high = (value / 1e3 for value in row.polar.reynolds)
+    model = row.polar.kind == "model"
+    cells = [
+        row.polar.label,
+        f"{low:.3g}" if high - low < 0.05 * high else f"{low:.3g} to {high:.3g}",
+        _slope(row.slope, 1.0, model),
+        _number(row.zero_lift_deg, "{:.1f}"),
+        f"{row.lift_max:.2f}",
+        _number(row.lift_max_deg, "{:.0f}"),
+        f"{row.least_drag:.3f}",
+        f"{row.best_ratio:.1f}",
+        f"{row.cruise_ratio:.1f}",
+        _slope(row.centre, -1.0, model),
+    ]
+    return f"| {' | '.join(cells)} |"
+
+
+def _slope(line: CurveFit | None, sign: float, model: bool) -> str:
+    """Return the slope of a line with half its 95 % interval; a model's is no measurement and has none."""
+    if line is None:
+        return "-"
+    low, high = line.interval()["slope"]
+    return f"{sign * line.parameters['slope']:.2f}" + ("" if model else f" ± {(high - low) / 2:.2f}")
+
+
+def _number(value: float | None, form: str) -> str:
+    return "-" if value is None or not np.isfinite(value) else form.format(value)
+
+
+def _slope_of(line: CurveFit | None) -> float:
+    return np.nan if line is None else line.parameters["slope"]
+
+
+def _between(of: Callable[[Row], float], among: list[Row], form: str = "{:.1f}") -> str:
+    low, high = (form.format(pick(of(row) for row in among)) for pick in (min, max))
+    return low if low == high else f"{low} to {high}"
+
+
+def _thousand(rows: list[Row]) -> str:
+    low = min(row.polar.reynolds[0] for row in rows) / 1e3
+    return f"{low:.0f} to {max(row.polar.reynolds[1] for row in rows) / 1e3:.0f}"
+
+
+def _meaning(rows: list[Row]) -> list[str]:
+    """Return what the numbers say, in sentences."""
+    plate, insect = rows[0], rows[1]
+    gulls = [row for row in rows if row.polar.kind == "gull"]
+    thin = [row for row in rows if row.polar.kind == "plate"]
+    jackdaw = next(row for row in rows if row.polar.kind == "jackdaw")
+    wings = [*gulls, jackdaw]
+    turn = [(row.lift_max_deg or 0.0) - (row.zero_lift_deg or 0.0) for row in gulls]
+    steeper = sum(_slope_of(plate.slope) > _slope_of(row.slope) for row in gulls)
+    centre = SuFan().centre_of_pressure(np.radians([5.0, 60.0]))
+    postures = [-_slope_of(row.centre) for row in gulls]
+    return [
+        "## What it means for a flight computed with the plate",
+        "",
+        f"- **Drag.** In cruise (C_L {CRUISE[0]:g} to {CRUISE[1]:g}) the plate's lift over drag is "
+        f"{plate.cruise_ratio:.1f}, Dickinson's {insect.cruise_ratio:.1f}, the gulls' "
+        f"{_between(lambda row: row.cruise_ratio, gulls)} and that of the jackdaw's wings "
+        f"{jackdaw.cruise_ratio:.1f}: "
+        f"measured wings are {_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times better. "
+        "At that lift, steady, the power that wing drag takes is too high by such a factor.",
+        f"- **Bluntness.** The plate's least drag is "
+        f"{_between(lambda row: plate.least_drag / row.least_drag, wings)} times that of the wings and "
+        f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates: it "
+        "is 8 mm "
+        "thick on a chord of 76 mm, without a nose.",
+        f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
+        f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below the gulls' "
+        f"({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). They reach it {min(turn):.0f} to "
+        f"{max(turn):.0f} "
+        f"degrees from zero lift, or their data end there, at 25; the plate at {plate.lift_max_deg:.0f}. Beyond 25 "
+        "degrees nothing here can judge the plate.",
+        f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
+        f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) "
+        "and above "
+        f"the thin plates' ({_between(lambda row: _slope_of(row.slope), thin)}), which are shorter. Zero lift "
+        "falls at "
+        f"{_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the gulls, by "
+        "their twist "
+        "and camber; for the plate at 0.",
+        f"- **Moment.** Lift that comes with angle acts {min(postures):.2f} to {max(postures):.2f} chords "
+        "behind the "
+        f"gulls' shoulder: posture alone moves it by {max(postures) - min(postures):.2f} chords, the angle of "
+        "attack "
+        f"the plate's centre by {centre[1] - centre[0]:.2f} from 5 to 60 degrees. One x_cp for all postures "
+        "leaves out "
+        "the larger of the two.",
+        f"- **Reach.** The gulls are at Re {_thousand(gulls)} thousand, the plate at {_thousand([plate])}; "
+        "only the "
+        f"jackdaw ({_thousand([jackdaw])}) comes near. Part of the difference in drag is Reynolds number and "
+        "part is "
+        "shape, and these data cannot tell them apart.",
+    ]
+
+
+def _forms(verdicts: list[Verdict]) -> list[str]:
+    """Return the table of forms: which a polar determines, and how well it follows."""
+    lines = [
+        "## Which forms such data determine",
+        "",
+        "R-squared of lift and drag with each form of `wingbeat fit`. *No*: not identified, since an "
+        "interval is wider",
+        "than its own parameter, a parameter is at the limit of its search, or the fit is ill-conditioned; its",
+        "R-squared is then of no use beyond the range. Su-Fan's form is fitted from 0 up, where its "
+        "exponential holds.",
+        "The better of the other two, on the same rows by AICc, is in bold.",
+        "",
+        f"| wing | curve | {' | '.join(FORMS)} |",
+        "|---|---|" + "---|" * len(FORMS),
+    ]
+    for wing, curve in dict.fromkeys((verdict.wing, verdict.curve) for verdict in verdicts):
+        own = [verdict for verdict in verdicts if (verdict.wing, verdict.curve) == (wing, curve)]
+        best = min((v for v in own if v.form != "su-fan"), key=lambda v: v.aicc)
+        lines.append(f"| {wing} | {curve} | {' | '.join(_cell(v, v is best) for v in own)} |")
+    lift = [verdict for verdict in verdicts if (verdict.form, verdict.curve) == ("su-fan", "C_L")]
+    told = sum(verdict.identified for verdict in lift)
+    return [
+        *lines,
+        "",
+        f"Su-Fan's lift is identified in {told} of {len(lift)} wings: its exponential and its slow sine can "
+        "be told apart",
+        "only by angles far beyond stall. A wing measured to 25 degrees wants Dickinson's form, used within "
+        "its range.",
+    ]
+
+
+def _cell(verdict: Verdict, best: bool) -> str:
+    text = _number(verdict.r_squared, "{:.3f}") + ("" if verdict.identified else ", no")
+    return f"**{text}**" if best else text

@@ -326,8 +326,8 @@ def solve_orbits(
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
     starts, seed : as in `solve_orbit`, for each problem.
-    processes : how many Python processes share the work. With more than one, a script must keep its calls under
-        ``if __name__ == "__main__":``, as always with Python's processes.
+    processes : how many Python processes share the work. A script whose own functions or classes are in the
+        problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
     most_starts : searches for a problem that yields no orbit before it is given up, 50 if not given; fewer answer
         sooner.
@@ -340,6 +340,7 @@ def solve_orbits(
 
     Raises
     ------
+    WorkerError : processes die over the same problem twice, or cannot be started.
     InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range, or problems in
         order that differ in what is free.
 

@@ -176,7 +176,7 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
         if column not in known:
             faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
         elif column in header[:i]:
-            faults.add(where, column, "stands there twice", "keep one")
+            faults.add(where, column, "appears twice", "keep one")
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:

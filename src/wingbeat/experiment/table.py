@@ -95,7 +95,7 @@ class CoefficientTable:
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():
             faults = FaultList()
-            rule = f"holds no row, for the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
+            rule = f"holds no row: the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
             faults.add("alpha range", f"{lowest_deg:g} to {highest_deg:g}", rule, "widen it")
             faults.raise_if_any()
 
@@ -163,7 +163,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "radians times 57.29578 are alpha_deg" if "alpha" in name else f"known are {', '.join(_KNOWN)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         check_unit(faults, where, unit, "deg" if name == "alpha_deg" else "")
         names.append(name)
     for name in REQUIRED:

@@ -46,7 +46,7 @@ class Posture(NamedTuple):
 class Glide(NamedTuple):
     """One steady glide, SI units and radians; torques of both wings together.
 
-    ``tail_moment`` is what a tail would have to give, nose up; none where the glide is trimmed without one.
+    ``tail_moment`` is what a tail would need to supply, nose up; none where the glide is trimmed without one.
     """
 
     angle_of_attack: float

@@ -21,7 +21,7 @@ _SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.
 def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
     """Note a fault unless the name ends like a figure that can be written."""
     if os.path.splitext(path)[1].lower() not in FIGURE_SUFFIXES:
-        faults.add(where, os.fspath(path), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+        faults.add(where, os.fspath(path), "is not a figure format", f"end it in {', '.join(FIGURE_SUFFIXES)}")
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:

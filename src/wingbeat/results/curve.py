@@ -37,7 +37,7 @@ MOST_SPEEDS = 1000
 
 
 class Curve:
-    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`."""
+    """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`."""
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -45,7 +45,7 @@ class Curve:
 
     def __repr__(self) -> str:
         data = self._dataset
-        what = f"least {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
+        what = f"minimum {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
         return f"<Curve {data.attrs['species']}: {what}>"
 
     @property
@@ -71,9 +71,9 @@ class Curve:
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of least power and greatest range, and those a power limit sustains; see `characteristic_speeds`.
+        """Speeds of minimum power and maximum range, and those within a power limit; see `characteristic_speeds`.
 
-        Of the power that was made least, or of the mean positive power if that was something else.
+        They use the minimised power, or the mean positive power if the objective is not a power.
         """
         data = self._dataset
         torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
@@ -131,7 +131,7 @@ def solve_curve(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Curve:
-    """Find the certified orbits of least objective along speed, and every other optimum found on the way.
+    """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
     Every optimum that searches find is continued to the neighbouring speeds, both ways, until nothing is new, in
     steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
@@ -166,7 +166,7 @@ def solve_curve(
     elif good and not all(low < high for low, high in itertools.pairwise(values)):
         faults.add("speeds", values, "must increase", "give each speed once, the slowest first")
     if power_limit is not None:
-        faults.number("power_limit", power_limit, above=0, unit="W", fix="what can be sustained")
+        faults.number("power_limit", power_limit, above=0, unit="W", fix="the sustainable power")
     faults.raise_if_any()
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
@@ -198,11 +198,11 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":
-        raise FileError(f"cannot read {shown} as a curve: it is none; give a file of `wingbeat curve -o`")
+        raise FileError(f"cannot read {shown} as a curve: it is not one; give a file of `wingbeat curve -o`")
     try:
         curve = Curve(dataset)
         if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
-            raise ValueError("the inputs are not those it was solved from")
+            raise ValueError("the inputs are not those of its solution")
         curve.record()
     except (LookupError, ValueError, TypeError, AttributeError) as error:
         raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve it again") from None

@@ -166,13 +166,13 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     notes = list(polar.species.warnings)
     found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
     if len(found) < len(polar.glides):
-        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady glide ahead")
+        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady forward glide")
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]
         notes.append(
-            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would have to give "
-            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body is kept along the path"
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would need to supply "
+            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body stays along the path"
         )
     coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
     low, high = coefficients.reynolds_range or (0.0, math.inf)
@@ -183,5 +183,5 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
             f"Reynolds number outside the fitted {low:g} to {high:g} in {outside} of {len(found)} glides "
             f"(it runs from {min(reynolds):.0f} to {max(reynolds):.0f})"
         )
-    notes.append("no induced drag is added to what the coefficients hold")
+    notes.append("the model adds no induced drag to the coefficients")
     return notes

@@ -226,7 +226,7 @@ def solve_orbit(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Orbit:
-    """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
+    """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
     A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
     the beat is then the one that comes closest, and `Orbit.relaxations` are changes that were found to fly.

@@ -29,7 +29,7 @@ QUANTITIES = ("frequency", "mean_positive_power")
 
 
 class Sensitivities:
-    """Derivatives of an optimum by every number it hangs on; made by `sensitivities`.
+    """Derivatives of an optimum by every number it depends on; made by `sensitivities`.
 
     `slopes` holds those by parameters, `prices` those by the bounds and limits that bind; `values` the quantities
     at the optimum.
@@ -124,7 +124,7 @@ class Sensitivities:
 
 
 def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES) -> Sensitivities:
-    """Differentiate an orbit by every number it hangs on, and price the bounds and limits that bind.
+    """Differentiate an orbit by every number it depends on, and price the bounds and limits that bind.
 
     The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
     other quantities follow from the conditions of the optimum (implicit function theorem; Fiacco 1983, Introduction
@@ -197,7 +197,7 @@ _BORNE_OUT = 0.9
 class Comparison(NamedTuple):
     """A quantity's spread to first order and by samples; `standard_error` is that of the samples' deviation.
 
-    `explained` is the share of the samples' variance that the first order foretells draw by draw.
+    `explained` is the share of the samples' variance predicted to first order draw by draw.
     """
 
     first_order: ErrorBar

@@ -226,8 +226,8 @@ class LocalProcesses:
         if not worker.ready and how == "crashed":
             self.false_starts += 1
             if self.false_starts >= _STARTS:
-                raise FileError("no worker process can be started; its own words are above")
-        text = f"no answer within {self._timeout:g} s" if how == "timeout" else _last_words(code)
+                raise FileError("no worker process can be started; see its message above")
+        text = f"no result within {self._timeout:g} s" if how == "timeout" else _last_words(code)
         if worker.batch is not None:
             self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, how, text))
 

@@ -234,7 +234,7 @@ class Study:
             if store.digest != self.plan.digest:
                 raise FileError(
                     f"the store {str(self.store)!r} holds the points of another study, or of this one before it "
-                    "was changed; run the study first, what was solved before and still applies is kept"
+                    "was changed; run the study first; results that still apply are kept"
                 )
             yield store
 
@@ -256,7 +256,7 @@ class Study:
 
         Parameters
         ----------
-        quantity : a column of numbers; what was made least if not given.
+        quantity : a column of numbers; minimised quantity if not given.
         """
         frame, form = self.to_dataframe(), self.plan.form
         least, varied = form.minimise, varied_numbers(frame, self.plan.paths)
@@ -266,9 +266,9 @@ class Study:
             label = f"{quantity} [{plain_unit(quantity)}]"
         elif len(least) == 1:
             name = named(least[0])
-            label = f"least {name.replace('_', ' ')} [{plain_unit(name)}]"
+            label = f"minimum {name.replace('_', ' ')} [{plain_unit(name)}]"
         else:
-            label = "what was made least"
+            label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
 
     def _about(self) -> dict[str, Any]:
@@ -300,7 +300,7 @@ def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
     """Raise `InvalidInputError` unless a study can be run so."""
     faults = FaultList()
     if dask is not None and processes is not None:
-        faults.add("processes", processes, "is given beside a Dask cluster", "leave one of them out")
+        faults.add("processes", processes, "cannot be combined with a Dask cluster", "leave one of them out")
     if processes is not None:
         check_processes(faults, processes)
     faults.number("timeout", timeout, above=0, at_most=_LONGEST, unit="s")
@@ -338,7 +338,7 @@ def plan_study(
     if path is not None:
         found, faults = read_form(path)
         for key in form:
-            faults.add(key, form[key], "is given beside a study file", "write it into the file")
+            faults.add(key, form[key], "cannot be combined with a study file", "write it into the file")
         kept = path.with_name(path.name.removesuffix(".toml") + _SUFFIX)
     else:
         table = source if isinstance(source, Mapping) else {}

@@ -31,8 +31,8 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     A dictionary for JSON: ``mean_power``, ``mean_positive_power``; ``braking``, the mean negative work;
     ``cost_by_returned``, pairs of the share of negative work that is returned (-1: it costs as much as positive
     work) and the cost; ``shares``, aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum
-    (``most``); ``best_spring`` of both flap hinges together with ``stiffness`` [N m/rad], ``rest_angle`` [rad], None
-    if no spring helps, and the remaining ``mean_positive_power``. All values are None if the flight diverged.
+    (``most``); ``best_spring`` of both flap hinges together with ``stiffness`` [N m/rad], ``rest_angle`` [rad],
+    None if no spring helps, and the remaining ``mean_positive_power``. All values are None if the flight diverged.
 
     Raises
     ------

@@ -6,6 +6,7 @@ compute the function itself nine times over; behind a division it is computed on
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -32,6 +33,7 @@ def by_slopes(function: Callable[..., T]) -> Callable[..., T]:
     """
 
     @jax.custom_jvp
+    @functools.wraps(function)
     def sloped(parameters: Any, *arrays: Any) -> T:
         return settled(function(parameters, *arrays))
 

@@ -9,13 +9,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
 from wingbeat._jax.elementwise_jvp import by_slopes
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.errors import FaultList, InvalidInputError
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, PerStrip, Scalar
+
+
+if TYPE_CHECKING:
+    from wingbeat.aero.coefficients import Kernel
+
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")
@@ -86,16 +94,22 @@ class StripForces(NamedTuple):
     strip has without pitch. `speed` is the V of the loads.
     """
 
-    chordwise: Any
-    normal: Any
-    alpha: Any
-    speed: Any
-    lift: Any
-    drag: Any
+    chordwise: PerStrip
+    normal: PerStrip
+    alpha: PerStrip
+    speed: PerStrip
+    lift: PerStrip
+    drag: PerStrip
 
 
 def strip_forces(
-    kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any, pitch: Any, span_speed: Any = None
+    kernel: Kernel,
+    density: Scalar,
+    area: PerStrip,
+    chord_speed: PerStrip,
+    normal_speed: PerStrip,
+    pitch: PerStrip,
+    span_speed: PerStrip | None = None,
 ) -> StripForces:
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
@@ -119,12 +133,14 @@ def strip_forces(
 
 
 @by_slopes
-def _coefficients(kernel: Any, alpha: Any) -> tuple[Any, Any]:
+def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
 @by_slopes
-def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any, *span_speed: Any) -> StripForces:
+def _unit_forces(
+    kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
+) -> StripForces:
     """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
@@ -148,6 +164,6 @@ def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any, *
     )
 
 
-def _wrapped(angle: Any) -> Any:
+def _wrapped(angle: Angles) -> Angles:
     """Return an angle less whole turns, between -pi and pi."""
     return angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))

@@ -216,7 +216,7 @@ def _covariance(
     scale = np.outer(spread, spread)
     # The correlations, since variances of a phase in degrees and of a rate differ by many powers of ten.
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
-    lame = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
-    if size and (lame or np.linalg.eigvalsh(correlation).min() < -1e-6):
+    invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
+    if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):
         faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy the fit's own")
     return tuple(free), matrix

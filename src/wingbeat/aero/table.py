@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
-from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.coefficients import CoefficientModel, Kernel
 from wingbeat.aero.extension import check_extension, extend
 from wingbeat.aero.table_checks import (
     OPTIONAL,
@@ -24,29 +24,32 @@ from wingbeat.aero.table_checks import (
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Knots, Spline
+
 
 class TablePieces(NamedTuple):
     """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cube."""
 
-    knots: Any
-    lift_spline: Any
-    drag_spline: Any
-    centre_spline: Any
+    knots: Knots
+    lift_spline: Spline
+    drag_spline: Spline
+    centre_spline: Spline
 
-    def _value(self, spline: Any, alpha: Any) -> Any:
+    def _value(self, spline: Spline, alpha: Angles) -> Angles:
         knots, spline = jnp.asarray(self.knots), jnp.asarray(spline)
         segment = jnp.searchsorted(knots[1:-1], alpha, side="right", method="scan_unrolled")
         return horner(tuple(spline[:, segment]), alpha - knots[segment])
 
-    def lift(self, alpha: Any) -> Any:
+    def lift(self, alpha: Angles) -> Angles:
         """Return C_L at `alpha` [rad]."""
         return self._value(self.lift_spline, alpha)
 
-    def drag(self, alpha: Any) -> Any:
+    def drag(self, alpha: Angles) -> Angles:
         """Return C_D at `alpha` [rad]."""
         return self._value(self.drag_spline, alpha)
 
-    def centre(self, alpha: Any) -> Any:
+    def centre(self, alpha: Angles) -> Angles:
         """Return x_cp at `alpha` [rad]; NaN where the table has none."""
         return self._value(self.centre_spline, alpha)
 
@@ -56,11 +59,11 @@ class WholeTurnKernel(NamedTuple):
 
     pieces: TablePieces
 
-    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], any shape."""
         return self.pieces.lift(alpha), self.pieces.drag(alpha)
 
-    def centre_of_pressure(self, alpha: Any) -> Any:
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
         """Return x_cp at `alpha` [rad], any shape; NaN where the table has none."""
         return self.pieces.centre(alpha)
 
@@ -138,7 +141,7 @@ class TableCoefficients(CoefficientModel):
         """Whether the table tells where along the chord the force acts."""
         return self.x_cp is not None
 
-    def kernel(self) -> Any:
+    def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this table."""
         # Slow to import, which the formulas need not pay for.
         from scipy.interpolate import CubicSpline

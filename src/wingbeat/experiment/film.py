@@ -39,6 +39,10 @@ class Film:
     frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
     synthetic : whether it was made by a random generator.
 
+    Attributes
+    ----------
+    notes : what a reader should know.
+
     Raises
     ------
     InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat.
@@ -71,7 +75,12 @@ class Film:
         object.__setattr__(self, "notes", tuple(notes))
 
     def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return phases and values of the frames in which a column was seen."""
+        """Return phases and values of the frames in which a column was seen.
+
+        Parameters
+        ----------
+        name : of the column.
+        """
         there = np.isfinite(self.columns[name])
         return self.phase[there], self.columns[name][there]
 
@@ -105,6 +114,10 @@ class Film:
     def save(self, path: str | Path) -> None:
         """Write the film as a CSV file that `read_film` reads.
 
+        Parameters
+        ----------
+        path : of the file to write.
+
         Raises
         ------
         FileError : the file cannot be written.
@@ -126,6 +139,10 @@ def read_film(path: str | Path) -> Film:
     One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
     beside it any of flap_deg, pitch_deg and span_fraction, a cell empty where the wing was not seen.
     Others are refused.
+
+    Parameters
+    ----------
+    path : of the CSV file.
 
     Raises
     ------

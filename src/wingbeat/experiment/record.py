@@ -128,6 +128,10 @@ def read_run(path: str | Path) -> LoadCellRun:
     its unit in brackets; others are left alone. The keys are speed, density, viscosity, chord, span; optional are
     thickness, channel_width, and tare_normal_force, tare_tangential_force, tare_moment = before, after.
 
+    Parameters
+    ----------
+    path : of the CSV file.
+
     Raises
     ------
     FileError : the file is missing or cannot be read.

@@ -26,10 +26,22 @@ class FitRangeWarning(UserWarning):
 
 @dataclass(frozen=True)
 class CurveFit:
-    """A fitted curve: `parameters` by name, their `covariance` in that order, and the data it came from.
+    """A curve fitted to measurements; made by `fit_curve`.
 
-    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so that scatter beyond the standard errors
-    given widens it, as does a form that does not fit. `sigma` are those errors, all one where none were given.
+    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so scatter beyond the given standard errors
+    widens it, and so does a form that does not fit.
+
+    Attributes
+    ----------
+    label : what the quantity is called.
+    form : the curve.
+    parameters : fitted values by name.
+    covariance : of the parameters, in that order, shape (p, p).
+    condition : condition number of the scaled Jacobian; large where parameters cannot be told apart.
+    alpha_deg, values : the measurements, shape (n,) [deg].
+    sigma : their standard errors, shape (n,); all one where none were given.
+    weighted : whether errors were given.
+    notes : what a reader should know.
     """
 
     label: str
@@ -86,6 +98,10 @@ class CurveFit:
     def interval(self, confidence: float = 0.95) -> dict[str, tuple[float, float]]:
         """Return the confidence interval of each parameter by Student's t, to first order in the parameters.
 
+        Parameters
+        ----------
+        confidence : between 0 and 1.
+
         Raises
         ------
         InvalidInputError : a confidence not between 0 and 1.
@@ -102,6 +118,11 @@ class CurveFit:
 
         The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41), which stays
         right where the parameters are so correlated that the ellipse of the covariance does not.
+
+        Parameters
+        ----------
+        parameters : by name.
+        confidence : between 0 and 1.
 
         Raises
         ------
@@ -120,7 +141,14 @@ class CurveFit:
         return self._misfit(parameters) <= self.chi_squared * room
 
     def predict(self, alpha_deg: ArrayLike) -> Array:
-        """Return the curve at angles [deg], shape (n,); `FitRangeWarning` outside those it was fitted to."""
+        """Return the curve at given angles, shape (n,).
+
+        Angles outside those of the fit draw a `FitRangeWarning`.
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        """
         a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
         low, high = float(self.alpha_deg.min()), float(self.alpha_deg.max())
         if a.min() < low - 1e-9 or a.max() > high + 1e-9:
@@ -129,12 +157,13 @@ class CurveFit:
         return self.form.value(a, self.parameters)
 
     def band(self, alpha_deg: ArrayLike, confidence: float = 0.95, *, of_mean: bool = False) -> Array:
-        """Return the half width of the band about the curve, shape (n,).
+        """Return the half width of the confidence band about the curve, shape (n,).
 
         Parameters
         ----------
-        alpha_deg : angles [deg], shape (n,).
-        of_mean : the band that holds the curve itself, and not a new measurement as precise as those there.
+        alpha_deg : angles of attack [deg], shape (n,).
+        confidence : between 0 and 1.
+        of_mean : the band of the curve itself, rather than that of a new measurement of the same precision.
 
         Raises
         ------

@@ -86,7 +86,11 @@ class CoefficientTable:
         return columns
 
     def between(self, lowest_deg: float, highest_deg: float) -> CoefficientTable:
-        """Return the rows of angles from lowest to highest [deg].
+        """Return the rows between two angles.
+
+        Parameters
+        ----------
+        lowest_deg, highest_deg : angles of attack [deg], both included.
 
         Raises
         ------
@@ -110,6 +114,10 @@ class CoefficientTable:
     def save(self, path: str | Path) -> None:
         """Write the table as CSV, an empty cell where a quantity is undefined; notes as # lines above it.
 
+        Parameters
+        ----------
+        path : of the file to write.
+
         Raises
         ------
         FileError : the file cannot be written.
@@ -128,6 +136,10 @@ def load_measurements(path: str | Path) -> CoefficientTable:
 
     The columns alpha_deg, C_L and C_D are needed; reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
     read where they stand; others are refused, since a misspelt error would be lost without a word.
+
+    Parameters
+    ----------
+    path : of the CSV file.
 
     Raises
     ------

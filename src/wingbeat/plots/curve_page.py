@@ -36,7 +36,7 @@ class Published:
     label : short, with its citation.
     speeds : shape (K,) [m/s].
     values : shape (K,); none for ``speed``.
-    spread : half width, 0 where none is stated.
+    spread : half width in the unit of the values; 0 where none is stated.
     """
 
     quantity: str

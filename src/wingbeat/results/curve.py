@@ -37,7 +37,16 @@ MOST_SPEEDS = 1000
 
 
 class Curve:
-    """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`."""
+    """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`.
+
+    Attributes
+    ----------
+    dataset : every certified optimum over (speed, optimum), labelled.
+    marks : what happens between neighbouring speeds.
+    gaps : speeds at which nothing is certified [m/s].
+    warnings : what a reader should know.
+    characteristic_speeds : speeds of minimum power and maximum range [m/s].
+    """
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -71,7 +80,7 @@ class Curve:
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of minimum power and maximum range, and those within a power limit; see `characteristic_speeds`.
+        """Speeds of minimum power and of maximum range, and those within a power limit.
 
         They use the minimised power, or the mean positive power if the objective is not a power.
         """
@@ -109,7 +118,11 @@ class Curve:
         return finite_or_none(record)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -182,6 +195,10 @@ def solve_curve(
 def load_curve(path: str | PathLike[str]) -> Curve:
     """Read a curve that `Curve.save` wrote.
 
+    Parameters
+    ----------
+    path : of a NetCDF file (.nc).
+
     Raises
     ------
     FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
@@ -192,9 +209,14 @@ def load_curve(path: str | PathLike[str]) -> Curve:
 def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """Return the curve in a dataset that came from a file.
 
+    Parameters
+    ----------
+    dataset : from a file.
+    path : of that file, for messages.
+
     Raises
     ------
-    FileError : it is none, or damaged.
+    FileError : it is no curve, or damaged.
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":

@@ -32,10 +32,16 @@ DEFAULT_ALPHA_DEG = np.arange(1.0, 31.0)
 
 @dataclass(frozen=True)
 class GlidePolar:
-    """Steady glides of one species, in the order asked for; see `glide_polar`.
+    """Steady glides of one species over the angle of attack; made by `glide_polar`.
 
-    ``least_sink`` and ``best_ratio`` are the slowest sink and the flattest path there are between the angles of
-    attack asked for; None where these end before the least or the best.
+    Attributes
+    ----------
+    species : what glides.
+    aero : its air loads.
+    trim : what was turned until the pitching moment vanished.
+    glides : one for each angle of attack, in the order asked for.
+    least_sink, best_ratio : slowest sink and flattest path between the angles of attack asked for; None where these
+        end before it is reached.
     """
 
     species: Species
@@ -81,7 +87,11 @@ class GlidePolar:
         return xr.Dataset(variables, attrs=attributes).set_coords("angle_of_attack")
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------

@@ -78,9 +78,35 @@ def _summary(record: dict[str, Any]) -> Summary:
 
 
 class Orbit:
-    """One periodic orbit and everything about it; made by `solve_orbit` and its like, `load_orbit` or a study.
+    """One periodic orbit, from `solve_orbit`, `solve_orbits`, `load_orbit` or a study.
 
-    It can be pickled and copied, also to another process.
+    What can be done with it::
+
+        orbit.status, orbit.message   how the search ended, and what that means
+        orbit.record()                all results as a dictionary of numbers, SI units and radians
+        orbit.dataset                 time series of one beat, an xarray Dataset
+        orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
+        orbit.view()                  the flight in motion, in a notebook
+        orbit.problem                 the problem it answers, to change and solve again
+        orbit.relaxations             where there is no orbit: the changes that make one
+
+        wb.power_account(orbit.dataset)        where its power goes, and which spring helps
+        wb.sensitivities(orbit)                what its numbers depend on, and how sure they are
+        wb.plots.wingbeat_page(orbit.dataset)  a figure
+
+    It can be pickled, and copied to another process.
+
+    Attributes
+    ----------
+    status : how the search ended.
+    message : what that means, in terms of flight.
+    wingbeat : the wingbeat found.
+    initial_state : the body's state at phase 0.
+    unknowns : pitch state at phase 0 and free parameters, as a search starts from them.
+    relaxations : where there is no orbit, single changes that make one, the smallest first.
+    problem : the problem it answers.
+    inputs : all inputs, enough to find the orbit again.
+    dataset : time series of one beat, labelled, with the record as attributes.
     """
 
     def __init__(
@@ -147,12 +173,15 @@ class Orbit:
 
     @property
     def message(self) -> str:
-        """What that means, in flight terms."""
+        """What the status means, in terms of flight."""
         return self._summary.message
 
     @property
     def relaxations(self) -> tuple[Relaxation, ...]:
-        """Where there is no orbit, single changes that make one, the smallest first; `apply` makes the problem."""
+        """Where there is no orbit, single changes that make one, the smallest first.
+
+        `Relaxation.apply` returns the changed problem.
+        """
         return self._summary.relaxations
 
     @property
@@ -209,7 +238,11 @@ class Orbit:
         return FlightWidget([(label, orbit.dataset) for label, orbit in zip(labels, shown, strict=True)])
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -324,6 +357,10 @@ def solve_orbits(
 
 def load_orbit(path: str | PathLike[str]) -> Orbit:
     """Read an orbit that `Orbit.save` wrote.
+
+    Parameters
+    ----------
+    path : of a NetCDF file (.nc).
 
     Raises
     ------

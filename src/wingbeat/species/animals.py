@@ -77,9 +77,18 @@ def bat(
     scientific_name: str = "",
     **measured: Any,
 ) -> Species:
-    """Return a bat from its mass [kg], wing span [m] and wing area [m2], as `bird` does, with twist and fold.
+    """Return a bat from its mass, wing span and wing area, with twist and fold.
 
-    No law of bats' wing mass was found: 7 % of the whole for each is a guess, and its source says so.
+    The rest follows from published scaling laws, as in `bird`. No law of bats' wing mass was found: 7 % of the
+    whole for each wing is a guess, and its source says so.
+
+    Parameters
+    ----------
+    mass : of the whole bat [kg].
+    wing_span : tip to tip [m].
+    wing_area : both wings and the body between them [m2].
+    name, common_name, scientific_name : what it is called.
+    measured : as in `bird`.
 
     Raises
     ------

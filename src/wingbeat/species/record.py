@@ -130,7 +130,12 @@ class Species:
         return self._rebuilt(self.numbers | given, given, faults)
 
     def with_record(self, record: Vehicle | Wingbeat) -> Species:
-        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` in step."""
+        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` in step.
+
+        Parameters
+        ----------
+        record : a vehicle or a wingbeat.
+        """
         section, parts = "wingbeat", {"wingbeat": record}
         if isinstance(record, Vehicle):
             section, body, wing = "vehicle", record.body, record.wing
@@ -173,6 +178,10 @@ class Species:
         """Return this species with the numbers of one of its `alternatives`.
 
         The whole mass stays unless the alternative names a mass: heavier wings make a lighter body.
+
+        Parameters
+        ----------
+        name : of the alternative.
 
         Raises
         ------

@@ -78,7 +78,13 @@ class Summary:
 
 
 class Study:
-    """A study and its store; made by `study`."""
+    """A study and its store; made by `study`.
+
+    Attributes
+    ----------
+    plan : the points of the study.
+    store : path of the file that keeps the answers.
+    """
 
     def __init__(self, plan: Plan, store: Path) -> None:
         self.plan = plan
@@ -126,7 +132,7 @@ class Study:
         Parameters
         ----------
         processes : worker processes, as many as there are cores if not given.
-        timeout : seconds for one point, after which its process is ended and tried once more.
+        timeout : for one point [s], after which its process is ended and tried once more.
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
         dask : in place of processes, a Dask cluster: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or what
@@ -172,7 +178,15 @@ class Study:
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
-        """Solve what has no answer yet on an engine of one's own, until done or told to stop; it is closed then."""
+        """Solve what has no answer yet on an engine of your own.
+
+        Parameters
+        ----------
+        engine : solves the points; closed at the end.
+        stop : tells the run to stop.
+        retry_failed : try points again that failed before.
+        progress : called with a tally whenever it changes.
+        """
         with closing(engine), only_one(self.store), Store.open(self.store) as store:
             store.set_plan(self.plan)
             return drive(store, engine, stop, progress, retry_failed)
@@ -194,7 +208,12 @@ class Study:
             return Summary(total, counts, kept, changed, store.spent())
 
     def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
-        """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``."""
+        """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``.
+
+        Parameters
+        ----------
+        most : how many points to return at most.
+        """
         with Store.read(self.store) as store:
             bases = store.bases()
             return [
@@ -244,6 +263,10 @@ class Study:
 
     def export(self, path: str | PathLike[str]) -> None:
         """Write the table as NetCDF (.nc), CSV (.csv) or Parquet (.parquet), whole or not at all.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix says which.
 
         Raises
         ------

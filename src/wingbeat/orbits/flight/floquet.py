@@ -6,7 +6,7 @@ in half the time.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_tabl
 from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Stretches, StretchMaps, StretchStates
+
+
 # Steps in each of the certifier's own, which are short at the kinks of the loads: with two the multipliers of
 # unstable bats come within 1e-5 of those of an adaptive flight.
 _STEPS = 2
@@ -28,7 +32,9 @@ _LANES = 64
 
 
 @stored
-def _state_maps(model: FlightModel, wingbeat: Wingbeat, begin: Any, end: Any, path: Any) -> Any:
+def _state_maps(
+    model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
+) -> StretchMaps:
     """Return the derivative of the pitch state at the end of each stretch by that at its begin, shape (K, 4, 4).
 
     Each stretch is flown from where the path is, (K, 4), and from beside it.
@@ -68,6 +74,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     Parameters
     ----------
     steps : where the certifier stepped.
+    model, wingbeat : what flies.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:

@@ -7,7 +7,7 @@ its step began; last the chain of the small step maps. Place (x, z) feeds nothin
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,28 @@ from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_tabl
 from wingbeat.mechanics.wing_motion import WingMotion
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.flight.stroke_distances import ROWS, least_distances
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        EndJacobian,
+        FlownPath,
+        Free,
+        FreeTangents,
+        LinearMap,
+        MappedTangents,
+        PathJacobian,
+        PitchState,
+        Scalar,
+        Stages,
+        StateTangents,
+        StateVector,
+        StrokeJacobian,
+        StrokeRows,
+        TableRows,
+        TableTangents,
+        Tangents,
+    )
+
 
 # One compiled march has this many steps; finer flights chain several.
 STEPS = 32
@@ -32,15 +54,17 @@ class Flown(NamedTuple):
     derivative by the free parameters, are there if they were asked for.
     """
 
-    end: Any
-    path: Any
-    end_jacobian: Any
-    path_jacobian: Any
-    stroke: Any = None
-    stroke_jacobian: Any = None
+    end: StateVector
+    path: FlownPath
+    end_jacobian: EndJacobian
+    path_jacobian: PathJacobian
+    stroke: StrokeRows = None
+    stroke_jacobian: StrokeJacobian = None
 
 
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[tuple[Any, Any], WingMotion]:
+def _tabulate(
+    model: FlightModel, wingbeat: Wingbeat, first: Scalar, last: Scalar
+) -> tuple[tuple[TableRows, Scalar], WingMotion]:
     """Tabulate the wing at the ends of the steps, then at their middles.
 
     Returns the table in rows and the length of a step [s], and the table as it is.
@@ -51,12 +75,12 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> 
     return (_in_rows(table), (last - first) / (wingbeat.frequency * STEPS)), table
 
 
-def _in_rows(table: WingMotion) -> Any:
+def _in_rows(table: WingMotion) -> TableRows:
     """Return one array of all quantities of a table, (rows, times): one array is cut up at less cost than many."""
     return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
 
 
-def _from_rows(rows: Any, like: Any) -> WingMotion:
+def _from_rows(rows: TableRows, like: Any) -> WingMotion:
     """Return the table whose rows these are; `like` is a table of any times."""
     leaves, tree = jax.tree_util.tree_flatten(like)
     sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
@@ -72,9 +96,9 @@ _STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] fo
 class March(NamedTuple):
     """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
 
-    states: Any
-    rates: Any
-    last: Any
+    states: Stages
+    rates: Stages
+    last: PitchState
 
 
 def _combine(stages: Any) -> Any:
@@ -82,7 +106,7 @@ def _combine(stages: Any) -> Any:
     return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))
 
 
-def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
+def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start: PitchState) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
     stages = jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
 
@@ -102,7 +126,9 @@ def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> 
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
-def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, states: Any) -> tuple[Any, Any]:
+def _stage_tangents(
+    model: FlightModel, table: TableRows, tangents: TableTangents, like: Any, states: Stages
+) -> tuple[StateTangents, FreeTangents]:
     """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
 
     Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, ..).
@@ -127,7 +153,7 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
     return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(in_lanes(tangents)))
 
 
-def _through(by_state: Any, tangents: Any) -> Any:
+def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
     """Return what tangents (directions, 4, ..) become under a linear map (4, components, ..), by state first.
 
     Written out: XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
@@ -135,7 +161,14 @@ def _through(by_state: Any, tangents: Any) -> Any:
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
 
-def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any, components: int) -> Flown:
+def _chain(
+    flight: March,
+    by_state: StateTangents,
+    by_free: FreeTangents,
+    step: Scalar,
+    step_tangent: Free,
+    components: int,
+) -> Flown:
     """Compose the tangents of all stages into those of the steps, and these into those of the period.
 
     Directions are the first axis, components the next, steps the last.
@@ -171,10 +204,10 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,
-    values: Any,
-    start: Any,
-    first: Any,
-    last: Any,
+    values: Free,
+    start: PitchState,
+    first: Scalar,
+    last: Scalar,
     *,
     free: tuple[str, ...],
     components: int,

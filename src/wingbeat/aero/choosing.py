@@ -15,7 +15,7 @@ from wingbeat.errors import FaultList, suggest
 
 
 def coefficients_of(given: Any) -> CoefficientModel:
-    """Return the coefficient model that is meant wherever ``aero`` is asked for.
+    """Return the coefficient model for any value that ``aero`` accepts.
 
     Parameters
     ----------

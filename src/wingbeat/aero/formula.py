@@ -254,7 +254,7 @@ class FormulaCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts."""
+        """Whether the model has a centre of pressure."""
         return self.centre_terms is not None
 
     def kernel(self) -> ExtendedKernel:

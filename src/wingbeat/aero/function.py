@@ -100,7 +100,7 @@ class FunctionKernel:
 class FunctionCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a function of the angle of attack.
 
-    The function is traced once, here: what it reads from elsewhere is taken as it is now. It is used as it is at
+    The function is traced once, now; later changes of what it reads have no effect. It is used directly at
     every angle from -pi to pi, without extension or blend.
 
     Parameters
@@ -143,7 +143,7 @@ class FunctionCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts: a function does not."""
+        """Whether the model has a centre of pressure: a function does not."""
         return False
 
     def kernel(self) -> FunctionKernel:

@@ -138,7 +138,7 @@ class TableCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the table tells where along the chord the force acts."""
+        """Whether the table has a centre of pressure."""
         return self.x_cp is not None
 
     def kernel(self) -> Kernel:

@@ -37,7 +37,7 @@ class CurveFit:
     form : the curve.
     parameters : fitted values by name.
     covariance : of the parameters, in that order, shape (p, p).
-    condition : condition number of the scaled Jacobian; large where parameters cannot be told apart.
+    condition : condition number of the scaled Jacobian; large if parameters cannot be separated.
     alpha_deg, values : the measurements, shape (n,) [deg].
     sigma : their standard errors, shape (n,); all one where none were given.
     weighted : whether errors were given.

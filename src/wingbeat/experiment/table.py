@@ -135,7 +135,7 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     """Read a table of measured coefficients from CSV.
 
     The columns alpha_deg, C_L and C_D are needed; reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
-    read where they stand; others are refused, since a misspelt error would be lost without a word.
+    read if present; others are refused, because a misspelt error column would be lost silently.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ _NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained":
 
 @dataclass(frozen=True)
 class Published:
-    """What others found, to stand beside a curve.
+    """Published values to draw beside a curve.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ class Curve:
     Attributes
     ----------
     dataset : every certified optimum over (speed, optimum), labelled.
-    marks : what happens between neighbouring speeds.
+    marks : changes between neighbouring speeds.
     gaps : speeds at which nothing is certified [m/s].
     warnings : what a reader should know.
     characteristic_speeds : speeds of minimum power and maximum range [m/s].
@@ -64,7 +64,7 @@ class Curve:
 
     @property
     def marks(self) -> list[dict[str, Any]]:
-        """What happens between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
+        """Changes between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
         return self._about["marks"]
 
     @property
@@ -146,15 +146,15 @@ def solve_curve(
 ) -> Curve:
     """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
-    Every optimum that searches find is continued to the neighbouring speeds, both ways, until nothing is new, in
+    Every optimum that is found is continued to the neighbouring speeds, both ways, until nothing is new, in
     steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
     curve carries a mark.
 
     Parameters
     ----------
-    problem : what is asked at each speed; its own speed does not count.
+    problem : the problem at each speed; its own speed is ignored.
     speeds : at least two, increasing [m/s]; 0 is hover.
-    starts : searches at either end of the range, and a third as many at each speed between.
+    starts : starts at both ends of the range, and a third as many at each speed in between.
     seed : of the random starts.
     power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
     progress : called with (tasks done, tasks known of).

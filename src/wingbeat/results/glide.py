@@ -111,16 +111,16 @@ def glide_polar(
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
     Lift, drag, weight and, where it can be, the pitching moment balance, with the same air loads as in flapping
-    flight. Where no angle trims the moment, the body is kept along the path and `Glide.tail_moment` says what is
+    flight. If no angle trims the moment, the body stays along the path and `Glide.tail_moment` is what is
     lacking.
 
     Parameters
     ----------
     species : gives vehicle, twist, air, and the range of body pitch.
     aero : as in `OrbitProblem`, `SuFan()` if not given.
-    angles_of_attack : of the chord at the root, were the wing not flapped [rad]; 1 to 30 degrees if not given.
+    angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
-    trim : what is turned until the moment vanishes: ``"body-pitch"`` under wings that keep their angle of attack,
+    trim : what turns until the moment is zero: ``"body-pitch"`` under wings that keep their angle of attack,
         ``"flap"`` with the body along the path, or ``"tail"``, nothing.
 
     Raises

@@ -42,7 +42,7 @@ _PANELS: list[dict[str, Any]] = [
 
 
 def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
-    """Return what the viewer draws of one flight, or of two to be compared.
+    """Return the viewer's data of one flight, or of two to compare.
 
     Parameters
     ----------

@@ -112,7 +112,7 @@ def test_an_orbit_of_a_function_says_so_and_keeps_it(tmp_path, capsys):
     orbit.save(path)
     loaded = wb.load_orbit(path)
     assert loaded.record() == orbit.record()
-    with pytest.raises(ValueError, match=r"own function 'plate' is not in the file; set the problem up with"):
+    with pytest.raises(ValueError, match=r"own function 'plate' is not in the file; set up the problem with"):
         _ = loaded.problem
     with pytest.raises(ValueError, match="is not in the file"):
         problem_from(orbit.inputs)
@@ -184,7 +184,7 @@ def test_a_function_goes_to_other_processes_if_it_has_a_place_in_a_module():
 def test_a_pickle_of_another_function_under_the_name_is_refused(monkeypatch):
     kept = pickle.dumps(wb.aero.coefficients_of(plate))
     monkeypatch.setattr(sys.modules[__name__], "plate", draggy)
-    with pytest.raises(wb.InvalidInputError, match="computes something else than the function that was pickled"):
+    with pytest.raises(wb.InvalidInputError, match="differs from the function that was pickled"):
         pickle.loads(kept)
 
 

@@ -143,7 +143,7 @@ def test_answers_are_pinned_and_fly_as_ghosts(visit):
     solved(page, "dickinson")
     page.get_by_role("button", name=re.compile("Show as ghost")).click()
     page.wait_for_function("wingbeatFlying.handle.flights.length === 2")
-    page.get_by_role("button", name=re.compile("Bring back")).click()
+    page.get_by_role("button", name=re.compile("Restore")).click()
     solved(page, "su-fan")
 
 
@@ -159,7 +159,7 @@ def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, mo
     page.evaluate(slide, 10.3)
     page.locator(".message", has_text="Continued from the previous result, with one start.").wait_for()
     assert "pigeon at 10.3 m/s" in page.locator(".what").inner_text()
-    assert "now searching from every start" in page.locator(".state").inner_text()
+    assert "now solving from every start" in page.locator(".state").inner_text()
     monkeypatch.undo()
     page.evaluate(slide, 10.4)
     solved(page, "pigeon at 10.4 m/s")
@@ -256,7 +256,7 @@ def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     assert len(served.house.pages) >= 8
     before = set(served.house.pool.workers)
     patient = visit("species=pigeon&speed=9&minimise=peak_power&starts=100")  # takes long
-    patient.locator(".state", has_text="searches").wait_for()
+    patient.locator(".state", has_text="starts").wait_for()
     for pid in before:
         os.kill(pid, signal.SIGKILL)
     patient.locator(".trouble", has_text="The solver process ended").wait_for()

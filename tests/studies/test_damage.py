@@ -183,9 +183,9 @@ def spoil(path, how):
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ("cut short", ("is damaged or no store", "nothing was deleted; restore a copy")),
-        ("no database", ("is damaged or no store", "nothing was deleted")),
-        ("overwritten", ("is damaged or no store", "nothing was deleted")),
+        ("cut short", ("is damaged or not a store", "nothing was deleted; restore a copy")),
+        ("no database", ("is damaged or not a store", "nothing was deleted")),
+        ("overwritten", ("is damaged or not a store", "nothing was deleted")),
         ("foreign", ("is a database, but not a store of a study",)),
         ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
     ],
@@ -209,7 +209,7 @@ def test_what_holds_no_answer_is_not_salvaged(cheap):
     held = study.store.read_bytes()
     for words in (("run", study.file), ("salvage", study.file)):
         code, _, err = study.run(*words)
-        assert (code, "no answer can be read from it" in err) == (2, True)
+        assert (code, "no result can be read from it" in err) == (2, True)
     assert study.store.read_bytes() == held
 
 

@@ -81,7 +81,7 @@ class Answer:
     """
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
-        with box("section", "The answer", "answer"):
+        with box("section", "The result", "answer"):
             with tag("div", classes="acts"):
                 self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
             self._warnings = tag("ul", classes="warnings hidden", aria_label="Warnings")

@@ -73,7 +73,7 @@ class Controls:
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
             )
             self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
-        with box("section", "Search"):
+        with box("section", "Solver"):
             starts = "" if now.starts is None else str(now.starts)
             hint = "empty: the default number"
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)

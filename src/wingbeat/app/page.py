@@ -116,7 +116,7 @@ class Page:
 
     def _build_status(self) -> None:
         self._state = tag("p", "", "state", role="status", aria_live="polite")
-        self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Searches done")
+        self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
         button("Solve", lambda: self._session.ask(whole=True), "primary")
         self._stop = button("Cancel", self._session.stop, disabled=True)
         self._trouble = tag("div", classes="trouble hidden", role="alert")

@@ -26,9 +26,9 @@ class Pins:
         self._fly_beside, self._bring_back = fly_beside, bring_back
         self._answers: list[dict[str, Any]] = []
         self._ghost: dict[str, Any] | None = None
-        with box("section", "Pinned answers", "pins"):
+        with box("section", "Pinned results", "pins"):
             self._note = tag("p", "Pin a result to compare it with the next one, or to show it as a ghost.", "note")
-            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned answers")
+            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
         """Keep an answer; the oldest leaves where there are too many."""
@@ -61,12 +61,12 @@ class Pins:
         if not self._answers:
             return
         with self._place, tag("table"):
-            tag("caption", "Pinned answers", "unseen")
+            tag("caption", "Pinned results", "unseen")
             heads = [
                 f"{label} [{unit}]" if unit else label for label, _, unit, _ in tiles(self._answers[0]["record"])
             ]
             with tag("thead"), tag("tr"):
-                for head in ("What", *heads, "Stable", "Do"):
+                for head in ("What", *heads, "Stable", "Action"):
                     tag("th", head, scope="col")
             with tag("tbody"):
                 for answer in self._answers:
@@ -95,5 +95,5 @@ class Pins:
                 )
                 ghost.props["aria-pressed"] = "true" if flies else "false"
                 if answer.get("scenario"):
-                    button("Bring back", lambda: self._bring_back(answer), "small", aria_label=f"Restore: {name}")
+                    button("Restore", lambda: self._bring_back(answer), "small", aria_label=f"Restore: {name}")
                 button("Remove", lambda: self._drop(answer), "small", aria_label=f"Remove: {name}")

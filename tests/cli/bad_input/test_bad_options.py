@@ -62,7 +62,7 @@ TABLES = {
     "cells.csv": [
         "cells.csv row 4, column c_l = nan: must be finite; drop the row or give a value",
         "cells.csv row 5, column c_d = 'x': is not a number; write one number with a decimal point",
-        "cells.csv row 3, column c_d = -1.0: must be >= 0|turn its sign",
+        "cells.csv row 3, column c_d = -1.0: must be >= 0|reverse its sign",
     ],
     "short.csv": ["short.csv row 5, column alpha_deg = 60.0: the table must reach at least 90 degrees"],
     "good.csv --extension signed": ["good.csv row 2, column alpha_deg = 0.0|use mirrored"],

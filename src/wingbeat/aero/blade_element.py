@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
-from wingbeat._jax.elementwise_jvp import by_slopes
+from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.errors import FaultList, InvalidInputError
 
@@ -132,12 +132,12 @@ def strip_forces(
     )
 
 
-@by_slopes
+@elementwise_jvp
 def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
-@by_slopes
+@elementwise_jvp
 def _unit_forces(
     kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
 ) -> StripForces:

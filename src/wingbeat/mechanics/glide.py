@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel
@@ -98,7 +98,7 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
     return body_pitch, above_body - stroke_pitch(model.vehicle.wing.stroke_plane_angle)
 
 
-@stored
+@exported
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
     """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]."""
     posture = Posture(*numbers)

@@ -184,8 +184,8 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
 
 def _refuse_fork() -> None:
     raise ForkError(
-        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them for "
-        "ever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
+        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them "
+        "forever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
         "wb.solve_orbits(problems, processes=N)"
     )
 

@@ -33,7 +33,7 @@ NUMBERS = {
     "--speed 9 --strips ten": '--strips|"ten" is not a whole number',
     "--speed 9 --flap-amplitude-max nan": "--flap-amplitude-max = nan: must be finite; the flap amplitude of",
     "--speed 9 --flap-amplitude-max -5": "--flap-amplitude-max = -5.0: must be > 5 and < 180 degrees",
-    "--speed 9 --flap-amplitude-max 4": "--flap-amplitude-max = 4.0: must be > 5|is searched from 5 degrees up",
+    "--speed 9 --flap-amplitude-max 4": "--flap-amplitude-max = 4.0: must be > 5|is 5 degrees",
     "--speed 9 --flap-amplitude-max 180": "--flap-amplitude-max = 180.0: must be > 5 and < 180 degrees",
     "--speed 9 --blend-width-deg 0": "blend_width_deg = 0.0: must be > 0 and <= 3 degrees; 1 is the default",
     "--speed 9 --blend-width-deg nan": "blend_width_deg = nan: must be finite",
@@ -62,7 +62,7 @@ TABLES = {
     "cells.csv": [
         "cells.csv row 4, column c_l = nan: must be finite; drop the row or give a value",
         "cells.csv row 5, column c_d = 'x': is not a number; write one number with a decimal point",
-        "cells.csv row 3, column c_d = -1.0: must be >= 0|turn its sign",
+        "cells.csv row 3, column c_d = -1.0: must be >= 0|reverse its sign",
     ],
     "short.csv": ["short.csv row 5, column alpha_deg = 60.0: the table must reach at least 90 degrees"],
     "good.csv --extension signed": ["good.csv row 2, column alpha_deg = 0.0|use mirrored"],
@@ -86,8 +86,8 @@ SETTINGS = {
     ],
 }
 ANIMALS = {
-    "pigon": ["species = 'pigon': is not in the box; did you mean pigeon"],
-    "eagle": ["species = 'eagle': is not in the box; |pigeon|.toml file"],
+    "pigon": ["species = 'pigon': is not a built-in species; did you mean pigeon"],
+    "eagle": ["species = 'eagle': is not a built-in species; |pigeon|.toml file"],
     "none.toml": ["cannot read 'none.toml': no such file or directory; check the path"],
     "folder.toml": ["cannot read 'folder.toml': it is not a file; give the path of a text file"],
     "empty.toml": ["'empty.toml' holds nothing; `wingbeat species new FILE` writes a template"],
@@ -105,12 +105,12 @@ OUTPUTS = {
     "-o folder": "cannot write 'folder': it is a folder; give the path of a file",
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
-    "-o kept.png": "--output = 'kept.png': is no kind of file that a result can be written to; end it in .nc",
-    "-o orbit": "--output = 'orbit': is no kind of file that a result can be written to|.csv or .mat",
+    "-o kept.png": "--output = 'kept.png': is not a format for results; end it in .nc",
+    "-o orbit": "--output = 'orbit': is not a format for results|.csv or .mat",
 }
 FIGURES = {
-    "--plot page.txt": "--plot = 'page.txt': is no kind of figure; end it in .png, .pdf, .svg",
-    "--plot page": "--plot = 'page': is no kind of figure",
+    "--plot page.txt": "--plot = 'page.txt': is not a figure format; end it in .png, .pdf, .svg",
+    "--plot page": "--plot = 'page': is not a figure format",
     "--plot missing/page.png": "cannot write 'missing/page.png': no such file or directory",
     "--plot kept.png/page.png": "cannot write 'kept.png/page.png': not a directory",
     "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is the file of --plot too; give each its own",

@@ -168,7 +168,7 @@ def test_another_suffix_is_refused_before_anything_is_computed(words, tmp_path, 
     monkeypatch.setattr("wingbeat.aero.FormulaCoefficients.kernel", lambda _: pytest.fail("it computes"))
     monkeypatch.chdir(tmp_path)
     assert main([*words.split(), "-o", "out.xlsx"]) == 2
-    assert "--output = 'out.xlsx': is no kind of file" in capsys.readouterr().err
+    assert "--output = 'out.xlsx': is not a file type" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

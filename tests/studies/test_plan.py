@@ -128,7 +128,7 @@ def test_every_kind_of_path_reaches_the_problem(path, value, told):
 FAULTS = [
     ({}, "species = nothing: must be given"),
     ({"species": "pigeon"}, "speed = nothing: must be given; speed = 10.0, or under [vary]"),
-    ({"species": "pidgeon", "speed": 9.0}, "species = 'pidgeon': is not in the box; did you mean pigeon"),
+    ({"species": "pidgeon", "speed": 9.0}, "species = 'pidgeon': is not a built-in species; did you mean pigeon"),
     ({"species": 3, "speed": 9.0}, "species = 3: must be a text; put it in quotes"),
     ({"species": ["pigeon", "pigeon"], "speed": 9.0}, "names a value twice; keep one of them"),
     ({"species": "pigeon", "sped": 9.0}, "sped = 9.0: is not a known key; did you mean speed"),

@@ -35,7 +35,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
     faults = FaultList()
     if isinstance(given, type) or any(given is maker for maker in LIBRARY.values()):
         name = getattr(given, "__name__", "?")
-        faults.add("aero.coefficients", name, "makes coefficient models and is none", f"call it: {name}()")
+        faults.add("aero.coefficients", name, "makes coefficient models, but is not one", f"call it: {name}()")
     elif hasattr(given, "kernel"):
         return given
     elif callable(given):

@@ -194,7 +194,7 @@ def _check_range(faults: FaultList, where: str, limits: Any) -> None:
     if not isinstance(limits, tuple) or len(limits) != 2:
         faults.add(where, limits, "must be a pair", "give (lowest, highest)")
     elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
-        faults.add(where, limits, "must not fall", "give (lowest, highest)")
+        faults.add(where, limits, "must not decrease", "give (lowest, highest)")
 
 
 @register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension"))
@@ -244,7 +244,7 @@ class FormulaCoefficients(CoefficientModel):
         _check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
-            rule = "evaluates the drag formula at negative angles, where its exponential term runs away"
+            rule = "evaluates the drag formula at negative angles, where its exponential term grows without bound"
             faults.add("extension", self.extension, rule, "use mirrored")
         faults.raise_if_any()
 

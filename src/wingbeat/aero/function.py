@@ -73,8 +73,8 @@ def _unpickled(function: Callable[[Any], Any], name: str, digest: str) -> Progra
     """Return the program of a pickle, whose function pickle knows by its name alone."""
     again = _checked(function, name)
     if again.digest != digest:
-        rule = "computes something else than the function that was pickled under this name"
-        raise InvalidInputError([Fault(_WHERE, name, rule, "bring back the module it was pickled with")])
+        rule = "computes something other than the function that was pickled under this name"
+        raise InvalidInputError([Fault(_WHERE, name, rule, "restore the module that it was pickled with")])
     return again
 
 
@@ -166,9 +166,7 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
         traced, shapes = jax.make_jaxpr(function, return_shape=True)(jax.ShapeDtypeStruct((), jnp.float64))
     except Exception as error:  # whatever the function raises
         reason = str(error).strip().split("\n")[0][:120]
-        faults.add(
-            _WHERE, name, f"is no function that JAX can trace ({type(error).__name__}: {reason})", _TRACEABLE
-        )
+        faults.add(_WHERE, name, f"cannot be traced by JAX ({type(error).__name__}: {reason})", _TRACEABLE)
         faults.raise_if_any()
         raise
     pair = list(shapes) if isinstance(shapes, tuple | list) else []

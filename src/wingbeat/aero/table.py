@@ -116,7 +116,7 @@ class TableCoefficients(CoefficientModel):
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
-                rule = f"has not the length of alpha_deg, {len(columns['alpha_deg'])}"
+                rule = f"must have the length of alpha_deg, {len(columns['alpha_deg'])}"
                 faults.add(name, f"{len(column)} numbers", rule)
         faults.raise_if_any()
         check_columns(faults, columns, lambda i, name: f"{name}[{i}]")
@@ -179,7 +179,7 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
         if column not in known:
             faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
         elif column in header[:i]:
-            faults.add(where, column, "stands there twice", "keep one")
+            faults.add(where, column, "is given twice", "keep one")
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:

@@ -83,7 +83,7 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
         if len(found) >= count:
             return found[:count]
     faults = FaultList()
-    rule = "is so wide that hardly a draw is a formula: the data do not determine this form"
+    rule = "is so wide that hardly any draw is a valid formula: the data do not determine this form"
     faults.add(label, "covariance", rule, "choose a form with fewer parameters")
     raise InvalidInputError(faults.faults)
 

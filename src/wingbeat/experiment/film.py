@@ -63,7 +63,7 @@ class Film:
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
         if not self.columns or set(self.columns) - set(FILMED):
             shown = ", ".join(self.columns) or "nothing"
-            faults.add(f"{self.name}, columns", shown, "is not what can be filmed", f"any of {', '.join(FILMED)}")
+            faults.add(f"{self.name}, columns", shown, "is not a column of a film", f"any of {', '.join(FILMED)}")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
@@ -106,7 +106,9 @@ class Film:
             faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
         if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
-            faults.add(where, worst, "is no share of the semi-span", "divide by the semi-span, not in percent")
+            faults.add(
+                where, worst, "is not a fraction of the semi-span", "divide by the semi-span, not in percent"
+            )
         return []
 
     def save(self, path: str | Path) -> None:
@@ -175,7 +177,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "is given twice", "keep one")
         else:
             check_unit(faults, where, unit, units[name])
         names.append(name)
@@ -184,7 +186,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         faults.add(where, ",".join(sheet.header), "must have one of phase and time", "phase in beats, time in s")
     if not set(names) & set(FILMED):
         fix = f"any of {', '.join(FILMED)}"
-        faults.add(where, ",".join(sheet.header), "has nothing that was filmed", fix)
+        faults.add(where, ",".join(sheet.header), "has no column of a film", fix)
     return names
 
 

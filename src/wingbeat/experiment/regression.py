@@ -152,7 +152,7 @@ class CurveFit:
         a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
         low, high = float(self.alpha_deg.min()), float(self.alpha_deg.max())
         if a.min() < low - 1e-9 or a.max() > high + 1e-9:
-            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used beyond"
+            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used outside that range"
             warnings.warn(text, FitRangeWarning, stacklevel=2)
         return self.form.value(a, self.parameters)
 
@@ -252,7 +252,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"
-        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a plainer form")
+        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a simpler form")
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
         faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
@@ -280,7 +280,7 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
         x = np.clip([start[name] for name in names], *bounds)
         if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
             faults = FaultList()
-            faults.add(label, form.formula, "gives no finite numbers where the fit begins", "change its start")
+            faults.add(label, form.formula, "gives no finite numbers at the start of the fit", "change its start")
             faults.raise_if_any()
         tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
         found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
@@ -306,15 +306,15 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
     for name, value in fit.parameters.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
-            notes.append(f"{fit.label}: {name} ran into the limit of its search, {value:g}; the form does not fit")
+            notes.append(f"{fit.label}: {name} reached the limit of its search, {value:g}; the form does not fit")
     limits = fit.interval()
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
-        text = f"{fit.label}: too uncertain to mean anything: {', '.join(loose)}"
+        text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
         notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
-            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters stand in for one another; "
+            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be told apart; "
             "measure over more angles or choose a form with fewer"
         )
     return tuple(notes)

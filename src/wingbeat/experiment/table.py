@@ -175,7 +175,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "radians times 57.29578 are alpha_deg" if "alpha" in name else f"known are {', '.join(_KNOWN)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "is given twice", "keep one")
         check_unit(faults, where, unit, "deg" if name == "alpha_deg" else "")
         names.append(name)
     for name in REQUIRED:
@@ -183,7 +183,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             where = f"{sheet.file} row {sheet.header_row}, column {name}"
             faults.add(where, ",".join(sheet.header), "the column is missing", f"needed are {', '.join(REQUIRED)}")
     if not sheet.rows:
-        faults.add(f"{sheet.file} row {sheet.header_row}", "", "no row of numbers follows", "add the measurements")
+        faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
     return names
 
 

@@ -68,7 +68,7 @@ ANSWER = (
     Term("starts", "1", "number of searches"),
     Term("distinct_optima", "1", "number of distinct optima met"),
     Term("starts_at_best", "1", "number of searches that ended at the best optimum"),
-    Term("active_bounds", "", "bounds that the orbit leans on"),
+    Term("active_bounds", "", "bounds that the orbit is at"),
     Term("failed_balance", "", "laws of balance that fail, and by how much"),
     Term("relaxations", "", "nearest changes that fly"),
     Term("plausibility", "", "what was judged plausible, with its ranges"),

@@ -142,7 +142,7 @@ def glide_polar(
     if not isinstance(species, Species):
         faults.add("species", species, "is not a Species", "use load_species(name or path)")
     elif species.air.gravity == 0:
-        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "without weight nothing glides")
+        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "nothing glides without weight")
     faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
@@ -176,7 +176,7 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     notes = list(polar.species.warnings)
     found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
     if len(found) < len(polar.glides):
-        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady glide ahead")
+        notes.append(f"{len(polar.glides) - len(found)} angles of attack without a steady forward glide")
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]

@@ -86,7 +86,11 @@ def statements(record: dict[str, Any]) -> Statements:
     if certified and worst is not None:
         closes = f"closes to {worst:.0e}"
     else:
-        closes = "does not close: the flight ran off" if worst is None else f"misses its start by {worst:.1e}"
+        closes = (
+            "does not close: the flight ran off"
+            if worst is None
+            else f"does not return to its start, by {worst:.1e}"
+        )
     judged = record.get("plausibility") or []
     outside = [one for one in judged if one["within"] is False]
     unknown = [_NAMES[one["name"]] for one in judged if one["low"] is None and one["high"] is None]

@@ -103,7 +103,7 @@ class Sensitivities:
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
     def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
-        """Return the uncertainty of the inputs: the plausible ranges, all of each as likely, and a fit's covariance.
+        """Return the uncertainty of the inputs: plausible ranges, each uniform, and a fit's covariance.
 
         Parameters
         ----------

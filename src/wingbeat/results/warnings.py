@@ -1,4 +1,4 @@
-"""Honest warnings: where an orbit leans on a guess, or leaves what the model was fitted to."""
+"""Honest warnings: where an orbit depends on a guess, or leaves the range that the model was fitted to."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SWING = math.radians(20.0)
 # Phases at which a stroke is looked at, how far across, as a share of the wing's length, is told, and how far past
 # the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
-# Optima whose objectives differ by less than this share are worth the same to most.
+# Optima whose objectives differ by less than this share are equally good to most.
 _RIVAL = 0.01
 
 
@@ -36,14 +36,14 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
-            notes.append(f"the optimum leans on the bound of {name}, which is a guess: see the species file")
+            notes.append(f"the optimum is at the bound of {name}, which is a guess: see the species file")
         if name in ("u", "w", "pitch_rate"):
-            notes.append(f"the start's {name} met the limit of the search; distrust this orbit")
+            notes.append(f"the initial {name} is at a limit of the search; do not trust this orbit")
     swing = float(np.ptp(solution.certificate.pitch))
     if swing > _SWING:
         notes.append(
-            f"body pitch swings through {math.degrees(swing):.0f} degrees in each beat: "
-            "the body rows with the wings, which flying animals were not checked to do"
+            f"the body pitches by {math.degrees(swing):.0f} degrees within each beat; "
+            "no flying animal we know of does"
         )
     notes += crossing(problem, solution.wingbeat)
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
@@ -52,20 +52,20 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     notes += rivals(solution)
     if solution.distinct_optima > 1:
         notes.append(
-            f"{solution.starts} searches met {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
-            "ended in this one, the best met, which is not proven the best of all"
+            f"{solution.starts} starts found {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
+            "ended in this one, the best found, which may not be the best there is"
         )
     return notes
 
 
 def at_lower_bound(solution: Solution) -> list[str]:
-    """Warn that least frequency is the bound itself: other orbits at the bound are worth the same."""
+    """Warn that the minimum frequency is at its bound: other orbits at the bound are equally good."""
     if solution.status is not Status.CONVERGED:
         return []
     low = solution.problem.bounds["frequency"][0]
     return [
-        f"the least frequency is its lower bound, {low:g} Hz: the bound is the answer, more starts cannot better "
-        "it, and other orbits at this bound are worth the same; lower the bound, minimise a power, or see "
+        f"the minimum frequency is at its lower bound, {low:g} Hz: more starts cannot improve it, and other orbits "
+        "at this bound are equally good; lower the bound, minimise a power, or see "
         f"`wingbeat glide {solution.problem.species.name}`"
     ]
 
@@ -77,7 +77,7 @@ def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
 
 
 def rivals(solution: Solution) -> list[str]:
-    """Warn of other optima that are worth nearly the same, and say where they differ most."""
+    """Warn of other optima that are nearly as good, and say where they differ most."""
     if solution.status is not Status.CONVERGED:
         return []
     best, unknowns = solution.objective, solution.problem.unknowns()
@@ -94,13 +94,13 @@ def rivals(solution: Solution) -> list[str]:
     )
     unit = " degrees" if angle else ""
     return [
-        f"other optima met within 1 % of the best: {len(others)}; they differ most in {name}, "
+        f"other optima within 1 % of the best: {len(others)}; they differ most in {name}, "
         f"{there:.3g} against {here:.3g}{unit}"
     ]
 
 
 def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
-    """Warn of wings that pass through the plane of symmetry, and so through each other, or turn past their joints.
+    """Warn of wings that cross the plane of symmetry, and so each other, or turn past their joints.
 
     A search keeps off both; what is prescribed, such as a filmed wingbeat, may not.
     """
@@ -111,8 +111,8 @@ def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
     across, notes = -float(nearest.min()), []
     if across > _ACROSS * problem.vehicle.wing.semi_span:
         notes.append(
-            f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
-            "where it meets the other: no animal can beat like this"
+            f"each wing crosses the plane of symmetry by up to {1e3 * across:.2g} mm, "
+            "where it would hit the other: no animal can beat like this"
         )
     angles = np.asarray(flap_angles(wingbeat, phase))
     low, high = problem.bounds["flap"]
@@ -131,7 +131,7 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
         return []
     return [
         f"no induced flow is modelled: at {speed:.1f} m/s, below {_SLOW * induced:.1f} m/s (three times the "
-        "induced velocity of hover), power is understated"
+        "induced velocity of hover), power is underestimated"
     ]
 
 

@@ -242,7 +242,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         if not low <= value <= high:
             path = f"wingbeat.{name}"
             guess = words(path, Number(value, plain_unit(name)))
-            found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer one")
+            found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer bound")
     derived = [
         path.removeprefix("vehicle.")
         for path, number in species.numbers.items()
@@ -252,7 +252,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
     found += _outside_data(species)
     if not species.free:
-        found.append("free: no wingbeat parameter is free, so no orbit can be sought; add the table [free]")
+        found.append("free: no wingbeat parameter is free, so there is nothing to solve for; add the table [free]")
     return tuple(found)
 
 
@@ -265,7 +265,7 @@ def _outside_data(species: Species) -> list[str]:
     ]
     if not told:
         return []
-    return [f"scaling laws used outside the data they were fitted to, so with little trust: {'; '.join(told)}"]
+    return [f"scaling laws used outside the data they were fitted to, so less reliable: {'; '.join(told)}"]
 
 
 def _jsonable(value: Any) -> Any:

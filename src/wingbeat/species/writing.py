@@ -30,7 +30,7 @@ def species_text(species: Species) -> str:
     lines += _tables(species.numbers, "", BODY)
     lines += [
         "",
-        "# What an orbit may choose. A bound that is a guess is named when an orbit leans on it.",
+        "# What an orbit may choose. A bound that is a guess is reported when an orbit is at it.",
         "[free]",
     ]
     lines += [_bound(species, name) for name in species.free]

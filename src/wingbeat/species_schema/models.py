@@ -59,7 +59,7 @@ class BoundTable(BaseModel):
     bounds: _Pair
     unit: str = ""
     reason: str = ""
-    guessed: bool = Field(default=False, description="true: an orbit that leans on this bound says so")
+    guessed: bool = Field(default=False, description="true: an orbit at this bound says so")
 
 
 class RangeTable(BaseModel):

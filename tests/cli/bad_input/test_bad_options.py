@@ -44,7 +44,7 @@ NAMES = {
     "--aero foo": "coefficients = 'foo'|su-fan, dickinson|a table's path ends in .csv",
     "--airspeed fast": "aero.airspeed = 'fast'|use one of planar, full",
     "--force-point nose": "aero.force_point = 'nose'|use one of quarter-chord, centre-of-pressure",
-    "--force-point centre-of-pressure --aero dickinson": "aero.force_point|which dickinson has none of; use quar",
+    "--force-point centre-of-pressure --aero dickinson": "aero.force_point|and dickinson has none; use quar",
     "--frequency 3": "--frequency",
     "12": "'12'",
     "--json=perhaps": "--json|perhaps",
@@ -62,7 +62,7 @@ TABLES = {
     "cells.csv": [
         "cells.csv row 4, column c_l = nan: must be finite; drop the row or give a value",
         "cells.csv row 5, column c_d = 'x': is not a number; write one number with a decimal point",
-        "cells.csv row 3, column c_d = -1.0: must be >= 0|turn its sign",
+        "cells.csv row 3, column c_d = -1.0: must be >= 0|change its sign",
     ],
     "short.csv": ["short.csv row 5, column alpha_deg = 60.0: the table must reach at least 90 degrees"],
     "good.csv --extension signed": ["good.csv row 2, column alpha_deg = 0.0|use mirrored"],
@@ -86,8 +86,8 @@ SETTINGS = {
     ],
 }
 ANIMALS = {
-    "pigon": ["species = 'pigon': is not in the box; did you mean pigeon"],
-    "eagle": ["species = 'eagle': is not in the box; |pigeon|.toml file"],
+    "pigon": ["species = 'pigon': is not a built-in species; did you mean pigeon"],
+    "eagle": ["species = 'eagle': is not a built-in species; |pigeon|.toml file"],
     "none.toml": ["cannot read 'none.toml': no such file or directory; check the path"],
     "folder.toml": ["cannot read 'folder.toml': it is not a file; give the path of a text file"],
     "empty.toml": ["'empty.toml' holds nothing; `wingbeat species new FILE` writes a template"],
@@ -105,8 +105,8 @@ OUTPUTS = {
     "-o folder": "cannot write 'folder': it is a folder; give the path of a file",
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
-    "-o kept.png": "--output = 'kept.png': is no kind of file that a result can be written to; end it in .nc",
-    "-o orbit": "--output = 'orbit': is no kind of file that a result can be written to|.csv or .mat",
+    "-o kept.png": "--output = 'kept.png': is not a file type that results can be written to; end it in .nc",
+    "-o orbit": "--output = 'orbit': is not a file type that results can be written to|.csv or .mat",
 }
 FIGURES = {
     "--plot page.txt": "--plot = 'page.txt': is no kind of figure; end it in .png, .pdf, .svg",

@@ -93,7 +93,7 @@ def test_show_prints_the_record(files, orbit, capsys):
         ("body pitch, nose up", f"{np.degrees(record['initial_state']['body_pitch']):.4g} deg"),
         ("hinges, mean", f"{power:.4g} W ({power / mass:.4g} W/kg)"),
         ("cost of transport", f"{record['cost_of_transport']:.4g}"),
-        ("on the bound of", ", ".join(record["active_bounds"])),
+        ("at the bound of", ", ".join(record["active_bounds"])),
         ("stable", "yes" if record["stable"] else "no"),
     ):
         assert re.search(rf"^  {re.escape(label)} +{re.escape(value)} *$", told.out, re.MULTILINE), label
@@ -179,7 +179,7 @@ def test_what_is_undefined_or_absent_is_not_invented(orbit):
     hover["closure"] = dict.fromkeys(hover["closure"])
     text = _printed(hover).export_text()
     assert re.search(r"cost of transport +-", text)
-    assert re.search(r"largest miss when re-flown +lost, in", text)
+    assert re.search(r"largest residual when re-flown +lost, in", text)
     assert "multipliers" not in text
     assert "not certified, not-converged" in _printed({"status": "not-converged"}).export_text()
 

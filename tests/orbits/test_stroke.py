@@ -115,7 +115,7 @@ def test_wings_that_may_cross_do_and_draw_a_warning(tmp_path):
     orbit = wb.solve_orbit(problem)
     assert orbit.wingbeat.frequency == pytest.approx(6.990, abs=2e-3)
     assert orbit.dataset["strip_corner"].values[..., 1].min() < -0.04
-    assert any("crosses the plane of symmetry" in note for note in orbit.record()["warnings"])
+    assert any("passes through the plane of symmetry" in note for note in orbit.record()["warnings"])
     orbit.save(tmp_path / "bat.nc")
     assert wb.load_orbit(tmp_path / "bat.nc").problem.wings_may_cross is True
 

@@ -72,7 +72,7 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     assert (
         f"`wingbeat paper assumptions --sets 3 --seed 4 --piece 2` (numerical version {NUMERICAL_VERSION})" in page
     )
-    assert "The orbits took 0.0 core-hours, 3.50 s a set." in page
+    assert "The orbits took 0.0 core-hours, 3.50 s per set." in page
     certified = sum(int(row.split(",")[len(ASSUMPTIONS)]) for row in joined[1:])
     assert f"{100 * certified / 42:.0f} % of them were found and certified" in page
 
@@ -108,8 +108,8 @@ def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert "1 of 2 pieces are done; the page is of these" in " ".join(capsys.readouterr().err.split())
     page = (tmp_path / "assumptions.md").read_text()
     assert "--piece 2`, of which 1 of 2 pieces are done (numerical" in page
-    assert "Here 1 sets of assumptions" in page
-    assert "s a set." in page
+    assert "Here we use 1 sets of assumptions" in page
+    assert "s per set." in page
     last = (whole / "assumptions.csv").read_text().splitlines()
     assert (tmp_path / "assumptions.csv").read_text().splitlines() == [last[0], last[-1]]
     shutil.copy(whole / "pieces" / "piece-0001-of-0002.csv", tmp_path / "pieces")

@@ -1,4 +1,4 @@
-"""``wingbeat paper``: the figures and claims of Su et al. beside ours, and what the claims hang on."""
+"""``wingbeat paper``: the figures and claims of Su et al. beside ours, and what the claims depend on."""
 
 from __future__ import annotations
 
@@ -143,9 +143,9 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     heading = (
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}`{so_far} "
         f"(numerical version {NUMERICAL_VERSION}): each animal and coefficient model under each choice of trims is "
-        f"a [study](studies.md) with {STARTS} searches an orbit, one of them from the orbit at the speed before "
-        f"where there is one ({SURENESS}). The orbits took {seconds / 3600:.1f} core-hours, "
-        f"{seconds / len(judged.sets):.2f} s a set."
+        f"a [study](studies.md) with {STARTS} starts per orbit, one of them from the orbit at the previous speed "
+        f"if there is one ({SURENESS}). The orbits took {seconds / 3600:.1f} core-hours, "
+        f"{seconds / len(judged.sets):.2f} s per set."
     )
     if so_far:
         say(f"{done} of {len(pieces)} pieces are done; the page is of these")

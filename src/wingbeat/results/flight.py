@@ -172,7 +172,7 @@ def simulate_torque_driven(
     Parameters
     ----------
     model : the flight model.
-    wingbeat : gives span, fold and twist; its flap and pitch laws do not enter.
+    wingbeat : gives span, fold, sweep and twist; its flap and pitch laws do not enter.
     coordinates, rates : q and q' at the first time, shape (5,) each [m, rad; per s].
     torques : JAX-traceable function of time [s] and `args` that gives (flap, pitch) torques of both wings [N m].
     times : increasing sample times [s], shape (K,).

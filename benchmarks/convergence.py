@@ -1,4 +1,4 @@
-"""Tables of what the numbers of the method do to the answer: strips, steps, blend width, extension.
+"""Tables of how numerical choices change the result: strips, steps, blend width, extension.
 
 Run from the root of a clone; it rewrites docs/convergence.md::
 
@@ -67,7 +67,7 @@ def extensions(name: str, speed: float) -> str:
 
 
 def steps(name: str, speed: float) -> str:
-    """Fly one certified orbit with fixed steps: the largest miss against the certifier's end."""
+    """Fly one certified orbit with fixed steps: the largest difference from the certifier's end."""
     solution = find_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed), starts=1)
     start, end = solution.certificate.states[0][2:], solution.certificate.end
     problem, rows = solution.problem, []
@@ -76,15 +76,16 @@ def steps(name: str, speed: float) -> str:
     for blocks in (1, 2, 4, 8, 16, 32, 64):
         flown = fly(values, start, blocks)
         rows.append((str(blocks * STEPS), f"{np.abs(np.asarray(flown.end) - end).max():.1e}"))
-    return table(("RK4 steps a beat", "largest miss (m, rad, m/s, rad/s)"), rows)
+    return table(("RK4 steps per wingbeat", "largest difference (m, rad, m/s, rad/s)"), rows)
 
 
 def main() -> None:
     parts = [
         "# Convergence\n",
-        "Written by `uv run python benchmarks/convergence.py`; default wings and bounds, mirrored extension,\n"
-        "Su-Fan coefficients, minimum frequency, where nothing else is said. One start each, the first,\n"
-        "so that a column follows one family of orbits; others of lower frequency may exist.\n",
+        "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, it uses the "
+        "default wings and bounds, the\nmirrored extension and Su-Fan coefficients, and minimises frequency. Each "
+        "orbit has only the first start, so that a column\nfollows one family of orbits; others of lower frequency "
+        "may exist.\n",
     ]
     for title, make in (
         ("Fixed steps against the certifier", steps),

@@ -88,8 +88,8 @@ def main() -> None:
     heads = (
         "kind",
         "problem",
-        "what is short",
-        "right law",
+        "missing",
+        "right balance",
         "changes that fly",
         "first flies",
         "0.9 of it",
@@ -104,8 +104,8 @@ def main() -> None:
         infeasible += found.status is wb.Status.INFEASIBLE
         right += cells[3] == "yes"
         flying += cells[5] == "yes"
-    print(f"\n{infeasible} of {len(chosen)} are infeasible; the right law is named in {right}; ", end="")
-    print(f"the smallest change proposed flies in {flying}.")
+    print(f"\n{infeasible} of {len(chosen)} are infeasible; the right balance is named in {right}; ", end="")
+    print(f"the smallest proposed change flies in {flying}.")
 
 
 if __name__ == "__main__":

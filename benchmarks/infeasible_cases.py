@@ -91,7 +91,7 @@ def cases() -> Iterator[Case]:
         (bat, 10.0, {"bounds": still}),
         (pigeon, 8.0, {"bounds": still}),
     ):
-        kept = "held at 0" if "subject_to" in how else "within .5 deg"
+        kept = "held at 0" if "subject_to" in how else "within 0.5 deg"
         what = f"{species.name} at {speed:g} m/s, wing pitch and mean flap {kept}"
         yield Case("no pitch freedom", what, (MOMENT,), problem(species, speed, **how))
     for species, speed, torque in (

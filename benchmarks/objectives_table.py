@@ -1,4 +1,4 @@
-"""Make a page in Markdown of what `objectives.py` found: misses first, then doubts, then all the others."""
+"""Make a Markdown page from results of `objectives.py`: bettered optima, then doubtful ones, then the others."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from objectives import BETTER
 HEAD = (
     "animal",
     "m/s",
-    "least",
+    "minimised",
     "limit",
     "value",
     "bettered by, %",
     "best restart",
     "restarts: optima / as good",
     "IPOPT, certified",
-    "IPOPT's own least",
+    "IPOPT's own minimum",
     "s",
 )
 
@@ -48,7 +48,7 @@ def _shown(value: float | None) -> str:
 
 
 def doubtful(row: dict) -> bool:
-    """Say whether something had less by its own reckoning that was not certified, or nothing certified at all."""
+    """Return whether a lower value was found but not certified, or nothing was certified at all."""
     if row["status"] != "converged":
         return True
     least = row["objective"] - BETTER * abs(row["objective"])
@@ -67,12 +67,12 @@ def main() -> None:
         for text in path.read_text().splitlines():
             row = json.loads(text)
             rows[row["animal"], row["speed"], row["minimise"], row["limit"]] = row
-    misses = [r for r in rows.values() if r.get("lower_by", 0.0) > BETTER]
-    doubts = [r for r in rows.values() if r not in misses and doubtful(r)]
-    others = [r for r in rows.values() if r not in misses and r not in doubts]
+    bettered = [r for r in rows.values() if r.get("lower_by", 0.0) > BETTER]
+    doubts = [r for r in rows.values() if r not in bettered and doubtful(r)]
+    others = [r for r in rows.values() if r not in bettered and r not in doubts]
     seconds = sum(row["seconds"]["all"] for row in rows.values())
-    print(f"{len(rows)} problems, {len(misses)} bettered, {len(doubts)} in doubt; {seconds / 60:.0f} minutes.\n")
-    for title, some in (("Bettered", misses), ("In doubt", doubts), ("Not bettered", others)):
+    print(f"{len(rows)} problems, {len(bettered)} bettered, {len(doubts)} in doubt; {seconds / 60:.0f} minutes.\n")
+    for title, some in (("Bettered", bettered), ("In doubt", doubts), ("Not bettered", others)):
         print(f"### {title}\n")
         if some:
             print("| " + " | ".join(HEAD) + " |\n" + "| --- " * len(HEAD) + "|")

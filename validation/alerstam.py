@@ -28,7 +28,7 @@ from alerstam_flights import (
     to_csv,
 )
 from alerstam_spread import Moved, spreads
-from alerstam_words import HEAD, TAIL, misses, speeds, spread_table, verdicts
+from alerstam_words import HEAD, TAIL, largest_differences, speeds, spread_table, verdicts
 
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import WingbeatError
@@ -64,7 +64,14 @@ def main(argv: list[str] | None = None) -> int:
         head = HEAD.format(
             count=len(found), asked=len(points), points=sum(math.isfinite(point.power) for point in points)
         )
-        parts = (head, speeds(found), verdicts(found, points, timed), misses(found), spread_table(moved), TAIL)
+        parts = (
+            head,
+            speeds(found),
+            verdicts(found, points, timed),
+            largest_differences(found),
+            spread_table(moved),
+            TAIL,
+        )
         write_atomically(chosen.tables / "alerstam.csv", alerstam_summary.to_csv(found))
         write_atomically(chosen.output / "alerstam.md", "".join(parts))
         save_figure(draw(found, timed), chosen.output / "alerstam.png")

@@ -1,4 +1,4 @@
-"""The study's page: what agrees with the radar and what does not; every number in it is computed."""
+"""The study's page: what agrees with the radar and what does not. Every number is computed."""
 
 from __future__ import annotations
 
@@ -12,42 +12,44 @@ from numpy.typing import NDArray
 
 from wingbeat.species import scaling
 
-HEAD = """# Birds from mass, span and area alone, against the radar
+HEAD = """# {count} birds against radar measurements
 
-Written by `python validation/alerstam.py`; no number in the tables is typed in. `wb.bird` builds each of
-the {count} species of Alerstam et al. 2007 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0)
-that have mass, span and area; the rest is by scaling laws. One batch of {asked} problems,
-of which {points} ended in a certified orbit,
-finds the wingbeat of least positive hinge power at seven speeds, 0.65 to 1.6 times that at which a wing of lift
-coefficient 1 carries the bird: the measured airspeed plays no part. Curves that were not smooth were searched
-again, speed by speed from their neighbours' answers. A parabola through the lowest point and its neighbours gives
-the minimum-power speed and, of power over speed, the maximum-range speed. At its measured airspeed each bird is
-flown for least power and for least frequency. Air loads: Su-Fan, no induced flow, no body drag; the best orbits
-met, not proven least. All species: [alerstam.csv](../data/alerstam.csv); all orbits:
+`python validation/alerstam.py` writes this page and computes every number in its tables. `wb.bird` builds each
+of the {count} species of Alerstam et al. 2007 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0)
+that have mass, span and area; scaling laws give the rest. One batch of {asked} problems, of which {points}
+ended in a certified orbit, minimises positive hinge power at seven speeds. The speeds are 0.65 to 1.6 times
+that at which a wing of lift coefficient 1 carries the bird, and do not depend on the measured airspeed. Curves
+that were not smooth were solved again, speed by speed from their neighbours' results. A parabola through the
+lowest point and its neighbours gives the minimum-power speed, and the same for power over speed gives the
+maximum-range speed. At its measured airspeed each bird is also flown with minimum power and with minimum
+frequency. Air loads: Su-Fan, no induced flow, no body drag. The orbits are the best found; better ones may
+exist. All species: [alerstam.csv](../data/alerstam.csv); all orbits:
 [alerstam_points.csv](../data/alerstam_points.csv).
 
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
 
-A: dashed is equal, the band 20 % either side. B: predicted over measured speed. C: frequency at the measured
-airspeed over Pennycuick's law of 1996; black squares are measured frequencies of other birds. D: speeds over that
-at lift coefficient 1. Grey in B to D: where the paper's plate was fitted, by mean chord and measured airspeed.
+A: the dashed line marks equality, the band 20 % on either side. B: predicted over measured speed. C: frequency
+at the measured airspeed over Pennycuick's law of 1996; black squares are measured frequencies of other birds.
+D: speeds divided by the speed at lift coefficient 1. Grey in B to D: the Reynolds numbers of the paper's plate,
+by mean chord and measured airspeed.
 """
 
 SPEEDS_HEAD = """
 ## Speeds
 
-Ratio: median of predicted over measured. Scatter: one standard deviation of that ratio, as a factor. Correlation:
-of logarithms. Slope: of the ratio's logarithm in that of the Reynolds number, with its 95 % interval, which is too
-narrow, for species are not independent. The two laws were fitted to these birds by Alerstam et al., and the last
-line is their median: yardsticks, not predictions.
+Ratio: median of predicted over measured speed. Scatter: one standard deviation of that ratio, as a factor.
+Correlation: correlation of the logarithms. Slope: change of the ratio's logarithm with that of the Reynolds
+number, with its 95 % interval. The interval is too narrow, because species are not independent. Alerstam et al.
+fitted the two laws to these birds, and the last line is their median speed. These three are for comparison;
+they are not predictions.
 
-| airspeed measured, against | species | ratio | scatter | correlation | within 20 % | slope in Re |
+| measured airspeed compared with | species | ratio | scatter | correlation | within 20 % | slope in Re |
 | --- | --- | --- | --- | --- | --- | --- |
 """
 
 
 def speeds(found: list[Row]) -> str:
-    """Return the table of speeds: the model's, then laws fitted to these very birds as a yardstick."""
+    """Return the table of speeds: the model's, then laws fitted to these birds for comparison."""
     measured, reynolds = column(found, "airspeed"), column(found, "reynolds")
     inside = (reynolds >= FITTED[0]) & (reynolds <= FITTED[1])
     loading = column(found, "mass") * AIR.gravity / column(found, "wing_area")
@@ -77,7 +79,7 @@ def _speed_line(label: str, *values: NDArray[np.float64]) -> str:
 
 def verdicts(found: list[Row], points: list[Point], timed: list[Bird]) -> str:
     """Return the table of what agrees and what does not, and the few measured frequencies."""
-    head = "\n## What agrees and what does not\n\n| claim | found | verdict |\n| --- | --- | --- |\n"
+    head = "\n## Comparison with claims\n\n| claim | result | verdict |\n| --- | --- | --- |\n"
     lines = [*_speed_verdicts(found), *_beat_verdicts(found), *_power_verdicts(found, points)]
     return head + "\n".join(lines) + "\n" + _frequencies(points, timed)
 
@@ -111,14 +113,14 @@ def _speed_verdicts(found: list[Row]) -> list[str]:
             near.within_20_percent > 0.5,
         ),
         _verdict("birds fly faster than their minimum-power speed", f"{faster:.0%} of species", faster > 0.9),
-        _verdict("and not faster than their maximum-range speed", f"{beyond:.0%} are faster", beyond < 0.1),
+        _verdict("birds fly no faster than their maximum-range speed", f"{beyond:.0%} are faster", beyond < 0.1),
         _verdict(
-            "exponent of speed over wing loading, by least squares",
+            "speed grows with wing loading to the same power (least squares)",
             f"maximum range {ours:.2f}, measured {theirs:.2f} ± {error:.2f}",
             abs(ours - theirs) < error,
         ),
         _verdict(
-            "the residual does not hang on the Reynolds number",
+            "the ratio does not depend on the Reynolds number",
             f"slope {far.slope_in_reynolds:+.2f} ± {far.slope_error:.2f}",
             abs(far.slope_in_reynolds) < far.slope_error,
         ),
@@ -130,18 +132,22 @@ def _beat_verdicts(found: list[Row]) -> list[str]:
     law = column(found, "pennycuick_frequency")
     lines = []
     for name, label in (
-        ("least_frequency", "least frequency"),
-        ("least_power_frequency", "frequency of least power"),
+        ("least_frequency", "minimum frequency"),
+        ("least_power_frequency", "frequency of minimum power"),
     ):
         c = compare(column(found, name), law, reynolds)
         seen = f"median ratio {c.median_ratio:.2f}, scatter {c.scatter:.2f}, correlation {c.correlation:.2f}"
-        lines.append(_verdict(f"{label} is Pennycuick's but for a factor", seen, c.scatter < 1.2))
-        lines.append(_verdict("and that factor is one", seen, abs(math.log(c.median_ratio)) < math.log(1.2)))
+        lines.append(_verdict(f"{label} is proportional to Pennycuick's law", seen, c.scatter < 1.2))
+        lines.append(
+            _verdict(f"{label} equals Pennycuick's law", seen, abs(math.log(c.median_ratio)) < math.log(1.2))
+        )
         ours, _ = exponent(column(found, name), mass)
         (own, error), reported = exponent(law, mass), "-0.67 to -0.29"
         seen = f"{ours:.2f}; Pennycuick's law of these birds {own:.2f}, van den Berg and Rayner {reported}"
-        lines.append(_verdict(f"{label} falls with mass as Pennycuick's", seen, abs(ours - own) < 0.05 + error))
-        lines.append(_verdict("and as van den Berg and Rayner's", seen, -0.67 < ours < -0.29))
+        lines.append(_verdict(f"{label} falls with mass as Pennycuick's law", seen, abs(ours - own) < 0.05 + error))
+        lines.append(
+            _verdict(f"{label} falls with mass as van den Berg and Rayner's law", seen, -0.67 < ours < -0.29)
+        )
     return lines
 
 
@@ -152,18 +158,19 @@ def _power_verdicts(found: list[Row], points: list[Point]) -> list[str]:
     leaning = sum("frequency" in p.active_bounds.split() for p in cheap)
     return [
         _verdict(
-            "power of the loaded pigeon at 4.46 m/s: 25.6 ± 3.8 W by the pressures on its wings",
+            "power of the loaded pigeon at 4.46 m/s: 25.6 ± 3.8 W from the pressures on its wings",
             f"{pigeon.power:.0f} W",
             abs(pigeon.power - 25.6) < 2 * 3.8,
         ),
         _verdict(
-            "least power per mass; a pigeon sprints at 51 W/kg (Pennycuick 1968, 20.4 W of 0.4 kg)",
+            "minimum power per mass is at most the 51 W/kg of a sprinting pigeon (Pennycuick 1968, 20.4 W of 0.4 "
+            "kg)",
             f"median {specific:.0f} W/kg",
             specific < 51,
         ),
         _verdict(
-            "least power has a frequency of its own, within four times Pennycuick's",
-            f"{leaning} of {len(cheap)} orbits of least power lean on that guessed bound",
+            "minimum power occurs below the upper bound of frequency, four times Pennycuick's",
+            f"{leaning} of {len(cheap)} orbits of minimum power are at that guessed bound",
             leaning == 0,
             "agrees",
             "not always",
@@ -177,10 +184,10 @@ def _verdict(claim: str, found: str, good: bool, yes: str = "agrees", no: str = 
 
 def _frequencies(points: list[Point], timed: list[Bird]) -> str:
     head = (
-        "\n## The few measured frequencies\n\nAll in Hz, at the speed of the measurement (ground speed for the "
-        "alcids, which is not quite airspeed). Held: least power with the measured amplitude.\n\n"
-        "| species | speed [m/s] | measured | least power | least frequency | amplitude held | Pennycuick 1996 "
-        "| by mass | by wing |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
+        "\n## Measured frequencies\n\nFrequencies are in Hz, at the speed of the measurement (for the alcids "
+        "ground speed, which differs slightly from airspeed). *Amplitude fixed*: minimum power with the measured "
+        "amplitude.\n\n| species | speed [m/s] | measured | minimum power | minimum frequency | amplitude fixed | "
+        "Pennycuick 1996 | law by mass | law by wing |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
     )
     lines = []
     for bird in timed:
@@ -200,11 +207,11 @@ def _frequencies(points: list[Point], timed: list[Bird]) -> str:
 
 
 def spread_table(moved: list[Moved]) -> str:
-    """Return what the spread of each derived number and guess does to the answers."""
+    """Return how the range of each derived number and guess changes the results."""
     head = (
-        "\n## How much hangs on what was derived\n\nEach number alone at either end of its spread (span "
-        "retraction: 0 and 0.5; body drag: the alternative of that name). Change in percent of minimum-power speed "
-        "/ maximum-range speed / least power.\n\n"
+        "\n## Sensitivity to the derived numbers\n\nEach number is changed alone, to either end of its plausible "
+        "range (span retraction: 0 and 0.5; body drag: the alternative of that name). Change in percent of "
+        "minimum-power speed / maximum-range speed / minimum power.\n\n"
     )
     birds = list(dict.fromkeys(row.species for row in moved))
     lines = ["| number | " + " | ".join(birds) + " |", "| --- " * (len(birds) + 1) + "|"]
@@ -223,8 +230,8 @@ def spread_table(moved: list[Moved]) -> str:
     return head + "\n".join(lines) + "\n"
 
 
-def misses(found: list[Row]) -> str:
-    """Return the ten species farthest off, and those without a minimum within the speeds flown."""
+def largest_differences(found: list[Row]) -> str:
+    """Return the ten species with the largest differences, and those without a minimum within the speeds flown."""
     good = [row for row in found if math.isfinite(row.max_range_speed)]
     far = sorted(good, key=lambda row: -abs(math.log(row.max_range_speed / row.airspeed)))[:10]
     lines = [
@@ -233,32 +240,35 @@ def misses(found: list[Row]) -> str:
         for row in far
     ]
     head = (
-        "\n## The farthest off\n\n| species | measured [m/s] | minimum power [m/s] | maximum range [m/s] | Re |\n"
-        "| --- | --- | --- | --- | --- |\n"
+        "\n## Largest differences\n\n| species | measured [m/s] | minimum power [m/s] | maximum range [m/s] | Re "
+        "|\n| --- | --- | --- | --- | --- |\n"
     )
     none = [row.species for row in found if not (math.isfinite(row.min_power_speed) and row in good)]
-    rest = f"\nNo lowest point within the speeds flown: {', '.join(none)}.\n" if none else ""
+    rest = f"\nNo minimum within the speeds flown: {', '.join(none)}.\n" if none else ""
     return head + "\n".join(lines) + "\n" + rest
 
 
 TAIL = """
-## What to make of it
+## Conclusions
 
-- Nothing was fitted, and the model puts the species in order, but no better than their wing loading does: both
-  speeds are nearly fixed multiples of that at lift coefficient 1 (panel D), as coefficients that do not know the
-  Reynolds number must make them. Measured speeds are no such multiple: birds with lightly loaded wings fly far
-  above. To foretell the airspeed of a species the model serves no better than one speed for all.
-- The misses are largest where the plate was fitted, so flying beyond the fit does not by itself explain them.
-- What may explain them, none of it tested here: no induced flow (slow flight looks too cheap, so both speeds come
-  out too low); a thick plate's drag at small angles (fast flight looks too dear, with the same effect); small birds
-  that bound with folded wings, which the model cannot; and birds on passage that choose their speed for other ends
-  than power or range.
-- The least frequency follows Pennycuick's law over three decades of mass but for a constant factor. That is
-  consistent with the law, and little more: its exponents come from dimensional reasoning that the model obeys too.
-- Least power asks for some twice the frequency of animals, often for as much as its bound lets it have, and more
-  with the measured amplitude of the alcids. Positive hinge power puts no price on frequency as such; muscles do.
-- Power is several times what was measured. A power from this model is not an animal's.
-- The spread of the derived numbers does not close the gap: the table above moves either speed by a tenth or so, and
-  power by a quarter. The guessed span retraction moves the minimum-power speed most. It is one number at a time,
-  for three birds.
+- Nothing was fitted. The model puts the species in the right order, but no better than wing loading alone does.
+  Both predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the
+  coefficients do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low
+  wing loading fly far faster. The model predicts the airspeed of a species no better than one speed for all
+  birds does.
+- The differences are largest at the Reynolds numbers of the plate, so flying outside that range does not by
+  itself explain them.
+- Possible explanations, none of them tested here: the model has no induced flow (it underestimates the power of
+  slow flight, so both speeds are too low); a thick plate has high drag at small angles (the model overestimates
+  the power of fast flight, with the same effect); small birds fly in bounds with folded wings, which the model
+  cannot do; migrating birds may not choose their speed for power or range.
+- The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
+  the law but little more: its exponents come from dimensional reasoning that the model obeys too.
+- Minimum power occurs at about twice the frequency of animals, often at its upper bound, and at still higher
+  frequencies with the measured amplitude of the alcids. Positive hinge power assigns no cost to frequency as
+  such; muscles do.
+- Power is several times the measured one. Do not take a power from this model for an animal's.
+- The uncertainty of the derived numbers does not explain the difference. In the table above they change either
+  speed by about a tenth and power by about a quarter. The guessed span retraction changes the minimum-power
+  speed most. The table changes one number at a time, for three birds.
 """

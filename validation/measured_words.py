@@ -12,18 +12,21 @@ from wingbeat.experiment import FORMS, CurveFit
 
 HEAD = """# Measured wings against the paper's plate
 
-Written by `python validation/measured_wings.py`; no number in the tables or below them is typed in. The data are
-other people's and not part of this project: printed half wings of a gull (nine postures of elbow and wrist, two
-tunnel speeds each; the coefficients rest on a reading of the source's units that its numbers bear out), a live
-jackdaw gliding (forces from its wake, wings alone: KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi
-10.1242/jeb.132480), and thin plates of small aspect ratio, read by eye off a figure of Pelletier and Mueller
-2000 (J. Aircraft 37:825).
+`python validation/measured_wings.py` writes this page and computes every number in and below its tables. The
+data are from other people and not part of this project:
+
+- Printed half wings of a gull, in nine postures of elbow and wrist at two tunnel speeds each. The source's
+  units are ambiguous; its numbers support our reading of them.
+- A live gliding jackdaw, wings alone, with forces from its wake (KleinHeerenbrink, Warfvinge and Hedenstrom
+  2016, doi 10.1242/jeb.132480).
+- Thin plates of small aspect ratio, read by eye from a figure of Pelletier and Mueller 2000 (J. Aircraft
+  37:825).
 
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
-A: lift over angle from zero lift (the gulls' mount angle is that of a twisted wing). B, C: drag and lift over
-drag against lift, which need no angle. D: moment about the shoulder (gulls) or the leading edge (Su-Fan);
-slopes compare.
+A: lift against angle from zero lift (the gulls' wings are twisted, so their mount angle is not comparable). B,
+C: drag and lift-to-drag ratio against lift, which need no angle. D: moment about the shoulder (gulls) or the
+leading edge (Su-Fan); compare only the slopes.
 """
 
 COLUMNS = (
@@ -32,12 +35,12 @@ COLUMNS = (
 )
 
 NOTES = f"""
-Gulls and plates: means at each angle. Lift slope: least squares between no lift and {LINEAR_SHARE:.0%} of
-the largest, with its 95 % interval; the plate's lift is bent there, so its line is a mean. Jackdaw: of the
-parabola C_D = least + rise (C_L - at)^2, since the best of hundreds of scattered ratios is the luckiest;
-its largest C_L is that of a bird that glides steadily, not of a stalled wing. Centre: -dC_M/dC_N below
-stall, in mean aerodynamic chords behind the shoulder for gulls, in chords behind the leading edge for
-Su-Fan. Models: 0 to 60 degrees. A dash: not measured.
+Gulls and plates: means at each angle. Lift slope: least squares between no lift and {LINEAR_SHARE:.0%} of the
+largest, with its 95 % interval; the plate's lift is curved there, so its slope is a mean. Jackdaw: values of a
+fitted parabola C_D = least + rise (C_L - at)^2, because the best of hundreds of scattered ratios is an outlier;
+its largest C_L is that of steady gliding, not of stall. Centre: -dC_M/dC_N below stall, in mean aerodynamic
+chords behind the shoulder for gulls, in chords behind the leading edge for Su-Fan. Models: 0 to 60 degrees. A
+dash: not measured.
 """
 
 
@@ -103,59 +106,48 @@ def _meaning(rows: list[Row]) -> list[str]:
     centre = SuFan().centre_of_pressure(np.radians([5.0, 60.0]))
     postures = [-_slope_of(row.centre) for row in gulls]
     return [
-        "## What it means for a flight computed with the plate",
+        "## Consequences for flights computed with the plate's coefficients",
         "",
         f"- **Drag.** In cruise (C_L {CRUISE[0]:g} to {CRUISE[1]:g}) the plate's lift over drag is "
         f"{plate.cruise_ratio:.1f}, Dickinson's {insect.cruise_ratio:.1f}, the gulls' "
         f"{_between(lambda row: row.cruise_ratio, gulls)} and that of the jackdaw's wings "
-        f"{jackdaw.cruise_ratio:.1f}: "
-        f"measured wings are {_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times better. "
-        "At that lift, steady, the power that wing drag takes is too high by such a factor.",
-        f"- **Bluntness.** The plate's least drag is "
+        f"{jackdaw.cruise_ratio:.1f}: measured wings are "
+        f"{_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times better. In steady flight at "
+        "that lift, the computed power against wing drag is too high by this factor.",
+        "- **Bluntness.** The plate's least drag is "
         f"{_between(lambda row: plate.least_drag / row.least_drag, wings)} times that of the wings and "
-        f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates: it "
-        "is 8 mm "
-        "thick on a chord of 76 mm, without a nose.",
+        f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates: it is 8 "
+        "mm thick on a chord of 76 mm and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below the gulls' "
         f"({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). They reach it {min(turn):.0f} to "
-        f"{max(turn):.0f} "
-        f"degrees from zero lift, or their data end there, at 25; the plate at {plate.lift_max_deg:.0f}. Beyond 25 "
-        "degrees nothing here can judge the plate.",
+        f"{max(turn):.0f} degrees from zero lift, or their data end there, at 25; the plate reaches it at "
+        f"{plate.lift_max_deg:.0f}. Beyond 25 degrees these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
-        f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) "
-        "and above "
-        f"the thin plates' ({_between(lambda row: _slope_of(row.slope), thin)}), which are shorter. Zero lift "
-        "falls at "
-        f"{_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the gulls, by "
-        "their twist "
-        "and camber; for the plate at 0.",
-        f"- **Moment.** Lift that comes with angle acts {min(postures):.2f} to {max(postures):.2f} chords "
-        "behind the "
-        f"gulls' shoulder: posture alone moves it by {max(postures) - min(postures):.2f} chords, the angle of "
-        "attack "
-        f"the plate's centre by {centre[1] - centre[0]:.2f} from 5 to 60 degrees. One x_cp for all postures "
-        "leaves out "
-        "the larger of the two.",
-        f"- **Reach.** The gulls are at Re {_thousand(gulls)} thousand, the plate at {_thousand([plate])}; "
-        "only the "
-        f"jackdaw ({_thousand([jackdaw])}) comes near. Part of the difference in drag is Reynolds number and "
-        "part is "
-        "shape, and these data cannot tell them apart.",
+        f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "
+        f"above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}), which are shorter. "
+        f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
+        "gulls, because of twist and camber, and at 0 for the plate.",
+        f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
+        f"behind the gulls' shoulder: posture alone moves it by {max(postures) - min(postures):.2f} chords. The "
+        f"angle of attack moves the plate's centre by {centre[1] - centre[0]:.2f} from 5 to 60 degrees. One x_cp "
+        "for all postures omits the larger of these two effects.",
+        f"- **Reach.** The gulls are at Re {_thousand(gulls)} thousand, the plate at {_thousand([plate])}; only "
+        f"the jackdaw ({_thousand([jackdaw])}) comes close. The difference in drag is partly due to Reynolds "
+        "number and partly to shape, which these data cannot separate.",
     ]
 
 
 def _forms(verdicts: list[Verdict]) -> list[str]:
     """Return the table of forms: which a polar determines, and how well it follows."""
     lines = [
-        "## Which forms such data determine",
+        "## Which forms these data determine",
         "",
-        "R-squared of lift and drag with each form of `wingbeat fit`. *No*: not identified, since an "
-        "interval is wider",
-        "than its own parameter, a parameter is at the limit of its search, or the fit is ill-conditioned; its",
-        "R-squared is then of no use beyond the range. Su-Fan's form is fitted from 0 up, where its "
-        "exponential holds.",
-        "The better of the other two, on the same rows by AICc, is in bold.",
+        "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No*: not identified, "
+        "because",
+        "an interval is wider than its own parameter, a parameter is at the limit of its fit, or the fit is",
+        "ill-conditioned; do not use such a fit outside its range. Su-Fan's form is fitted from 0 up, where its",
+        "exponential applies. The better of the other two, on the same rows by AICc, is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),
@@ -169,10 +161,10 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     return [
         *lines,
         "",
-        f"Su-Fan's lift is identified in {told} of {len(lift)} wings: its exponential and its slow sine can "
-        "be told apart",
-        "only by angles far beyond stall. A wing measured to 25 degrees wants Dickinson's form, used within "
-        "its range.",
+        f"Su-Fan's lift is identified in {told} of {len(lift)} wings: only angles far beyond stall can "
+        "distinguish its",
+        "exponential from its slow sine. For a wing measured up to 25 degrees, use Dickinson's form within that "
+        "range.",
     ]
 
 

@@ -89,14 +89,14 @@ def warm(result: dict) -> dict[str, float]:
 def table(results: dict[str, dict]) -> str:
     """Return the comparison as a table in Markdown."""
     heads = [
-        "contestant",
+        "tool",
         "cold, s",
         "new process, s",
         "warm, s: median (quartiles)",
         "repeats differ by",
         "solved",
     ]
-    heads += ["from stock guess", f"close to {CLOSED:.0e}", "worst re-flown miss", "warm / wingbeat"]
+    heads += ["from stock guess", f"close to {CLOSED:.0e}", "worst residual, re-flown", "warm / wingbeat"]
     lines = [heads, ["---"] * len(heads)]
     ours = warm(results[REFERENCE])
     for name, result in results.items():

@@ -10,7 +10,7 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementary import atan2, cos, sin
 from wingbeat.errors import FaultList
 from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, harmonic_place
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Free, Phases, Scalar
+
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
 _OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt")
@@ -33,15 +37,15 @@ class Wingbeat:
     frequency : [Hz].
     flap_mean, flap_amplitude : flap angle, wing up positive [rad].
     pitch_mean, pitch_amplitude : wing pitch at the root, leading edge up positive [rad].
-    span_retraction : share of the span drawn in at mid-upstroke, 0 to below 1.
+    span_retraction : share of the span retracted at mid-upstroke, 0 to below 1.
     twist_ratio : wing pitch at the tip over that at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
-    pitch_phase : by how much of a turn pitch runs ahead of flap [rad].
-    downstroke_fraction : share of the beat that the downstroke takes; all laws are stretched alike.
+    pitch_phase : phase lead of pitch over flap [rad].
+    downstroke_fraction : share of the wingbeat taken by the downstroke; all laws are stretched equally.
     sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
         without phase it is largest at mid-downstroke (protraction).
-    stroke_plane_tilt : is added to the wing's stroke-plane angle [rad].
+    stroke_plane_tilt : added to the wing's stroke-plane angle [rad].
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
 
@@ -86,7 +90,7 @@ class Wingbeat:
         faults.number("wingbeat.fold_amplitude", self.fold_amplitude, unit="rad")
         faults.number("wingbeat.wrist", self.wrist, at_least=0, at_most=1, fix="a fraction of the span")
         faults.number("wingbeat.pitch_phase", self.pitch_phase, unit="rad")
-        even = "0.5 is as long as the upstroke"
+        even = "0.5 makes it as long as the upstroke"
         faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
         faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
         faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
@@ -115,7 +119,7 @@ class Wingbeat:
                 faults.add(where, tuple(given), rule, "give the numbers in pairs")
             sound &= all([faults.number(f"{where}[{i}]", value) for i, value in enumerate(given)])
         if sound and self.span_harmonics and not faults.faults and self._least_span() <= 0:
-            least = f"vanishes: with span_retraction its least is {self._least_span():.2g} of the full span"
+            least = f"makes the span vanish: its minimum is {self._least_span():.2g} of the full span"
             faults.add("wingbeat.span_harmonics", self.span_harmonics, least, "make them smaller")
 
     def _least_span(self) -> float:
@@ -134,7 +138,7 @@ _PLAIN = ("frequency", "span_retraction", "twist_ratio", "downstroke_fraction")
 ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith("span_"))
 
 
-def stroke_phase(wingbeat: Wingbeat, phase: Any) -> Any:
+def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the phase as it were if down- and upstroke took as long: 0 at the top, 1/2 at the bottom.
 
     A Moebius map of the circle, smooth and rising for every fraction d of the downstroke: seen from mid-downstroke
@@ -150,12 +154,12 @@ def stroke_phase(wingbeat: Wingbeat, phase: Any) -> Any:
     return phase + 0.25 + (lead - half) / math.pi
 
 
-def recovery(phase: Any) -> Any:
+def recovery(phase: Phases) -> Phases:
     """Return the recovery law ``(1 - sin 2 pi phase)/2``: 0 at mid-downstroke, 1 at mid-upstroke."""
     return 0.5 * (1.0 - sin(2 * math.pi * phase))
 
 
-def with_harmonics(base: Any, pairs: Sequence[Any], first: int, phase: Any) -> Any:
+def with_harmonics(base: Phases, pairs: Sequence[Scalar], first: int, phase: Phases) -> Phases:
     """Add to a law its cosines and sines of order `first` and up."""
     if not pairs:
         return base
@@ -166,14 +170,14 @@ def with_harmonics(base: Any, pairs: Sequence[Any], first: int, phase: Any) -> A
     return base + jnp.sum(waves[:, 0] * cos(angles) + waves[:, 1] * sin(angles), axis=0)
 
 
-def flap_angle(wingbeat: Wingbeat, phase: Any) -> Any:
+def flap_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the flap angle of the arm, up positive [rad]."""
     at = stroke_phase(wingbeat, phase)
     base = wingbeat.flap_mean + wingbeat.flap_amplitude * cos(2 * math.pi * at)
     return with_harmonics(base, wingbeat.flap_harmonics, FIRST_ORDER["flap"], at)
 
 
-def pitch_angle(wingbeat: Wingbeat, phase: Any) -> Any:
+def pitch_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the wing pitch at the root, leading edge up positive [rad]."""
     at = stroke_phase(wingbeat, phase)
     turn = 2 * math.pi * at
@@ -183,19 +187,19 @@ def pitch_angle(wingbeat: Wingbeat, phase: Any) -> Any:
     return with_harmonics(base, wingbeat.pitch_harmonics, FIRST_ORDER["pitch"], at)
 
 
-def span_ratio(wingbeat: Wingbeat, phase: Any) -> Any:
+def span_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the span over the full span."""
     at = stroke_phase(wingbeat, phase)
     base = 1.0 - wingbeat.span_retraction * recovery(at)
     return with_harmonics(base, wingbeat.span_harmonics, FIRST_ORDER["span"], at)
 
 
-def fold_angle(wingbeat: Wingbeat, phase: Any) -> Any:
+def fold_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the angle of the hand below the arm [rad]."""
     return wingbeat.fold_amplitude * recovery(stroke_phase(wingbeat, phase))
 
 
-def sweep_angle(wingbeat: Wingbeat, phase: Any) -> Any:
+def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     """Return the angle by which the span points ahead of the stroke plane [rad], None for a wing without sweep."""
     if at_default(wingbeat, "sweep_mean") and at_default(wingbeat, "sweep_amplitude"):
         return None
@@ -211,7 +215,7 @@ def in_use(wingbeat: Wingbeat, name: str) -> bool:
     return name not in _OPTIONAL or not at_default(wingbeat, name)
 
 
-def parameter(wingbeat: Wingbeat, name: str) -> Any:
+def parameter(wingbeat: Wingbeat, name: str) -> Scalar:
     """Return one number of a wingbeat by its name; a harmonic that is not there is 0.
 
     >>> parameter(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3, flap_harmonics=(0.0, 0.05)), "flap_sin_2")
@@ -253,7 +257,7 @@ def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
     return dataclasses.replace(wingbeat, **_fields(wingbeat, values))
 
 
-def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Any) -> Wingbeat:
+def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Free) -> Wingbeat:
     """Return the wingbeat with its free parameters replaced by `values`, in the order of `free`."""
     replaced = _fields(wingbeat, {name: values[i] for i, name in enumerate(free)})
     return unchecked(Wingbeat, vars(wingbeat) | replaced)

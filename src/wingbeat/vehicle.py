@@ -48,8 +48,8 @@ class Wing:
     semi_span : length from shoulder to tip at mid-downstroke [m].
     chord : chord [m], one number or a tuple at equally spaced stations from root to tip.
     mass : mass of one wing [kg].
-    mass_exponent : p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
-    shoulder : place of the shoulder in body axes (forward, left, up) [m].
+    mass_exponent : exponent p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
+    shoulder : position of the shoulder in body axes (forward, left, up) [m].
     stroke_plane_angle : angle of the stroke plane from the body axis [rad]; pi/2 is a vertical plane.
 
     Raises
@@ -107,6 +107,11 @@ class Wing:
 class Vehicle:
     """An animal or a robot: its body and its two equal wings.
 
+    Attributes
+    ----------
+    body : the body without its wings.
+    wing : the left wing; the right one is its mirror image.
+
     >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
     >>> round(pigeon.mass, 3)
     0.316
@@ -124,7 +129,7 @@ class Vehicle:
 @register_record
 @dataclass(frozen=True)
 class Air:
-    """The air and the planet.
+    """The air and the gravity that a vehicle flies in.
 
     Parameters
     ----------
@@ -134,7 +139,8 @@ class Air:
 
     Raises
     ------
-    InvalidInputError : a density or viscosity that is not positive, a negative gravity, not finite.
+    InvalidInputError : a density or viscosity that is not positive, a negative gravity, a number that is not
+        finite.
     """
 
     density: float = 1.225
@@ -149,5 +155,11 @@ class Air:
         faults.raise_if_any()
 
     def reynolds(self, speed: Any, chord: Any) -> Any:
-        """Return the Reynolds number of a chord [m] at a speed [m/s]."""
+        """Return the Reynolds number of a chord [m] at a speed [m/s].
+
+        Parameters
+        ----------
+        speed : [m/s], any shape.
+        chord : [m], of a shape that broadcasts with it.
+        """
         return speed * chord / self.viscosity

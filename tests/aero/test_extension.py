@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
-from wingbeat.aero.blends import Jet, Join, even_blend, jet_of, odd_blend
+from wingbeat.aero.blends import Blend, Jet, even_blend, jet_of, odd_blend
 
 RIGHT = math.pi / 2
 WIDTH = math.radians(1.0)
@@ -294,7 +294,7 @@ def test_blends_meet_their_jets():
     def polynomial(even, odd):
         return lambda x: horner(even, x * x) + x * horner(odd, x * x)
 
-    join = Join.between(left, right, width)
+    join = Blend.between(left, right, width)
     np.testing.assert_allclose(jet_of(polynomial(join.even, join.odd), -width), left, rtol=1e-13)
     np.testing.assert_allclose(jet_of(polynomial(join.even, join.odd), width), right, rtol=1e-13)
     nothing = (0.0, 0.0, 0.0)

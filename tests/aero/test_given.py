@@ -112,7 +112,7 @@ def test_an_orbit_of_a_function_says_so_and_keeps_it(tmp_path, capsys):
     orbit.save(path)
     loaded = wb.load_orbit(path)
     assert loaded.record() == orbit.record()
-    with pytest.raises(ValueError, match=r"own function 'plate' is not in the file; set the problem up with"):
+    with pytest.raises(ValueError, match=r"own function 'plate' is not in the file; set up the problem with"):
         _ = loaded.problem
     with pytest.raises(ValueError, match="is not in the file"):
         problem_from(orbit.inputs)
@@ -184,7 +184,7 @@ def test_a_function_goes_to_other_processes_if_it_has_a_place_in_a_module():
 def test_a_pickle_of_another_function_under_the_name_is_refused(monkeypatch):
     kept = pickle.dumps(wb.aero.coefficients_of(plate))
     monkeypatch.setattr(sys.modules[__name__], "plate", draggy)
-    with pytest.raises(wb.InvalidInputError, match="computes something else than the function that was pickled"):
+    with pytest.raises(wb.InvalidInputError, match="differs from the function that was pickled"):
         pickle.loads(kept)
 
 
@@ -193,16 +193,16 @@ def jumpy(alpha):
 
 
 REFUSED = {
-    "numpy in it": (lambda a: (np.sin(a), 1.0), "is no function that JAX can trace .*in place of numpy"),
-    "math in it": (lambda a: (math.sin(a), 1.0), "is no function that JAX can trace"),
-    "an if": (jumpy, r"'jumpy': is no function that JAX can trace .*jnp\.where"),
-    "an error of its own": (lambda a: a.nothing, "is no function that JAX can trace .AttributeError"),
-    "two angles": (lambda a, b: (a, b), "is no function that JAX can trace .TypeError"),
+    "numpy in it": (lambda a: (np.sin(a), 1.0), "is not a function that JAX can trace .*in place of numpy"),
+    "math in it": (lambda a: (math.sin(a), 1.0), "is not a function that JAX can trace"),
+    "an if": (jumpy, r"'jumpy': is not a function that JAX can trace .*jnp\.where"),
+    "an error of its own": (lambda a: a.nothing, "is not a function that JAX can trace .AttributeError"),
+    "two angles": (lambda a, b: (a, b), "is not a function that JAX can trace .TypeError"),
     "one number": (jnp.sin, r"does not return two real numbers.*return \(C_L, C_D\)"),
     "three numbers": (lambda a: (a, a, a), "does not return two real numbers"),
     "arrays": (lambda a: (a * jnp.ones(3), a), "does not return two real numbers"),
     "complex": (lambda a: (a * 1j, a), "does not return two real numbers"),
-    "texts": (lambda a: ("lift", "drag"), "is no function that JAX can trace|does not return"),
+    "texts": (lambda a: ("lift", "drag"), "is not a function that JAX can trace|does not return"),
     "not finite": (lambda a: (jnp.log(a), 1.0), "has C_L of nan at -180 degrees"),
     "infinite drag": (lambda a: (a, 1 / jnp.cos(a) ** 2 / (jnp.abs(a) > 0)), "has C_D of inf at 0 degrees"),
     "a kink without slope": (lambda a: (jnp.sqrt(jnp.abs(a)), 1.0), "a slope of C_L of"),
@@ -210,7 +210,10 @@ REFUSED = {
         lambda a: (jax.pure_callback(np.sin, jax.ShapeDtypeStruct((), jnp.float64), a), 1.0),
         "has no derivative in JAX",
     ),
-    "a model not called": (wb.aero.SuFan, r"'SuFan': makes coefficient models and is none; call it: SuFan\(\)"),
+    "a model not called": (
+        wb.aero.SuFan,
+        r"'SuFan': is a class of coefficient models, not a model; call it: SuFan\(\)",
+    ),
     "a number": (3, "is not a coefficient model; give SuFan"),
     "an unknown name": ("sufan", r"'sufan': is not a known coefficient model; did you mean su-fan\?"),
 }
@@ -225,7 +228,7 @@ def test_what_is_none_is_refused_at_every_door(what):
         lambda: wb.FlightModel(PIGEON.vehicle, given),
         lambda: wb.glide_polar(PIGEON, given),
         lambda: wb.aero.BladeElement(given),
-        lambda: film.problem(PIGEON, 10.0, aero=given),
+        lambda: wb.filmed_problem(film, PIGEON, 10.0, aero=given),
     ):
         with pytest.raises(wb.InvalidInputError, match=words):
             door()

@@ -270,7 +270,7 @@ def test_an_infeasible_problem_exits_with_3(
     assert main(["show", str(tmp_path / "orbit.nc")]) == 0
     shown = capsys.readouterr().out
     assert shown.startswith("not certified, infeasible: no orbit within the bounds")
-    assert re.search(r"short of an orbit.*\n +thrust +\S+ N, \d+ % of the weight", shown)
+    assert re.search(r"unbalanced at the closest.*\n +thrust +\S+ N, \d+ % of the weight", shown)
     assert re.search(r"either +upper bound of flap amplitude 6 -> 20", shown)
 
 

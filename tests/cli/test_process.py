@@ -49,7 +49,7 @@ def test_python_m_is_the_program():
         ("WB species >/dev/full", 1, "error: cannot write to standard output: no space left on device\n"),
         ("WB --help >/dev/full", 1, "error: cannot write to standard output: no space left on device\n"),
         ("WB species --json >&-", 1, "error: cannot write to standard output: bad file descriptor\n"),
-        ("WB species pigon >&-", 2, "error: species = 'pigon': is not in the box; did you mean pigeon; or"),
+        ("WB species pigon >&-", 2, "error: species = 'pigon': is not a built-in species; did you mean pigeon; or"),
         ("WB species 2>&- | tail -1; exit ${PIPESTATUS[0]}", 0, ""),
         ("WB specis 2>&-", 2, ""),
         ("WB specis 2>/dev/full", 2, ""),
@@ -270,7 +270,10 @@ def test_running_out_of_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, caps
 
     monkeypatch.setattr("wingbeat.cli.app._run", run)
     assert main(["orbit"]) == 1
-    assert capsys.readouterr().err == "error: there is not enough memory; close other programs or ask for less\n"
+    assert (
+        capsys.readouterr().err
+        == "error: there is not enough memory; close other programs or choose a smaller problem\n"
+    )
 
 
 # --- arguments ---

@@ -93,7 +93,7 @@ def test_show_prints_the_record(files, orbit, capsys):
         ("body pitch, nose up", f"{np.degrees(record['initial_state']['body_pitch']):.4g} deg"),
         ("hinges, mean", f"{power:.4g} W ({power / mass:.4g} W/kg)"),
         ("cost of transport", f"{record['cost_of_transport']:.4g}"),
-        ("on the bound of", ", ".join(record["active_bounds"])),
+        ("at the bound of", ", ".join(record["active_bounds"])),
         ("stable", "yes" if record["stable"] else "no"),
     ):
         assert re.search(rf"^  {re.escape(label)} +{re.escape(value)} *$", told.out, re.MULTILINE), label
@@ -179,7 +179,7 @@ def test_what_is_undefined_or_absent_is_not_invented(orbit):
     hover["closure"] = dict.fromkeys(hover["closure"])
     text = _printed(hover).export_text()
     assert re.search(r"cost of transport +-", text)
-    assert re.search(r"largest miss when re-flown +lost, in", text)
+    assert re.search(r"largest residual when re-flown +lost, in", text)
     assert "multipliers" not in text
     assert "not certified, not-converged" in _printed({"status": "not-converged"}).export_text()
 
@@ -215,7 +215,7 @@ def test_plot_writes_the_page(files, tmp_path, capsys, name, suffix):
 def test_plot_refuses_the_output(files, tmp_path, capsys, output):
     assert main(["plot", str(files / "orbit.nc"), "-o", str(tmp_path / output)]) == 2
     assert re.match(
-        r"error: (--output = .*: is no kind of figure; end it in|cannot write ')", capsys.readouterr().err
+        r"error: (--output = .*: is not a figure format; end it in|cannot write ')", capsys.readouterr().err
     )
     assert not list(tmp_path.iterdir())
 

@@ -81,7 +81,7 @@ def test_version_and_no_command() -> None:
         (["--jsno"], "error: unknown option '--jsno'; use one of "),
         (["species", "--jsno"], "error: Unknown option: --jsno. Did you mean --json?"),
         (["species", "pigeon", "bat"], "error: "),
-        (["species", "pigon"], "error: species = 'pigon': is not in the box; did you mean pigeon"),
+        (["species", "pigon"], "error: species = 'pigon': is not a built-in species; did you mean pigeon"),
         (["species", "none.toml"], "error: cannot read 'none.toml': no such file or directory"),
         (["species", "--set", "wing.mass=1"], "error: --set = 'no species': needs a species to change"),
         (["species", "pigeon", "--set", "wing.mas=1"], "error: wing.mas = 1.0: is not the path of a number; did"),

@@ -205,7 +205,7 @@ def test_arguments_are_checked(fit):
         fit.lift.covers({"a": 1.0})
     with pytest.raises(InvalidInputError, match="does not take the parameters of start"):
         CurveForm("f", lambda a, m: m * a, {"k": 1.0})
-    with pytest.raises(InvalidInputError, match="gives no finite numbers where the fit begins"):
+    with pytest.raises(InvalidInputError, match="gives no finite numbers at its starting values"):
         fit_curve(ALPHA, ALPHA, CurveForm("m/0", lambda a, m: np.full_like(a, np.inf), {"m": 1.0}))
 
 
@@ -214,7 +214,7 @@ BAD_MODELS = {
     'name = "mine"|name = 3': ["name = 3: must be a text"],
     "alpha_range_deg = [0.0, 110.0]|alpha_range_deg = [110.0, 0.0]\ncolour = 1": [
         "'colour' = '': is not a known key",
-        "alpha_range_deg = [110.0, 0.0]: puts the highest first",
+        "alpha_range_deg = [110.0, 0.0]: has the highest value first",
     ],
     "[drag]|[drug]": ["'drug' = '': is not a known key", "drag.constant = None: must be a number"],
     "rate = |rate_ = ": ["'rate_'", "lift.rate = None: must be a number", "drag.rate = None"],

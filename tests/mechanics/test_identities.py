@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.models import changed
 from tests.helpers.reflight import refly
 from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.equations_of_motion import generalised_torques
@@ -113,7 +114,7 @@ def test_impulse_of_a_beat_is_the_change_of_momentum(solved, reflight):
 def test_another_gravity_leaves_an_impulse_over(bat_orbit):
     """The test above can fail: flown in one gravity, weighed in another."""
     air = dataclasses.replace(bat_orbit.model.air, gravity=9.81 * (1 + 1e-6))
-    model = dataclasses.replace(bat_orbit.model, air=air)
+    model = changed(bat_orbit.model, air=air)
     flown = refly(model, bat_orbit.wingbeat, bat_orbit.start)
     momentum = momenta_at_both_ends(model, bat_orbit.wingbeat, bat_orbit.start, flown.end)[:, 1]
     lift = bat_orbit.wingbeat.frequency * (flown.integrals["force_z"] - np.diff(momentum)[0])
@@ -173,7 +174,7 @@ def test_the_whole_airspeed_multiplies_the_loads_of_a_strip_and_turns_none():
 
 
 def test_an_orbit_of_the_planar_airspeed_does_not_close_with_the_whole(bat_orbit):
-    whole = dataclasses.replace(bat_orbit.model, full_airspeed=True)
+    whole = changed(bat_orbit.model, full_airspeed=True)
     miss = np.abs(refly(whole, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])
     assert 0.01 < miss < 1.0
     same = np.abs(refly(bat_orbit.model, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])

@@ -9,6 +9,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers import oracle
+from tests.helpers.models import changed
 from wingbeat._jax.config import jax
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 
@@ -256,7 +257,7 @@ def test_the_blends_change_nothing_but_coefficients():
 
 def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
     case = cases("bat")[4]
-    planar = dataclasses.replace(case, model=dataclasses.replace(case.model, full_airspeed=False))
+    planar = dataclasses.replace(case, model=changed(case.model, full_airspeed=False))
     wanted, without = prescribed_by_oracle(case), prescribed_by_oracle(planar)
     assert by_row(without["air_power"], wanted["air_power"]) > 1e-3
     assert by_row(prescribed(planar)["air_power"], without["air_power"]) <= TOLERANCE

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import wingbeat as wb
 from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.frames import stroke_pitch, to_world
-from wingbeat.mechanics.wing_motion import beside, mass_points, shape_at, strips_of, wing_motion
+from wingbeat.mechanics.wing_motion import mass_points, shape_at, strips_of, wing_motion, with_time_axes
 
 STRIPS = 8
 VEHICLE = wb.Vehicle(
@@ -47,7 +47,7 @@ class Places(NamedTuple):
 @jax.jit
 def places(vehicle, wingbeat, phase):
     """Place the wing in body axes."""
-    strips = beside(strips_of(vehicle.wing, STRIPS), phase)
+    strips = with_time_axes(strips_of(vehicle.wing, STRIPS), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
 
     def in_body(triple):
@@ -118,7 +118,7 @@ def test_moments_and_their_rates_are_those_of_the_mass_points():
     table, mass = tabulate(VEHICLE, BEAT, PHASES), point_masses(VEHICLE)
     place = points(PHASES)
     velocity = rate(points, BEAT, PHASES)
-    push = rate(lambda p: rate(points, BEAT, p), BEAT, PHASES)
+    acceleration = rate(lambda p: rate(points, BEAT, p), BEAT, PHASES)
 
     def total(values):
         return np.einsum("pkn,n->p", values, mass)
@@ -126,10 +126,14 @@ def test_moments_and_their_rates_are_those_of_the_mass_points():
     for i in range(2):
         close(table.first_moment[i], total(place[..., i]), 1e-14)
         close(table.first_moment_rate[i], total(velocity[..., i]))
-        close(table.first_moment_acceleration[i], total(push[..., i]), 1e-7)
+        close(table.first_moment_acceleration[i], total(acceleration[..., i]), 1e-7)
     close(table.inertia, total(np.sum(place**2, axis=-1)), 1e-14)
     close(table.inertia_rate, total(2 * np.sum(place * velocity, axis=-1)))
-    close(table.swirl, total(place[..., 0] * push[..., 1] - place[..., 1] * push[..., 0]), 1e-7)
+    close(
+        table.acceleration_moment,
+        total(place[..., 0] * acceleration[..., 1] - place[..., 1] * acceleration[..., 0]),
+        1e-7,
+    )
 
 
 def test_rates_of_the_table_are_the_derivatives_of_its_values():
@@ -170,7 +174,7 @@ def test_the_wrist_has_no_effect_without_a_fold():
 def test_still_wings_have_no_rates():
     still = wb.Wingbeat(8.0, 0.15, 0.0, 0.20, 0.0)
     table = tabulate(VEHICLE, still, PHASES)
-    for name in ("flapping_speed", "first_moment_acceleration", "inertia_rate", "swirl"):
+    for name in ("flapping_speed", "first_moment_acceleration", "inertia_rate", "acceleration_moment"):
         assert np.abs(np.asarray(getattr(table, name))).max() < 1e-12
 
 

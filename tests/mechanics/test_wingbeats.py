@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from tests.helpers.differences import differences, miss
+from tests.helpers.models import changed
 from wingbeat._jax.config import jax
 from wingbeat.harmonics import HARMONIC_NAMES
 from wingbeat.kinematics import (
@@ -71,8 +72,8 @@ def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
     model = model_of("bat")
     on = jax.jit(lambda values: motion_table(model, unpack(free, PLAIN, values), PHASES))(values)
     off = table(model, PLAIN, PHASES)
-    assert off.level is off.sweeping_speed is off.tilt is None
-    assert np.all(on.level[0] == 1.0)
+    assert off.unpitched is off.sweeping_speed is off.tilt is None
+    assert np.all(on.unpitched[0] == 1.0)
     for name in (field for field in off._fields if getattr(off, field) is not None):
         for one, other in zip(jax.tree.leaves(getattr(on, name)), jax.tree.leaves(getattr(off, name)), strict=True):
             one = one[:1] if name == "ahead" else one
@@ -168,7 +169,7 @@ def test_a_stroke_plane_is_free_only_where_it_matters():
 def test_tilting_the_stroke_plane_is_turning_the_wing():
     model = model_of("bat")
     wing = dataclasses.replace(model.vehicle.wing, stroke_plane_angle=model.vehicle.wing.stroke_plane_angle + 0.3)
-    turned = dataclasses.replace(model, vehicle=dataclasses.replace(model.vehicle, wing=wing))
+    turned = changed(model, vehicle=dataclasses.replace(model.vehicle, wing=wing))
     tilted = dataclasses.replace(PLAIN, stroke_plane_tilt=0.3)
     state = wb.State(0.0, 0.0, 0.2, 8.0, 0.5, 1.0)
     phases = np.array([0.1, 0.6])

@@ -323,9 +323,9 @@ def test_on_the_command_line(capsys):
     command = ["orbit", "pigeon", "--speed", "10", "--starts", "1", "--minimise", "positive-power"]
     assert main([*command, "--subject-to", "frequency<=16", "body_pitch_range<=40 deg"]) == 0
     printed = " ".join(capsys.readouterr().out.split())
-    assert "made least mean positive power, 39.5" in printed
-    assert "kept to frequency<=16 16" in printed
-    assert "on the bound of frequency<=16" in printed
+    assert "minimised mean positive power, 39.5" in printed
+    assert "constraint frequency<=16 16" in printed
+    assert "at the bound of frequency<=16" in printed
     assert main([*command, "--subject-to", "beauty>=1"]) == 2
     assert "beauty" in capsys.readouterr().err
 

@@ -72,7 +72,7 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     assert (
         f"`wingbeat paper assumptions --sets 3 --seed 4 --piece 2` (numerical version {NUMERICAL_VERSION})" in page
     )
-    assert "The orbits took 0.0 core-hours, 3.50 s a set." in page
+    assert "The orbits took 0.0 core-hours, 3.50 s per set." in page
     certified = sum(int(row.split(",")[len(ASSUMPTIONS)]) for row in joined[1:])
     assert f"{100 * certified / 42:.0f} % of them were found and certified" in page
 
@@ -105,11 +105,11 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
 
 def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert main([*SAMPLE, "--only", "2", "-o", str(tmp_path)]) == 0
-    assert "1 of 2 pieces are done; the page is of these" in " ".join(capsys.readouterr().err.split())
+    assert "1 of 2 pieces are done; the page covers these" in " ".join(capsys.readouterr().err.split())
     page = (tmp_path / "assumptions.md").read_text()
     assert "--piece 2`, of which 1 of 2 pieces are done (numerical" in page
-    assert "Here 1 sets of assumptions" in page
-    assert "s a set." in page
+    assert "Here we use 1 sets of assumptions" in page
+    assert "s per set." in page
     last = (whole / "assumptions.csv").read_text().splitlines()
     assert (tmp_path / "assumptions.csv").read_text().splitlines() == [last[0], last[-1]]
     shutil.copy(whole / "pieces" / "piece-0001-of-0002.csv", tmp_path / "pieces")
@@ -135,11 +135,11 @@ def test_another_sample_in_the_folder_is_refused(whole, tmp_path, monkeypatch, c
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        (lambda text: text[: len(text) // 2], "remove it, and it will be run again"),
-        (lambda text: "", "remove it, and it will be run again"),
+        (lambda text: text[: len(text) // 2], "remove it to run it again"),
+        (lambda text: "", "remove it to run it again"),
         (lambda text: text.replace('"seed": 4', '"seed": 5'), "is of another sample"),
         (lambda text: text.replace('"number": 1', '"number": 2'), "another piece"),
-        (lambda text: text.replace("wing_mass_share", "share"), "its columns are not ours"),
+        (lambda text: text.replace("wing_mass_share", "share"), "its columns do not match"),
     ],
 )
 def test_a_spoilt_or_foreign_piece_is_refused(whole, tmp_path, capsys, spoil, said):

@@ -66,7 +66,7 @@ def percent(share):
 
 
 def short(number, digits=2):
-    return f"{number:.{digits}f}".removeprefix("0")
+    return f"{number:.{digits}f}"
 
 
 def named(table, name):
@@ -82,8 +82,8 @@ def extension_of(sets, model):
 
 def question(sets, holds):
     head = (DOCS / "assumptions.md").read_text()
-    told = (r"version (\d+)\)", r"took ([\d.]+) core-hours", r"with (\d+) searches an orbit")
-    version, hours, searches = (re.search(pattern, head).group(1) for pattern in told)
+    told = (r"version (\d+)\)", r"took ([\d.]+) core-hours", r"with (\d+) starts per orbit")
+    version, hours, starts = (re.search(pattern, head).group(1) for pattern in told)
     low, high = (spaced(int(reynolds)) for reynolds in REYNOLDS_FITTED)
     plate, fly = (load_coefficients(model, "signed") for model in ("su-fan", "dickinson"))
     plain = [load_coefficients(model) for model in ("su-fan", "dickinson")]
@@ -93,15 +93,15 @@ def question(sets, holds):
     )
     return [
         "(arXiv 2302.09602)",
-        f"on a plate at Reynolds numbers of {low} to {high}, once",
-        f"So we draw {spaced(len(sets))} choices",
+        f"on a plate at Reynolds numbers of {low} to {high} with",
+        f"We therefore draw {spaced(len(sets))} sets of assumptions",
         f"which of {holds.shape[1]} claims",
         f"`wingbeat paper assumptions --sets {len(sets)} --piece {PIECE}` (numerical version {version}, {hours} "
         "core-hours)",
-        f"from {WORDS[int(searches)]} searches, one of them handed on along speed",
-        f"at -40 degrees the plate then has {signed} in place of {mirrored}, Dickinson's wing {other} in place of "
-        f"{own}",
-        f"where it explains under {100 * TRUSTED:.0f} % we make none",
+        f"the lowest of {WORDS[int(starts)]} starts, one of them from the previous speed",
+        f"at -40 degrees the plate then has {signed} instead of {mirrored}, and Dickinson's wing {other} instead "
+        f"of {own}",
+        f"where the surface explains under {100 * TRUSTED:.0f} % we make none",
         f"(bat, {SAMPLE_SPEED:g} m/s)",
     ]
 
@@ -112,30 +112,30 @@ def shares(sets, holds):
     (slow, fast), speed, orbits = PAPER_BAT_SPEEDS, f"{SAMPLE_SPEED:g} m/s", ORBITS * len(sets)
     within = f"{PAPER_PITCH_RANGE_DEG['su-fan']:g} degrees"
     return [
-        f"{percent(sets.certified.sum() / orbits)} % of the {spaced(orbits)} orbits asked for",
+        f"Of the {spaced(orbits)} orbits needed, {percent(sets.certified.sum() / orbits)} % were found",
         f"in {of['lower-power']} % of {spaced(told['lower-power'])} sets",
         *(f"in {of[name]} % of {spaced(told[name])} sets" for name in named(holds, "pigeon-closer-at-speed")),
-        f"At 3/4 span the plate's angles of attack are the smaller: {of['smaller-alpha-3-of-4']} %",
-        f"the hand meets the air at the larger angle: {of['hand-alpha']} %",
-        f'"The arm lifts", more than the hand does: {of["arm-lifts"]} %',
-        f"The bat with plate coefficients pitches within {within} in a beat: {of['pitch-range-su-fan']} %",
+        f"At 3/4 span the plate's angles of attack are smaller: in {of['smaller-alpha-3-of-4']} %",
+        f"The hand has the larger angle of attack: in {of['hand-alpha']} %",
+        f'"The arm lifts" more than the hand: in {of["arm-lifts"]} %',
+        f"The bat with plate coefficients pitches within {within} in a wingbeat: in {of['pitch-range-su-fan']} %",
         *_less_pitching(of),
-        f'"Almost twice the frequency" (bat near {speed}): {of["twice-the-frequency"]} %',
-        f'"Four times the power": {of["four-times"]} %',
-        f"The plate's peak of {PAPER_PEAK_POWER['su-fan']:g} W: {of['peak-power-su-fan']} %",
-        f"Dickinson's {PAPER_PEAK_POWER['dickinson']:g} W: {of['peak-power-dickinson']} %",
-        f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: {of['bat-agrees']} %",
-        f"does not change with speed: {of['bat-invariant']} %",
-        f"with the plate: {of['smaller-horizontal-force']} and {of['smaller-vertical-force']} %",
-        f"angles at 1/4 span smaller: {of['smaller-alpha-1-of-4']} %",
+        f'"Almost twice the frequency" (bat near {speed}): in {of["twice-the-frequency"]} %',
+        f'"Four times the power": in {of["four-times"]} %',
+        f"The plate's peak of {PAPER_PEAK_POWER['su-fan']:g} W: in {of['peak-power-su-fan']} %",
+        f"Dickinson's {PAPER_PEAK_POWER['dickinson']:g} W: in {of['peak-power-dickinson']} %",
+        f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: in {of['bat-agrees']} %",
+        f"does not change with speed: in {of['bat-invariant']} %",
+        f"with the plate: in {of['smaller-horizontal-force']} and {of['smaller-vertical-force']} %",
+        f"Angles at 1/4 span are smaller: in {of['smaller-alpha-1-of-4']} %",
         f"With {spaced(told.min())} to {spaced(told.max())} sets behind each share",
     ]
 
 
 def _less_pitching(of):
     if "less-pitching" in of:
-        return [f"for both animals: {of['less-pitching']} %"]
-    return [f"the {animal}'s: {of[f'less-pitching-{animal}']} %" for animal in ("pigeon", "bat")]
+        return [f"for both animals: in {of['less-pitching']} %"]
+    return [f"the {animal}'s: in {of[f'less-pitching-{animal}']} %" for animal in ("pigeon", "bat")]
 
 
 def always_or_never(sets, holds):
@@ -145,7 +145,7 @@ def always_or_never(sets, holds):
     return [
         f"in all but {WORDS[broken]} of the {spaced(told.sum())} sets that have both orbits",
         f"The lowest peak is {sets['measured-power-below'].min():.0f} W",
-        f"under {BATS_NEED:g} W, lies below what either model gives: in all {spaced(told.sum())} sets",
+        f"under {BATS_NEED:g} W, is below that of both models: in all {spaced(told.sum())} sets",
         f"half of the sets have a ratio below {short(sets['lower-power'].median())}",
         *(phrase for name in named(holds, "pigeon-closer-at-speed") for phrase in _exceptions(sets, holds, name)),
         *(phrase for name in named(holds, "pigeon-agrees") for phrase in _never(sets, holds, name)),
@@ -157,16 +157,16 @@ def always_or_never(sets, holds):
 def _exceptions(sets, holds, name):
     missed = sets[holds[name] == 0]
     no_flap = ~missed.trims.isin(["flap-mean", "both"])
-    return [f"{no_flap.sum()} of the {len(missed)} exceptions lack a free mean flap angle"]
+    return [f"{no_flap.sum()} of the {len(missed)} exceptions have no free mean flap angle"]
 
 
 def _never(sets, holds, name):
     off = sets[name].dropna()
     assert holds[name].sum() == 0, "the page says that it never holds"
-    nearest = f"The nearest of {spaced(len(off))} sets is off by {percent(off.min())} % on average"
+    nearest = f"The closest of {spaced(len(off))} sets deviates by {percent(off.min())} % on average"
     return [
         f"Above {SAMPLE_SPEED:g} m/s the pigeon's computed frequency",
-        f"{nearest}, half of them by {percent(off.median())} % or more",
+        f"{nearest}; half of them deviate by {percent(off.median())} % or more",
     ]
 
 
@@ -189,20 +189,21 @@ def under_one_choice(sets, holds):
     one_free = certified[["flap-mean", "pitch-mean"]].round().astype(int)
     constant = trims["bat-invariant"]
     return [
-        f"and {trims['hand-alpha']['both']} % where both mean angles are free",
-        f"{twice['signed-drag']} to {twice['signed']} % of the sets show it",
-        f'or the drag held at its value at 0 ("clipped-drag"), {twice["mirrored"]} and {twice["clipped-drag"]} %',
-        f"With a free mean flap angle alone {trims['twice-the-frequency']['flap-mean']} % do",
-        f"with a free mean pitch angle alone {trims['twice-the-frequency']['pitch-mean']} %",
+        f"and in {trims['hand-alpha']['both']} % if both mean angles are free",
+        f"Of these sets, {twice['signed-drag']} to {twice['signed']} % satisfy the claim",
+        f'If both sides of the wing are equal ("mirrored"), {twice["mirrored"]} % do',
+        f'if the drag keeps its value at 0 ("clipped-drag"), {twice["clipped-drag"]} % do',
+        f"If only the mean flap angle is free, {trims['twice-the-frequency']['flap-mean']} % do",
+        f"if only the mean pitch angle is free, {trims['twice-the-frequency']['pitch-mean']} % do",
         f"({four['mirrored']} % mirrored, {four['signed']} % signed or signed-drag)",
         f"({plate['mirrored']} % mirrored, {others.min()} to {others.max()} % otherwise)",
         f"({fly['clipped-drag']} % clipped, {fly['signed']} to {fly['signed-drag']} % signed)",
-        f"and {trims['bat-agrees']['flap-mean']} % if the mean flap angle is free but the mean pitch is not, "
-        f"{trims['bat-agrees']['none']} % if neither is",
-        f"and {constant['flap-mean']} % if the mean flap angle alone is free, "
-        f"{constant['pitch-mean']} % if it is the pitch",
+        f"in {trims['bat-agrees']['flap-mean']} % if the mean flap angle is free and the mean pitch is not, "
+        f"and in {trims['bat-agrees']['none']} % if neither is free",
+        f"in {constant['flap-mean']} % if only the mean flap angle is free, "
+        f"and in {constant['pitch-mean']} % if only the pitch is",
         f"only {percent(certified['none'] / ORBITS)} % of the orbits were found",
-        f"({one_free.min()} to {one_free.max()} of {ORBITS} where one is free",
+        f"({one_free.min()} to {one_free.max()} of {ORBITS} if one is free",
     ]
 
 
@@ -226,15 +227,15 @@ def together(sets, holds):
     return [
         f"No set satisfies more than {satisfied.max():.0f} of the {holds.shape[1]}",
         f"half satisfy {satisfied.median():.0f} or fewer",
-        f'"Twice the frequency", "pitches within {PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
-        f"are true of the paper's bat at {SAMPLE_SPEED:g} m/s all at once",
-        f"of {each[0]}, {each[1]} and {each[2]} sets that show one of them, "
-        f"{found.sum()} of {spaced(told)} show all {WORDS[len(TRIPLE)]}, each with the force at the centre of "
+        f'The paper\'s bat at {SAMPLE_SPEED:g} m/s has "twice the frequency", "pitches within '
+        f'{PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
+        f"Of {each[0]}, {each[1]} and {each[2]} sets that satisfy one of them, "
+        f"{found.sum()} of {spaced(told)} satisfy all {WORDS[len(TRIPLE)]}, each with the force at the centre of "
         "pressure",
-        f"{WORDS[four.sum()]} of these have four times the power",
+        f"{WORDS[four.sum()]} of these also have four times the power",
         f"{WORDS[free.sum()]} with both mean angles free",
-        f"{WORDS[both.sum()]} the plate's peak power of {plate} and Dickinson's of {fly}",
-        f"{WORDS[(found & ~four & ~both).sum()]} neither; {WORDS[(four & both).sum()]} has both",
+        f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}",
+        f"{WORDS[(found & ~four & ~both).sum()]} has neither, and {WORDS[(four & both).sum()]} has both",
     ]
 
 
@@ -249,10 +250,10 @@ def how_sure(sets, holds):
     assert len(away) == 20
     return [
         f"at most {short(100 * error.max(), 1)} percentage points",
-        f"The nearest to one half, {percent(share[off.idxmin()])} %, lies {WORDS[round(off.min())]} errors off",
-        f"Of the twenty pieces' shares the one furthest from that of the whole lies {away.max():.1f} standard "
-        "errors of a "
-        f"piece away, as the furthest of {away.size} may",
+        f"The share closest to one half, {percent(share[off.idxmin()])} %, is {WORDS[round(off.min())]} standard "
+        "errors",
+        "the shares of the twenty pieces with those of the whole: the largest deviation is "
+        f"{away.max():.1f} standard errors of a piece, as expected for the largest of {away.size}",
     ]
 
 

@@ -104,7 +104,7 @@ def test_a_file_of_a_version_that_judged_nothing_can_be_shown(orbit: wb.Orbit, t
     data.attrs = {name: value for name, value in data.attrs.items() if name != "plausibility"}
     data.to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
     assert main(["show", str(tmp_path / "old.nc")]) == 0
-    assert capsys.readouterr().out.splitlines()[1].strip() == "plausible: not judged: no range is known"
+    assert capsys.readouterr().out.splitlines()[1].strip() == "plausible: unknown: no range is known"
 
 
 def test_hover_and_a_file_without_ranges_say_what_is_not_known() -> None:
@@ -116,7 +116,7 @@ def test_hover_and_a_file_without_ranges_say_what_is_not_known() -> None:
     robot = wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055)
     assert all(known[:2] == (None, None) for known in robot.plausible.values())
     record = {"status": "converged", "closure": {"x": 1e-9}, "plausibility": []}
-    assert statements(record) == ("closes to 1e-09", "plausible: not judged: no range is known", False)
+    assert statements(record) == ("closes to 1e-09", "plausible: unknown: no range is known", False)
 
 
 def test_every_species_has_ranges_with_sources_that_survive_writing(tmp_path: Any) -> None:
@@ -169,7 +169,7 @@ def test_within_plausible_finds_an_orbit_that_is_plausible(capsys: Any) -> None:
     assert all(one["within"] for one in record["plausibility"])
     assert record["wingbeat"]["flap_amplitude"] <= math.radians(52)
     said = statements(record)
-    assert said.plausible == "plausible: yes, where a range is known; none of Strouhal number"
+    assert said.plausible == "plausible: yes; no range is known for Strouhal number"
     assert said.good
 
 

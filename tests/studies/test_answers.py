@@ -119,7 +119,7 @@ def test_the_table_has_the_names_of_the_record(done, tmp_path):
         assert labels == {
             "mean_power": "mean hinge power, both wings",
             "wing.mass": "mass of one wing",
-            "closure.u": "miss of the forward velocity of the body, when re-flown",
+            "closure.u": "residual of the forward velocity of the body when re-flown",
         }
         assert (dataset["speed"].attrs["units"], dataset["mean_power"].attrs["units"]) == ("m s-1", "W")
 

@@ -153,7 +153,7 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     monkeypatch.setenv("STANDIN_LOG", str(study.folder / "log"))
     assert study.run("run", study.file, "--retry-failed", "--allow-failures")[0] == 0
     assert len((study.folder / "log").read_text().split()) == 1
-    assert "4 answers of points that the study no longer asks for are kept" in study.run("status", study.file)[1]
+    assert "4 results of points that are no longer in the study are kept" in study.run("status", study.file)[1]
     study.wait_gone()
 
 
@@ -273,7 +273,7 @@ def test_a_full_disk_is_told_and_what_was_stored_stays(cheap, undisturbed):
     resource.prlimit(driver.pid, resource.RLIMIT_FSIZE, (limit, limit))
     _, err = driver.communicate(timeout=60)
     assert driver.returncode == 2
-    assert "what was stored stays; make room and run the study again" in err
+    assert "stored results remain; free some disk space and run the study again" in err
     assert "Traceback" not in err
     study.wait_gone()
     some = study.points()

@@ -9,13 +9,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
-from wingbeat._jax.elementwise_jvp import by_slopes
+from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.errors import FaultList, InvalidInputError
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, PerStrip, Scalar
+
+
+if TYPE_CHECKING:
+    from wingbeat.aero.coefficients import Kernel
+
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")
@@ -23,7 +31,7 @@ AIRSPEEDS = ("planar", "full")
 
 @dataclass(frozen=True)
 class BladeElement:
-    """How air loads are found: coefficients, number of strips, where the force acts, and which airspeed makes it.
+    """Model of the air loads: coefficients, number of strips, point where the force acts, and airspeed.
 
     Parameters
     ----------
@@ -31,13 +39,13 @@ class BladeElement:
         of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
     force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
-    airspeed : the speed V whose square makes lift and drag: "planar", that across the span, or "full", that of the
-        whole velocity of the strip, as the paper words it. Reynolds numbers of strips are of the same speed.
+    airspeed : the speed V whose square determines lift and drag: "planar", that across the span, or "full", that
+        of the whole velocity of the strip, as in the paper's words. Reynolds numbers of strips use the same speed.
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point or airspeed, or a centre of
-        pressure asked of a model that has none; what `coefficients_of` refuses.
+        pressure with a model that has none; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -64,7 +72,7 @@ class BladeElement:
             faults.add(
                 "aero.force_point",
                 self.force_point,
-                f"needs a centre of pressure, which {self.coefficients.name} has none of",
+                f"needs a centre of pressure, and {self.coefficients.name} has none",
                 "use quarter-chord, or a model that has one",
             )
         faults.raise_if_any()
@@ -86,16 +94,22 @@ class StripForces(NamedTuple):
     strip has without pitch. `speed` is the V of the loads.
     """
 
-    chordwise: Any
-    normal: Any
-    alpha: Any
-    speed: Any
-    lift: Any
-    drag: Any
+    chordwise: PerStrip
+    normal: PerStrip
+    alpha: PerStrip
+    speed: PerStrip
+    lift: PerStrip
+    drag: PerStrip
 
 
 def strip_forces(
-    kernel: Any, density: Any, area: Any, chord_speed: Any, normal_speed: Any, pitch: Any, span_speed: Any = None
+    kernel: Kernel,
+    density: Scalar,
+    area: PerStrip,
+    chord_speed: PerStrip,
+    normal_speed: PerStrip,
+    pitch: PerStrip,
+    span_speed: PerStrip | None = None,
 ) -> StripForces:
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
@@ -118,13 +132,15 @@ def strip_forces(
     )
 
 
-@by_slopes
-def _coefficients(kernel: Any, alpha: Any) -> tuple[Any, Any]:
+@elementwise_jvp
+def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
-@by_slopes
-def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any, *span_speed: Any) -> StripForces:
+@elementwise_jvp
+def _unit_forces(
+    kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
+) -> StripForces:
     """Return the loads of strips where half the density times the area is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
@@ -148,6 +164,6 @@ def _unit_forces(kernel: Any, chord_speed: Any, normal_speed: Any, pitch: Any, *
     )
 
 
-def _wrapped(angle: Any) -> Any:
+def _wrapped(angle: Angles) -> Angles:
     """Return an angle less whole turns, between -pi and pi."""
     return angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))

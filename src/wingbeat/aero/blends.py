@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Scalar
+
 
 Function = Callable[[Any], Any]
 
@@ -14,37 +18,37 @@ Function = Callable[[Any], Any]
 class Jet(NamedTuple):
     """Value, slope and curvature of a function at one point."""
 
-    value: Any
-    slope: Any
-    curvature: Any
+    value: Scalar
+    slope: Scalar
+    curvature: Scalar
 
-    def seen_backwards(self) -> Jet:
+    def mirrored(self) -> Jet:
         """Return the jet of the same curve with its axis reversed."""
         return Jet(self.value, -self.slope, self.curvature)
 
-    def turned_over(self) -> Jet:
+    def negated(self) -> Jet:
         """Return the jet of the negative of the curve."""
         return Jet(-self.value, -self.slope, -self.curvature)
 
 
-def jet_of(function: Function, at: Any) -> Jet:
+def jet_of(function: Function, at: Scalar) -> Jet:
     """Return value, slope and curvature of a function, by automatic differentiation."""
     one = jnp.ones_like(at)
 
-    def value_and_slope(x: Any) -> Any:
+    def value_and_slope(x: Scalar) -> tuple[Scalar, Scalar]:
         return jax.jvp(function, (x,), (one,))
 
     (value, slope), (_, curvature) = jax.jvp(value_and_slope, (at,), (one,))
     return Jet(value, slope, curvature)
 
 
-def even_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
+def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
     """Return the even polynomial, in powers of the squared distance, that has `jet` at distance `width`."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
 
 
-def odd_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
+def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
     """Return the odd polynomial over the distance, in powers of its square, that has `jet` at `width`."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
@@ -54,21 +58,21 @@ def odd_blend(jet: Jet, width: Any) -> tuple[Any, ...]:
     )
 
 
-class Join(NamedTuple):
+class Blend(NamedTuple):
     """A quintic blend between two pieces that share no symmetry: its even and its odd part."""
 
-    even: tuple[Any, ...]
-    odd: tuple[Any, ...]
+    even: tuple[Scalar, ...]
+    odd: tuple[Scalar, ...]
 
     @classmethod
-    def between(cls, left: Jet, right: Jet, width: Any) -> Join:
+    def between(cls, left: Jet, right: Jet, width: Scalar) -> Blend:
         """Return the blend that has `left` at distance -width and `right` at +width."""
-        mirror = left.seen_backwards()
+        mirror = left.mirrored()
         even = Jet(*((r + m) / 2 for r, m in zip(right, mirror, strict=True)))
         odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))
         return cls(even_blend(even, width), odd_blend(odd, width))
 
-    def over(self, value: Any, distance: Any, width: Any) -> Any:
+    def over(self, value: Angles, distance: Angles, width: Scalar) -> Angles:
         """Return `value`, replaced by the blend where the distance is below the width."""
         squared = distance * distance
         blend = horner(self.even, squared) + distance * horner(self.odd, squared)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,14 +11,29 @@ from numpy.typing import ArrayLike, NDArray
 from wingbeat._jax.config import jax
 from wingbeat.errors import Fault, InvalidInputError
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles
+
+
+class Kernel(Protocol):
+    """What the physics asks of a coefficient model: a JAX pytree that gives coefficients at angles in [-pi, pi]."""
+
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
+        """Return C_L and C_D at `alpha` [rad], any shape."""
+        ...
+
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
+        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none."""
+        ...
+
 
 @jax.jit
-def _lift_drag(kernel: Any, alpha: Any) -> Any:
+def _lift_drag(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
 @jax.jit
-def _centre_of_pressure(kernel: Any, alpha: Any) -> Any:
+def _centre_of_pressure(kernel: Kernel, alpha: Angles) -> Angles:
     return kernel.centre_of_pressure(alpha)
 
 
@@ -57,9 +72,18 @@ def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
 class CoefficientModel:
     """Lift, drag and centre of pressure of a wing strip as functions of the angle of attack alone.
 
-    The angle `alpha` is in radians, of any shape and any size; values come back as float64 of that shape.
-    Inside JAX use `kernel`, a pytree whose ``lift_drag(alpha)`` and ``centre_of_pressure(alpha)`` take
-    [-pi, pi] and whose leaves are the model's numbers.
+    Angles are in radians, of any shape and any size; values come back as float64 of that shape. Inside JAX use
+    `kernel`, a pytree whose ``lift_drag(alpha)`` and ``centre_of_pressure(alpha)`` take [-pi, pi] and whose leaves
+    are the model's numbers.
+
+    Attributes
+    ----------
+    name : name of the model.
+    citation : where it comes from.
+    extension : how it reaches every angle, one of `EXTENSIONS`.
+    blend_width_deg : half width of the blends where pieces meet [deg].
+    reynolds_range : chord Reynolds numbers of the measurements, or None.
+    alpha_range_deg : lowest and highest angle of the measurements [deg].
     """
 
     name: str
@@ -71,23 +95,50 @@ class CoefficientModel:
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts."""
+        """Whether the model has a centre of pressure."""
         raise NotImplementedError
 
-    def kernel(self) -> Any:
+    def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this model."""
         raise NotImplementedError
 
     def lift(self, alpha: ArrayLike) -> NDArray[np.float64]:
-        """Return the lift coefficient C_L at `alpha` [rad]."""
+        """Return the lift coefficient C_L at `alpha` [rad].
+
+        Parameters
+        ----------
+        alpha : angle of attack [rad], any shape.
+
+        Raises
+        ------
+        InvalidInputError : no numbers.
+        """
         return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[0]
 
     def drag(self, alpha: ArrayLike) -> NDArray[np.float64]:
-        """Return the drag coefficient C_D at `alpha` [rad]."""
+        """Return the drag coefficient C_D at `alpha` [rad].
+
+        Parameters
+        ----------
+        alpha : angle of attack [rad], any shape.
+
+        Raises
+        ------
+        InvalidInputError : no numbers.
+        """
         return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[1]
 
     def normal(self, alpha: ArrayLike) -> NDArray[np.float64]:
-        """Return the normal force coefficient ``C_N = C_L cos(alpha) + C_D sin(alpha)`` at `alpha` [rad]."""
+        """Return the normal force coefficient ``C_N = C_L cos(alpha) + C_D sin(alpha)`` at `alpha` [rad].
+
+        Parameters
+        ----------
+        alpha : angle of attack [rad], any shape.
+
+        Raises
+        ------
+        InvalidInputError : no numbers.
+        """
         angles = wrapped(alpha)
         lift, drag = at_angles(_lift_drag, self.kernel(), angles)
         return lift * np.cos(angles) + drag * np.sin(angles)
@@ -95,9 +146,13 @@ class CoefficientModel:
     def centre_of_pressure(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the centre of pressure at `alpha` [rad], in chords from the leading edge.
 
+        Parameters
+        ----------
+        alpha : angle of attack [rad], any shape.
+
         Raises
         ------
-        InvalidInputError : the model has none.
+        InvalidInputError : no numbers, or a model without a centre of pressure.
         """
         if not self.has_centre_of_pressure:
             fix = "use su-fan, or a table with the column x_cp"
@@ -105,14 +160,15 @@ class CoefficientModel:
         return at_angles(_centre_of_pressure, self.kernel(), wrapped(alpha))
 
     def moment(self, alpha: ArrayLike, about: float = 0.5) -> NDArray[np.float64]:
-        """Return the moment coefficient ``C_M = C_N (about - x_cp)``, nose-up positive, at `alpha` [rad].
+        """Return the moment coefficient ``C_M = C_N (about - x_cp)``, nose-up positive.
 
         Parameters
         ----------
+        alpha : angle of attack [rad], any shape.
         about : the axis, in chords from the leading edge.
 
         Raises
         ------
-        InvalidInputError : the model has no centre of pressure.
+        InvalidInputError : no numbers, or a model without a centre of pressure.
         """
         return self.normal(alpha) * (about - self.centre_of_pressure(alpha))

@@ -21,13 +21,17 @@ held as an even and an odd part in the distance, so a mirrored coefficient is ex
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
-from wingbeat._jax.exported import stored
-from wingbeat.aero.blends import Function, Jet, Join, even_blend, jet_of, odd_blend
+from wingbeat._jax.exported import exported
+from wingbeat.aero.blends import Blend, Function, Jet, even_blend, jet_of, odd_blend
 from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Scalar
+
 
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
 MAX_BLEND_WIDTH_DEG = 3.0
@@ -40,15 +44,15 @@ class Pieces(Protocol):
     Without a centre of pressure `centre` gives NaN, so that models with and without are the same pytree.
     """
 
-    def lift(self, alpha: Any) -> Any:
+    def lift(self, alpha: Angles) -> Angles:
         """Return C_L."""
         ...
 
-    def drag(self, alpha: Any) -> Any:
+    def drag(self, alpha: Angles) -> Angles:
         """Return C_D."""
         ...
 
-    def centre(self, alpha: Any) -> Any:
+    def centre(self, alpha: Angles) -> Angles:
         """Return x_cp in chords from the leading edge."""
         ...
 
@@ -69,9 +73,9 @@ def check_extension(faults: FaultList, extension: Any, blend_width_deg: Any) -> 
 class SignedPatch(NamedTuple):
     """The formula at the signed angle, laid over the mirrored coefficient for -90 < a < 0."""
 
-    at_minus_right: Join
+    at_minus_right: Blend
 
-    def over(self, value: Any, piece: Function, alpha: Any, width: Any) -> Any:
+    def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
         """Return the patched coefficient; no blend at 0, where one formula runs through."""
         inside = (alpha > -RIGHT_ANGLE) & (alpha < width)
         value = jnp.where(inside, piece(jnp.where(inside, alpha, 0.0)), value)
@@ -81,11 +85,11 @@ class SignedPatch(NamedTuple):
 class ClippedPatch(NamedTuple):
     """A constant, laid over the mirrored coefficient for a < 0."""
 
-    level: Any
-    at_zero: Join
-    at_half_turn: Join
+    level: Scalar
+    at_zero: Blend
+    at_half_turn: Blend
 
-    def over(self, value: Any, piece: Function, alpha: Any, width: Any) -> Any:
+    def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
         """Return the patched coefficient."""
         value = self.at_zero.over(jnp.where(alpha < 0, self.level, value), alpha, width)
         return self.at_half_turn.over(value, alpha - jnp.where(alpha < 0, -math.pi, math.pi), width)
@@ -99,7 +103,7 @@ class Ends(NamedTuple):
     patch: SignedPatch | ClippedPatch | None
 
 
-def _fold(alpha: Any) -> tuple[Any, Any]:
+def _fold(alpha: Angles) -> tuple[Angles, Angles]:
     """Return the angle less whole half turns, in [-90, 90] degrees, and how many were taken off."""
     turns = jnp.round(alpha * (1 / math.pi))
     return alpha - turns * math.pi, turns
@@ -111,13 +115,13 @@ class ExtendedKernel(NamedTuple):
     A pytree whose leaves are all its numbers, so that models of one form share one compiled function.
     """
 
-    pieces: Any
-    width: Any
+    pieces: Pieces
+    width: Scalar
     lift: Ends
     drag: Ends
     centre: Ends
 
-    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], any shape."""
         # One fold serves both: mirrored, C_L and C_D repeat every half turn.
         folded, _ = _fold(alpha)
@@ -137,7 +141,7 @@ class ExtendedKernel(NamedTuple):
             drag = self.drag.patch.over(drag, self.pieces.drag, alpha, self.width)
         return lift, drag
 
-    def centre_of_pressure(self, alpha: Any) -> Any:
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
         """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none."""
         folded, turns = _fold(alpha)
         acute = jnp.where(folded < 0, -1.0, 1.0) * folded
@@ -154,39 +158,39 @@ class ExtendedKernel(NamedTuple):
         return centre
 
 
-def _patch(piece: Function, behind: Jet, width: Any, extension: str, name: str, signed: tuple[str, ...]) -> Any:
+def _patch(piece: Function, behind: Jet, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Any:
     """Return what `extension` lays over one mirrored coefficient; `behind` is its jet beyond -90 degrees."""
     if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
-        return SignedPatch(Join.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))
+        return SignedPatch(Blend.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))
     if extension == "clipped-drag" and name == "drag":
         zero = jnp.zeros_like(width)
         level = Jet(piece(zero), zero, zero)
         front = jet_of(piece, width)
-        joins = Join.between(level, front, width), Join.between(front.seen_backwards(), level, width)
+        joins = Blend.between(level, front, width), Blend.between(front.mirrored(), level, width)
         return ClippedPatch(level.value, *joins)
     return None
 
 
-@stored(static=("extension", "signed"))
-def _extended(pieces: Pieces, width: Any, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+@exported(static=("extension", "signed"))
+def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     def ends(name: str) -> Ends:
         piece = getattr(pieces, name)
         zero, right = jet_of(piece, width), jet_of(piece, RIGHT_ANGLE - width)
-        backwards = right.seen_backwards()
+        backwards = right.mirrored()
         blend_zero, blend_right, behind = even_blend(zero, width), even_blend(backwards, width), right
         if name == "lift":
-            blend_zero, blend_right = odd_blend(zero, width), odd_blend(backwards.turned_over(), width)
+            blend_zero, blend_right = odd_blend(zero, width), odd_blend(backwards.negated(), width)
         if name == "centre":
             # About 90 degrees it is x_cp - 1/2 that is odd.
-            about_half = backwards.turned_over()
+            about_half = backwards.negated()
             blend_right = odd_blend(about_half._replace(value=about_half.value + 0.5), width)
-            behind = right.turned_over()._replace(value=1.0 - right.value)
+            behind = right.negated()._replace(value=1.0 - right.value)
         return Ends(blend_zero, blend_right, _patch(piece, behind, width, extension, name, signed))
 
     return ExtendedKernel(pieces, width, ends("lift"), ends("drag"), ends("centre"))
 
 
-def extend(pieces: Any, blend_width_deg: Any, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+def extend(pieces: Pieces, blend_width_deg: Scalar, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     """Return the kernel of coefficients extended to every angle.
 
     Parameters

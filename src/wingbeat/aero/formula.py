@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Scalar
+
 
 _DEG = 180 / math.pi
 GRADES = ("A", "B")
@@ -19,17 +23,17 @@ GRADES = ("A", "B")
 class Wave(NamedTuple):
     """``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)``, a in radians."""
 
-    constant: Any
-    amplitude: Any
-    rate: Any
-    phase: Any
-    decay_amplitude: Any
-    decay_rate: Any
+    constant: Scalar
+    amplitude: Scalar
+    rate: Scalar
+    phase: Scalar
+    decay_amplitude: Scalar | None
+    decay_rate: Scalar | None
 
-    def __call__(self, alpha: Any) -> Any:
+    def __call__(self, alpha: Angles) -> Angles:
         """Return the coefficient at `alpha` [rad]; without an exponential term any angle will do."""
         value = self.constant + self.amplitude * sin(self.rate * alpha + self.phase)
-        if self.decay_amplitude is None:
+        if self.decay_amplitude is None or self.decay_rate is None:
             return value
         return value + self.decay_amplitude * jnp.exp(-self.decay_rate * alpha)
 
@@ -37,13 +41,13 @@ class Wave(NamedTuple):
 class PowerLaw(NamedTuple):
     """``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``, a in radians > 0."""
 
-    constant: Any
-    power_amplitude: Any
-    exponent: Any
-    decay_amplitude: Any
-    decay_rate: Any
+    constant: Scalar
+    power_amplitude: Scalar
+    exponent: Scalar
+    decay_amplitude: Scalar
+    decay_rate: Scalar
 
-    def __call__(self, alpha: Any) -> Any:
+    def __call__(self, alpha: Angles) -> Angles:
         """Return the centre of pressure at `alpha` > 0 [rad]."""
         decay = self.decay_amplitude * alpha * jnp.exp(-self.decay_rate * alpha)
         return self.constant + self.power_amplitude * alpha**self.exponent + decay
@@ -108,13 +112,22 @@ class FormulaTerms:
     def at(self, alpha_deg: Any) -> Any:
         """Return the coefficient at angles [deg] by the formula alone: no blend, no extension.
 
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+
         >>> round(float(FormulaTerms(constant=0.1, amplitude=2.0, rate=2.0, phase_deg=0.0).at(45.0)), 12)
         2.1
         """
         return self.in_radians(with_decay=self.decays)(alpha_deg / _DEG)
 
     def in_radians(self, *, with_decay: bool) -> Wave:
-        """Return the same formula of the angle in radians, with an exponential term even if it is nothing."""
+        """Return the same formula with the angle in radians.
+
+        Parameters
+        ----------
+        with_decay : whether to add an exponential term of amplitude 0 where there is none.
+        """
         decay_amplitude, decay_rate = self.decay_amplitude, self.decay_rate
         if decay_amplitude is None or decay_rate is None:
             decay_amplitude = decay_rate = 0.0 if with_decay else None
@@ -129,6 +142,14 @@ class CentreTerms:
     """The terms of the centre of pressure, in chords from the leading edge, with the angle a in degrees.
 
     ``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``
+
+    Parameters
+    ----------
+    constant : in chords.
+    power_amplitude : in chords.
+    exponent : exponent of the angle, > 0.
+    decay_amplitude : [1/deg].
+    decay_rate : [1/deg], 0 or more.
 
     Raises
     ------
@@ -152,6 +173,10 @@ class CentreTerms:
     def at(self, alpha_deg: Any) -> Any:
         """Return the centre of pressure at angles >= 0 [deg] by the formula alone: no blend, no extension.
 
+        Parameters
+        ----------
+        alpha_deg : angle of attack, 0 or more [deg], any shape.
+
         >>> round(float(CentreTerms(0.2, 0.1, 0.5, decay_amplitude=0.0, decay_rate=0.0).at(4.0)), 12)
         0.4
         """
@@ -169,7 +194,7 @@ def _check_range(faults: FaultList, where: str, limits: Any) -> None:
     if not isinstance(limits, tuple) or len(limits) != 2:
         faults.add(where, limits, "must be a pair", "give (lowest, highest)")
     elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
-        faults.add(where, limits, "must not fall", "give (lowest, highest)")
+        faults.add(where, limits, "must not decrease", "give (lowest, highest)")
 
 
 @register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension"))
@@ -219,7 +244,7 @@ class FormulaCoefficients(CoefficientModel):
         _check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
-            rule = "evaluates the drag formula at negative angles, where its exponential term runs away"
+            rule = "evaluates the drag formula at negative angles, where its exponential term diverges"
             faults.add("extension", self.extension, rule, "use mirrored")
         faults.raise_if_any()
 
@@ -229,7 +254,7 @@ class FormulaCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts."""
+        """Whether the model has a centre of pressure."""
         return self.centre_terms is not None
 
     def kernel(self) -> ExtendedKernel:

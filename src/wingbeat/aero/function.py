@@ -7,7 +7,7 @@ import math
 import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jax.extend.core import jaxpr_as_fun
@@ -16,9 +16,13 @@ from wingbeat._jax.config import jax, jnp, unchecked
 from wingbeat.aero.coefficients import CoefficientModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles
+
+
 _WHERE = "aero.coefficients"
 # A function is looked at every half degree, with 0, +-90 and +-180 degrees among them.
-_LOOKED_AT = np.radians(np.arange(-180.0, 180.5, 0.5))
+_SAMPLE_ANGLES = np.radians(np.arange(-180.0, 180.5, 0.5))
 _TRACEABLE = "write it with jax.numpy in place of numpy or math, and jnp.where in place of if"
 _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
 
@@ -34,11 +38,11 @@ class Program:
         self.name = name
         self._pair = jaxpr_as_fun(traced)
         # The derivatives are part of what it computes: a function may come with rules of its own for them.
-        told = jax.jit(lambda a: (self(a), jax.jacfwd(self)(a), jax.jacfwd(jax.jacfwd(self))(a)))
-        lowered = told.trace(jax.ShapeDtypeStruct((), jnp.float64)).lower(lowering_platforms=("cpu",))
+        differentiated = jax.jit(lambda a: (self(a), jax.jacfwd(self)(a), jax.jacfwd(jax.jacfwd(self))(a)))
+        lowered = differentiated.trace(jax.ShapeDtypeStruct((), jnp.float64)).lower(lowering_platforms=("cpu",))
         self.digest = hashlib.sha256(lowered.as_text().encode()).hexdigest()
 
-    def __call__(self, alpha: Any) -> tuple[Any, Any]:
+    def __call__(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at one angle [rad]."""
         lift, drag = self._pair(jnp.asarray(alpha, jnp.float64))
         return jnp.asarray(lift, jnp.float64), jnp.asarray(drag, jnp.float64)
@@ -69,7 +73,7 @@ def _unpickled(function: Callable[[Any], Any], name: str, digest: str) -> Progra
     """Return the program of a pickle, whose function pickle knows by its name alone."""
     again = _checked(function, name)
     if again.digest != digest:
-        rule = "computes something else than the function that was pickled under this name"
+        rule = "differs from the function that was pickled under this name"
         raise InvalidInputError([Fault(_WHERE, name, rule, "bring back the module it was pickled with")])
     return again
 
@@ -81,13 +85,13 @@ class FunctionKernel:
 
     program: Program
 
-    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], any shape."""
         alpha = jnp.asarray(alpha)
         lift, drag = jax.vmap(self.program)(alpha.ravel())
         return lift.reshape(alpha.shape), drag.reshape(alpha.shape)
 
-    def centre_of_pressure(self, alpha: Any) -> Any:
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
         """Return not-a-number: a function tells no centre of pressure."""
         return jnp.full_like(alpha, math.nan)
 
@@ -96,13 +100,17 @@ class FunctionKernel:
 class FunctionCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a function of the angle of attack.
 
-    The function is traced once, here: what it reads from elsewhere is taken as it is now. It is used as it is at
+    The function is traced once, now; later changes of what it reads have no effect. It is used directly at
     every angle from -pi to pi, without extension or blend.
 
     Parameters
     ----------
     function : JAX-traceable, of one angle alpha in [-pi, pi] [rad]; returns (C_L, C_D).
     name : name of the model, the function's own if not given.
+
+    Attributes
+    ----------
+    program : the function as it was traced.
 
     Raises
     ------
@@ -135,7 +143,7 @@ class FunctionCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts: a function does not."""
+        """Whether the model has a centre of pressure: a function does not."""
         return False
 
     def kernel(self) -> FunctionKernel:
@@ -159,7 +167,7 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
     except Exception as error:  # whatever the function raises
         reason = str(error).strip().split("\n")[0][:120]
         faults.add(
-            _WHERE, name, f"is no function that JAX can trace ({type(error).__name__}: {reason})", _TRACEABLE
+            _WHERE, name, f"is not a function that JAX can trace ({type(error).__name__}: {reason})", _TRACEABLE
         )
         faults.raise_if_any()
         raise
@@ -174,12 +182,12 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
         faults.add(_WHERE, name, f"has no derivative in JAX ({_reason(error)})", _TRACEABLE)
         faults.raise_if_any()
         raise
-    values, slopes = jax.jit(jax.vmap(lambda a: jax.jvp(program, (a,), (1.0,))))(_LOOKED_AT)
+    values, slopes = jax.jit(jax.vmap(lambda a: jax.jvp(program, (a,), (1.0,))))(_SAMPLE_ANGLES)
     names = ("C_L", "C_D", "a slope of C_L", "a slope of C_D")
     for what, found in zip(names, (*values, *slopes), strict=True):
         bad = np.flatnonzero(~np.isfinite(found))
         if bad.size:
-            angle = math.degrees(_LOOKED_AT[bad[0]])
+            angle = math.degrees(_SAMPLE_ANGLES[bad[0]])
             rule = f"has {what} of {float(found[bad[0]])} at {angle:g} degrees"
             faults.add(_WHERE, name, rule, "it must be finite and smooth from -pi to pi radians")
     faults.raise_if_any()

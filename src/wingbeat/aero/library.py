@@ -64,7 +64,14 @@ def Dickinson(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Form
 
     Dickinson, Lehmann and Sane 1999, Science 284:1954, doi 10.1126/science.284.5422.1954.
 
-    Parameters and faults are those of `SuFan`.
+    Parameters
+    ----------
+    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
 
     >>> float(round(Dickinson().drag(np.deg2rad(40.0)), 4))
     1.4354
@@ -87,7 +94,15 @@ def Wang2004(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Formu
     """Return ``C_L = 1.2 sin 2a``, ``C_D = 1.4 - 1.0 cos 2a`` (Wang, Birch and Dickinson 2004), second-hand.
 
     From two-dimensional computations at Reynolds numbers near 100; used for falling cards near 1000.
-    Parameters and faults are those of `SuFan`.
+
+    Parameters
+    ----------
+    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
 
     >>> float(round(Wang2004().lift(np.deg2rad(45.0)), 6))
     1.2
@@ -107,7 +122,16 @@ def Wang2004(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Formu
 def WhitneyWood(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
     """Return ``C_L = 1.8 sin 2a``, ``C_D = 1.9 - 1.5 cos 2a`` (Whitney and Wood 2010), second-hand.
 
-    For insect-size robots at Reynolds numbers near 100. Parameters and faults are those of `SuFan`.
+    For robots of the size of insects at Reynolds numbers near 100.
+
+    Parameters
+    ----------
+    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
 
     >>> float(round(WhitneyWood().drag(np.deg2rad(45.0)), 6))
     1.9
@@ -127,7 +151,16 @@ def WhitneyWood(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Fo
 def ParslewCrowther(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
     """Return ``C_L = 1.64 sin 2a``, ``C_D = 1.135 - 1.05 cos 2a`` (Parslew and Crowther 2010), second-hand.
 
-    Meant for bird wings. Parameters and faults are those of `SuFan`.
+    Meant for bird wings.
+
+    Parameters
+    ----------
+    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
 
     >>> float(round(ParslewCrowther().lift(np.deg2rad(45.0)), 6))
     1.64
@@ -144,9 +177,18 @@ def ParslewCrowther(extension: str = "mirrored", blend_width_deg: float = 1.0) -
 
 
 def Byl(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
-    """Return ``C_L = 1.8 sin 2a``, ``C_D = 1.8 (1 - cos 2a)`` (Byl 2010), second-hand: no drag at 0.
+    """Return ``C_L = 1.8 sin 2a``, ``C_D = 1.8 (1 - cos 2a)`` (Byl 2010), second-hand.
 
-    Parameters and faults are those of `SuFan`.
+    Drag vanishes at 0 degrees.
+
+    Parameters
+    ----------
+    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
 
     >>> float(round(Byl().drag(np.deg2rad(45.0)), 6))
     1.8
@@ -167,7 +209,11 @@ LIBRARY: dict[str, Callable[..., FormulaCoefficients]] = {
 
 
 def thin_aerofoil_lift(alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return C_L of a thin aerofoil, ``2 pi alpha`` with `alpha` in radians: a line to compare with.
+    """Return C_L of a thin aerofoil, ``2 pi alpha``: a line to compare with.
+
+    Parameters
+    ----------
+    alpha : angle of attack [rad], any shape.
 
     >>> float(round(thin_aerofoil_lift(0.1), 4))
     0.6283
@@ -176,7 +222,11 @@ def thin_aerofoil_lift(alpha: ArrayLike) -> NDArray[np.float64]:
 
 
 def thin_aerofoil_moment(alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return C_M of a thin aerofoil about mid-chord, ``pi/2 alpha`` with `alpha` in radians.
+    """Return C_M of a thin aerofoil about mid-chord, ``pi/2 alpha``.
+
+    Parameters
+    ----------
+    alpha : angle of attack [rad], any shape.
 
     >>> float(round(thin_aerofoil_moment(0.1), 4))
     0.1571
@@ -186,6 +236,10 @@ def thin_aerofoil_moment(alpha: ArrayLike) -> NDArray[np.float64]:
 
 def ellington_normal_drag(reynolds: ArrayLike) -> NDArray[np.float64]:
     """Return C_D of a plate square to the flow, ``1.95 + 50/Re`` (Ellington 1991, cited by Su et al. 2023).
+
+    Parameters
+    ----------
+    reynolds : Reynolds number, any shape.
 
     >>> float(round(ellington_normal_drag(5e4), 6))
     1.951

@@ -159,7 +159,7 @@ def _pair(
     if not all([faults.number(f"{file}: {key}[{i}]", v, at_least=low, at_most=high) for i, v in enumerate(pair)]):
         return None
     if pair[0] > pair[1]:
-        faults.add(f"{file}: {key}", pair, "puts the highest first", "write [lowest, highest]")
+        faults.add(f"{file}: {key}", pair, "has the highest value first", "write [lowest, highest]")
     return float(pair[0]), float(pair[1])
 
 
@@ -216,7 +216,7 @@ def _covariance(
     scale = np.outer(spread, spread)
     # The correlations, since variances of a phase in degrees and of a rate differ by many powers of ten.
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
-    lame = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
-    if size and (lame or np.linalg.eigvalsh(correlation).min() < -1e-6):
+    invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
+    if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):
         faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy the fit's own")
     return tuple(free), matrix

@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
-from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.coefficients import CoefficientModel, Kernel
 from wingbeat.aero.extension import check_extension, extend
 from wingbeat.aero.table_checks import (
     OPTIONAL,
@@ -24,29 +24,32 @@ from wingbeat.aero.table_checks import (
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Knots, Spline
+
 
 class TablePieces(NamedTuple):
     """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cube."""
 
-    knots: Any
-    lift_spline: Any
-    drag_spline: Any
-    centre_spline: Any
+    knots: Knots
+    lift_spline: Spline
+    drag_spline: Spline
+    centre_spline: Spline
 
-    def _value(self, spline: Any, alpha: Any) -> Any:
+    def _value(self, spline: Spline, alpha: Angles) -> Angles:
         knots, spline = jnp.asarray(self.knots), jnp.asarray(spline)
         segment = jnp.searchsorted(knots[1:-1], alpha, side="right", method="scan_unrolled")
         return horner(tuple(spline[:, segment]), alpha - knots[segment])
 
-    def lift(self, alpha: Any) -> Any:
+    def lift(self, alpha: Angles) -> Angles:
         """Return C_L at `alpha` [rad]."""
         return self._value(self.lift_spline, alpha)
 
-    def drag(self, alpha: Any) -> Any:
+    def drag(self, alpha: Angles) -> Angles:
         """Return C_D at `alpha` [rad]."""
         return self._value(self.drag_spline, alpha)
 
-    def centre(self, alpha: Any) -> Any:
+    def centre(self, alpha: Angles) -> Angles:
         """Return x_cp at `alpha` [rad]; NaN where the table has none."""
         return self._value(self.centre_spline, alpha)
 
@@ -56,11 +59,11 @@ class WholeTurnKernel(NamedTuple):
 
     pieces: TablePieces
 
-    def lift_drag(self, alpha: Any) -> tuple[Any, Any]:
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], any shape."""
         return self.pieces.lift(alpha), self.pieces.drag(alpha)
 
-    def centre_of_pressure(self, alpha: Any) -> Any:
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
         """Return x_cp at `alpha` [rad], any shape; NaN where the table has none."""
         return self.pieces.centre(alpha)
 
@@ -113,7 +116,7 @@ class TableCoefficients(CoefficientModel):
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
-                rule = f"has not the length of alpha_deg, {len(columns['alpha_deg'])}"
+                rule = f"must have the length of alpha_deg, {len(columns['alpha_deg'])}"
                 faults.add(name, f"{len(column)} numbers", rule)
         faults.raise_if_any()
         check_columns(faults, columns, lambda i, name: f"{name}[{i}]")
@@ -135,10 +138,10 @@ class TableCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the table tells where along the chord the force acts."""
+        """Whether the table has a centre of pressure."""
         return self.x_cp is not None
 
-    def kernel(self) -> Any:
+    def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this table."""
         # Slow to import, which the formulas need not pay for.
         from scipy.interpolate import CubicSpline
@@ -176,7 +179,7 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
         if column not in known:
             faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
         elif column in header[:i]:
-            faults.add(where, column, "stands there twice", "keep one")
+            faults.add(where, column, "appears twice", "keep one")
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:

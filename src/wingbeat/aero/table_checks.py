@@ -44,7 +44,9 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
             faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
     for i, drag in enumerate(columns["c_d"]):
         if drag < 0:
-            faults.add(where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "turn its sign")
+            faults.add(
+                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "reverse its sign"
+            )
     if len(angles) < MIN_ROWS:
         rule = f"has fewer than {MIN_ROWS} rows, which is too few for a cubic spline"
         faults.add("rows", len(angles), rule, "measure at more angles")
@@ -60,7 +62,7 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         faults.add(at_last, last, rule, "write alpha_deg in degrees, from 0 to at least 90")
         return
     if last < 90:
-        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure farther")
+        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure at larger angles")
     if first > 0:
         faults.add(at_first, first, "the table must begin at 0 degrees or below", "add a row for 0")
     if is_whole_turn(angles):

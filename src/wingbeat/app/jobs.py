@@ -135,7 +135,7 @@ def _scene(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return what each quantity depends on most, and what the active bounds cost."""
+    """Return what each quantity depends on most, and prices of the active bounds."""
     orbit = orbit_again(what["of"])
     found = sensitivities(orbit)
     rankings = [found.error_bar(name).ranked() for name in found.values]

@@ -103,6 +103,11 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     Each channel is the truth times its start-up ``1 + start exp(-t/1.5)``, plus fluctuations of the flow (a first
     order Markov process), white noise of the cell, and a zero that drifts linearly between the readings given.
 
+    Parameters
+    ----------
+    campaign : what is swept, and the errors.
+    seed : of the random numbers.
+
     >>> small = Campaign(reynolds=(3e4,), alpha_deg=(10.0, 20.0), repeats=2, rate=10.0)
     >>> [run.name for run in synthetic_runs(small)]
     ['re30000_a10_1', 're30000_a10_2', 're30000_a20_1', 're30000_a20_2']
@@ -155,6 +160,11 @@ def _loads(
 
 def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:
     """Write each run as a CSV file that `read_run` reads, labelled as synthetic; return the paths.
+
+    Parameters
+    ----------
+    runs : the records.
+    folder : to write to; it is made if missing.
 
     Raises
     ------

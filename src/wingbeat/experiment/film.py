@@ -39,6 +39,10 @@ class Film:
     frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
     synthetic : whether it was made by a random generator.
 
+    Attributes
+    ----------
+    notes : what a reader should know.
+
     Raises
     ------
     InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat.
@@ -59,7 +63,7 @@ class Film:
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
         if not self.columns or set(self.columns) - set(FILMED):
             shown = ", ".join(self.columns) or "nothing"
-            faults.add(f"{self.name}, columns", shown, "is not what can be filmed", f"any of {', '.join(FILMED)}")
+            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(FILMED)}")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
@@ -71,7 +75,12 @@ class Film:
         object.__setattr__(self, "notes", tuple(notes))
 
     def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return phases and values of the frames in which a column was seen."""
+        """Return phases and values of the frames in which a column was seen.
+
+        Parameters
+        ----------
+        name : of the column.
+        """
         there = np.isfinite(self.columns[name])
         return self.phase[there], self.columns[name][there]
 
@@ -97,11 +106,17 @@ class Film:
             faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
         if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
-            faults.add(where, worst, "is no share of the semi-span", "divide by the semi-span, not in percent")
+            faults.add(
+                where, worst, "is not a fraction of the semi-span", "divide by the semi-span, not in percent"
+            )
         return []
 
     def save(self, path: str | Path) -> None:
         """Write the film as a CSV file that `read_film` reads.
+
+        Parameters
+        ----------
+        path : of the file to write.
 
         Raises
         ------
@@ -124,6 +139,10 @@ def read_film(path: str | Path) -> Film:
     One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
     beside it any of flap_deg, pitch_deg and span_fraction, a cell empty where the wing was not seen.
     Others are refused.
+
+    Parameters
+    ----------
+    path : of the CSV file.
 
     Raises
     ------
@@ -158,7 +177,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         else:
             check_unit(faults, where, unit, units[name])
         names.append(name)
@@ -167,7 +186,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         faults.add(where, ",".join(sheet.header), "must have one of phase and time", "phase in beats, time in s")
     if not set(names) & set(FILMED):
         fix = f"any of {', '.join(FILMED)}"
-        faults.add(where, ",".join(sheet.header), "has nothing that was filmed", fix)
+        faults.add(where, ",".join(sheet.header), "has no filmed column", fix)
     return names
 
 

@@ -42,10 +42,15 @@ def design(phase: Any, order: int) -> Array:
 
 
 class FilmedLaw(NamedTuple):
-    """One column as a Fourier series of the film's phase, in the column's unit.
+    """One column of a film as a Fourier series of the film's phase, in the unit of the column.
 
-    ``coefficients`` are mean, cosine and sine of order 1, of order 2 and so on up to 8; ``residual_sd`` is that of
-    a frame, ``degrees`` how many numbers the spline spends: 3 are a mean and a plain sine.
+    Attributes
+    ----------
+    coefficients : mean, cosine and sine of order 1, of order 2 and so on up to 8, shape (17,).
+    covariance : of the coefficients, shape (17, 17).
+    residual_sd : standard deviation of a frame from the series.
+    degrees : effective number of parameters of the spline; a mean and a plain sine are 3.
+    frames : number of frames.
     """
 
     coefficients: Array
@@ -55,7 +60,12 @@ class FilmedLaw(NamedTuple):
     frames: int
 
     def curve(self, phase: Any) -> tuple[Array, Array]:
-        """Return the series at phases of the film, and its standard error."""
+        """Return the series at phases of the film, and its standard error.
+
+        Parameters
+        ----------
+        phase : phases of the film, shape (n,).
+        """
         columns = design(phase, HIGHEST_ORDER)
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
 
@@ -123,7 +133,13 @@ def _numbers(laws: Mapping[str, Array]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class FilmedBeat:
-    """A wingbeat fitted to a film, law by law; made by `fit_film`."""
+    """A wingbeat fitted to a film, law by law; made by `fit_film`.
+
+    Attributes
+    ----------
+    film : the film.
+    laws : a Fourier series for each column of it.
+    """
 
     film: Film
     laws: dict[str, FilmedLaw]
@@ -166,6 +182,13 @@ class FilmedBeat:
 
 def fit_film(film: Film) -> FilmedBeat:
     """Fit periodic laws to a film.
+
+    Each law is a periodic smoothing spline. The penalty leaves the mean and the first harmonic free. Restricted
+    maximum likelihood chooses its weight.
+
+    Parameters
+    ----------
+    film : one beat, or several alike.
 
     Raises
     ------

@@ -83,7 +83,7 @@ class CurveForm:
     def __post_init__(self) -> None:
         faults = FaultList()
         if not self.start:
-            faults.add("start", self.start, "names no parameter", "give {name: value to begin at}")
+            faults.add("start", self.start, "has no parameters", "give {name: starting value}")
         for name, value in self.start.items():
             faults.number(f"start.{name}", value)
         try:
@@ -98,11 +98,23 @@ class CurveForm:
         return tuple(self.start)
 
     def value(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the curve at `alpha_deg`, shape (n,)."""
+        """Return the curve at given angles, shape (n,).
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        parameters : the free parameters by name.
+        """
         return np.asarray(self.function(alpha_deg, **parameters), dtype=np.float64)
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the derivatives in the parameters, shape (n, parameters), by central differences."""
+        """Return the derivatives in the parameters, shape (n, parameters), by central differences.
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        parameters : the free parameters by name.
+        """
         columns = []
         for name, value in parameters.items():
             step = 6e-6 * max(abs(value), 1e-3)
@@ -111,7 +123,13 @@ class CurveForm:
         return np.column_stack(columns)
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
-        """Return where to begin a fit."""
+        """Return the parameters from which fits begin.
+
+        Parameters
+        ----------
+        alpha_deg, values : the measurements, shape (n,) [deg].
+        weight : of each, one over its standard error, shape (n,).
+        """
         del alpha_deg, values, weight  # a form of the user's own knows its start
         return [self.start]
 
@@ -201,7 +219,14 @@ _CENTRE = BoxForm(
 
 
 class WingForm(NamedTuple):
-    """Curves of lift, drag and centre of pressure; no curve of the centre is None."""
+    """The curves that are fitted to a wing.
+
+    Attributes
+    ----------
+    name : of the form.
+    lift, drag : curves of C_L and C_D.
+    centre : curve of the centre of pressure, or None.
+    """
 
     name: str
     lift: CurveForm

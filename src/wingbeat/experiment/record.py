@@ -96,7 +96,7 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     shape = run.time.shape
     if len(shape) != 1 or shape[0] < MIN_SAMPLES:
         rule = f"must hold at least {MIN_SAMPLES} samples"
-        faults.add(f"{run.name}, time", f"shape {shape}", rule, "record for longer")
+        faults.add(f"{run.name}, time", f"shape {shape}", rule, "record longer")
         return
     for name in COLUMN_UNITS:
         column = getattr(run, name)
@@ -127,6 +127,10 @@ def read_run(path: str | Path) -> LoadCellRun:
     The columns are time, normal_force, tangential_force, moment and alpha_deg, in any order, each with or without
     its unit in brackets; others are left alone. The keys are speed, density, viscosity, chord, span; optional are
     thickness, channel_width, and tare_normal_force, tare_tangential_force, tare_moment = before, after.
+
+    Parameters
+    ----------
+    path : of the CSV file.
 
     Raises
     ------
@@ -176,7 +180,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
             faults.add(where, cell, rule, fix)
             place["alpha_deg"] = k
         elif name in place:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         elif name in COLUMN_UNITS:
             check_unit(faults, f"{where}, {name}", unit, COLUMN_UNITS[name])
             place[name] = k

@@ -29,10 +29,17 @@ _BLOCKED = 0.05
 
 
 class RunMeans(NamedTuple):
-    """Coefficients of one run: mean, standard deviation and standard error of each of `QUANTITIES`, and C_N.
+    """Coefficients of one run.
 
-    `blockage` is the plate's width across the stream over the channel's, 0 where that is not told. x_cp and its
-    errors are NaN where the normal force is too small to divide by.
+    Attributes
+    ----------
+    alpha_deg : angle of attack [deg].
+    reynolds : chord Reynolds number.
+    mean, sd, se : mean, standard deviation and standard error of each of `QUANTITIES`, shape (4,); those of x_cp
+        are NaN where the normal force is too small to divide by.
+    normal, normal_se : C_N and its standard error.
+    blockage : width of the plate across the stream over that of the channel; 0 where that is not known.
+    notes : what a reader should know.
     """
 
     alpha_deg: float
@@ -59,6 +66,7 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
     Parameters
     ----------
     last : length of the window at the end of the record [s]; what is before is transient.
+    run : the record.
 
     Raises
     ------
@@ -94,7 +102,7 @@ def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
         step = run.duration / len(run.time)
         if last > run.duration + step:
             rule = f"is longer than the record of {run.name}, {run.duration:.4g} s"
-            faults.add("last", last, rule, "give a smaller --last, or record for longer")
+            faults.add("last", last, rule, "give a smaller --last, or record longer")
         elif last / step < MIN_SAMPLES - 0.5:
             rule = f"leaves fewer than {MIN_SAMPLES} samples of {run.name}"
             faults.add("last", last, rule, "give a larger --last, or sample faster")
@@ -140,6 +148,11 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
     beyond their own errors, estimated for each coefficient from all points of a Reynolds number together, and 0
     unless it stands out. The standard deviation is that of the samples within runs; x_cp is that of the pooled
     force and moment.
+
+    Parameters
+    ----------
+    runs : the records.
+    last : length of the window at the end of each record [s].
 
     Raises
     ------
@@ -222,5 +235,5 @@ def _notes(means: list[RunMeans]) -> tuple[str, ...]:
     notes = [note for one in means for note in one.notes]
     blockage = max((one.blockage for one in means), default=0.0)
     if blockage > _BLOCKED:
-        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; nothing was corrected")
+        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; no correction was made")
     return tuple(notes)

@@ -26,10 +26,22 @@ class FitRangeWarning(UserWarning):
 
 @dataclass(frozen=True)
 class CurveFit:
-    """A fitted curve: `parameters` by name, their `covariance` in that order, and the data it came from.
+    """A curve fitted to measurements; made by `fit_curve`.
 
-    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so that scatter beyond the standard errors
-    given widens it, as does a form that does not fit. `sigma` are those errors, all one where none were given.
+    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so scatter beyond the given standard errors
+    widens it, and so does a form that does not fit.
+
+    Attributes
+    ----------
+    label : what the quantity is called.
+    form : the curve.
+    parameters : fitted values by name.
+    covariance : of the parameters, in that order, shape (p, p).
+    condition : condition number of the scaled Jacobian; large if parameters cannot be separated.
+    alpha_deg, values : the measurements, shape (n,) [deg].
+    sigma : their standard errors, shape (n,); all one where none were given.
+    weighted : whether errors were given.
+    notes : what a reader should know.
     """
 
     label: str
@@ -86,6 +98,10 @@ class CurveFit:
     def interval(self, confidence: float = 0.95) -> dict[str, tuple[float, float]]:
         """Return the confidence interval of each parameter by Student's t, to first order in the parameters.
 
+        Parameters
+        ----------
+        confidence : between 0 and 1.
+
         Raises
         ------
         InvalidInputError : a confidence not between 0 and 1.
@@ -102,6 +118,11 @@ class CurveFit:
 
         The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41), which stays
         right where the parameters are so correlated that the ellipse of the covariance does not.
+
+        Parameters
+        ----------
+        parameters : by name.
+        confidence : between 0 and 1.
 
         Raises
         ------
@@ -120,21 +141,29 @@ class CurveFit:
         return self._misfit(parameters) <= self.chi_squared * room
 
     def predict(self, alpha_deg: ArrayLike) -> Array:
-        """Return the curve at angles [deg], shape (n,); `FitRangeWarning` outside those it was fitted to."""
+        """Return the curve at given angles, shape (n,).
+
+        Angles outside those of the fit draw a `FitRangeWarning`.
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        """
         a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
         low, high = float(self.alpha_deg.min()), float(self.alpha_deg.max())
         if a.min() < low - 1e-9 or a.max() > high + 1e-9:
-            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used beyond"
+            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used outside that range"
             warnings.warn(text, FitRangeWarning, stacklevel=2)
         return self.form.value(a, self.parameters)
 
     def band(self, alpha_deg: ArrayLike, confidence: float = 0.95, *, of_mean: bool = False) -> Array:
-        """Return the half width of the band about the curve, shape (n,).
+        """Return the half width of the confidence band about the curve, shape (n,).
 
         Parameters
         ----------
-        alpha_deg : angles [deg], shape (n,).
-        of_mean : the band that holds the curve itself, and not a new measurement as precise as those there.
+        alpha_deg : angles of attack [deg], shape (n,).
+        confidence : between 0 and 1.
+        of_mean : the band of the curve itself, rather than that of a new measurement of the same precision.
 
         Raises
         ------
@@ -223,7 +252,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"
-        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a plainer form")
+        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a simpler form")
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
         faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
@@ -251,7 +280,7 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
         x = np.clip([start[name] for name in names], *bounds)
         if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
             faults = FaultList()
-            faults.add(label, form.formula, "gives no finite numbers where the fit begins", "change its start")
+            faults.add(label, form.formula, "gives no finite numbers at its starting values", "change its start")
             faults.raise_if_any()
         tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
         found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
@@ -277,15 +306,15 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
     for name, value in fit.parameters.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
-            notes.append(f"{fit.label}: {name} ran into the limit of its search, {value:g}; the form does not fit")
+            notes.append(f"{fit.label}: {name} reached the limit of its fit, {value:g}; the form does not fit")
     limits = fit.interval()
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
-        text = f"{fit.label}: too uncertain to mean anything: {', '.join(loose)}"
+        text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
         notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
-            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters stand in for one another; "
+            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be separated; "
             "measure over more angles or choose a form with fewer"
         )
     return tuple(notes)

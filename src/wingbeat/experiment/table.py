@@ -86,7 +86,11 @@ class CoefficientTable:
         return columns
 
     def between(self, lowest_deg: float, highest_deg: float) -> CoefficientTable:
-        """Return the rows of angles from lowest to highest [deg].
+        """Return the rows between two angles.
+
+        Parameters
+        ----------
+        lowest_deg, highest_deg : angles of attack [deg], both included.
 
         Raises
         ------
@@ -95,7 +99,7 @@ class CoefficientTable:
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():
             faults = FaultList()
-            rule = f"holds no row, for the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
+            rule = f"holds no row: the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
             faults.add("alpha range", f"{lowest_deg:g} to {highest_deg:g}", rule, "widen it")
             faults.raise_if_any()
 
@@ -109,6 +113,10 @@ class CoefficientTable:
 
     def save(self, path: str | Path) -> None:
         """Write the table as CSV, an empty cell where a quantity is undefined; notes as # lines above it.
+
+        Parameters
+        ----------
+        path : of the file to write.
 
         Raises
         ------
@@ -127,7 +135,11 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     """Read a table of measured coefficients from CSV.
 
     The columns alpha_deg, C_L and C_D are needed; reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
-    read where they stand; others are refused, since a misspelt error would be lost without a word.
+    read if present; others are refused, because a misspelt error column would be lost silently.
+
+    Parameters
+    ----------
+    path : of the CSV file.
 
     Raises
     ------
@@ -163,7 +175,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "radians times 57.29578 are alpha_deg" if "alpha" in name else f"known are {', '.join(_KNOWN)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "stands there twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         check_unit(faults, where, unit, "deg" if name == "alpha_deg" else "")
         names.append(name)
     for name in REQUIRED:
@@ -171,7 +183,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             where = f"{sheet.file} row {sheet.header_row}, column {name}"
             faults.add(where, ",".join(sheet.header), "the column is missing", f"needed are {', '.join(REQUIRED)}")
     if not sheet.rows:
-        faults.add(f"{sheet.file} row {sheet.header_row}", "", "no row of numbers follows", "add the measurements")
+        faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
     return names
 
 

@@ -28,7 +28,18 @@ _STEP_DEG = 1.0
 
 @dataclass(frozen=True)
 class WingFit:
-    """Fitted curves of one wing; `centre` is None where none was measured or asked for."""
+    """Curves fitted to the measurements of one wing; made by `fit_wing`.
+
+    Attributes
+    ----------
+    name : of the model.
+    form : name of the form.
+    citation : where the measurements come from.
+    lift, drag : fits of C_L and C_D.
+    centre : fit of the centre of pressure; None where it was not measured or not asked for.
+    table : the measurements.
+    notes : what a reader should know.
+    """
 
     name: str
     form: str
@@ -57,7 +68,11 @@ class WingFit:
         return None if known is None else (float(known.min()), float(known.max()))
 
     def moment(self, alpha_deg: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return ``C_M = (C_L cos a + C_D sin a)(1/2 - x_cp)`` about mid-chord at angles [deg], shape (n,).
+        """Return ``C_M = (C_L cos a + C_D sin a)(1/2 - x_cp)`` about mid-chord, shape (n,).
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
 
         Raises
         ------
@@ -92,6 +107,11 @@ class WingFit:
     def coefficients(self, extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
         """Return the coefficient model, for flights and orbits.
 
+        Parameters
+        ----------
+        extension : how the formulas reach every angle, one of `EXTENSIONS`.
+        blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+
         Raises
         ------
         InvalidInputError : as in `model`, and what `FormulaCoefficients` refuses.
@@ -100,6 +120,10 @@ class WingFit:
 
     def save(self, path: str | Path) -> None:
         """Write a model file (.toml), or the curves as a table (.csv) for any form; both load as coefficients.
+
+        Parameters
+        ----------
+        path : of the file to write.
 
         Raises
         ------
@@ -138,7 +162,7 @@ class WingFit:
         faults = FaultList()
         if low > 0 or high < 90:
             rule = "does not cover 0 to 90 degrees, which a table model needs"
-            faults.add("alpha range", f"{low:g} to {high:g}", rule, "measure farther, or choose a form of the box")
+            faults.add("alpha range", f"{low:g} to {high:g}", rule, "measure farther, or choose a built-in form")
         faults.raise_if_any()
         alpha = np.arange(0.0, math.floor(high / _STEP_DEG) + 0.5) * _STEP_DEG
         columns = [alpha, *(curve.predict(alpha) for curve in self.curves.values())]
@@ -165,6 +189,7 @@ def fit_wing(
     ----------
     form : "su-fan", "dickinson", "sine-cosine", or curves of your own.
     name, citation : what the model is called, and where the measurements come from.
+    table : the measurements.
 
     Raises
     ------

@@ -8,75 +8,117 @@ right angle.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import cos, sin
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.mechanics.frames import Pair, from_world, to_world
-from wingbeat.mechanics.wing_motion import WingMotion, dot, over_strips, turned
+from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.wing_motion import WingMotion, dot, quarter_turn, sum_over_strips
 from wingbeat.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Pair, PerStrip, Phases, Scalar, Triple
+
+
+if TYPE_CHECKING:
+    from wingbeat.aero.coefficients import Kernel
 
 
 class BodyLoads(NamedTuple):
-    """Air loads on the whole vehicle in stroke axes, wings and body: (forward, up) [N], nose-up moment [N m]."""
+    """Air loads on the whole vehicle, wings and body, in stroke axes.
+
+    Attributes
+    ----------
+    force : forward and up [N].
+    moment : about the body's centre of mass, nose-up positive [N m].
+    """
 
     force: Pair
-    moment: Any
+    moment: Phases
 
 
-def strip_loads(kernel: Any, density: Any, motion: WingMotion, velocity: Pair, pitch_rate: Any) -> StripForces:
-    """Return the loads of the strips of one wing; `velocity` is that of the body in stroke axes.
+def strip_loads(
+    kernel: Kernel, density: Scalar, motion: WingMotion, velocity: Pair, pitch_rate: Phases
+) -> StripForces:
+    """Return the air loads on the strips of one wing.
 
-    The velocity that makes alpha is that of the quarter chord, wherever the force acts. Chord and normal are here
-    those that the strip has without pitch.
+    The velocity of the quarter chord gives the angle of attack, wherever the force acts. Chord and normal are those
+    that the strip has without pitch.
+
+    Parameters
+    ----------
+    kernel : of the coefficient model.
+    density : of the air [kg/m3].
+    motion : of the wing.
+    velocity : of the body in stroke axes, forward and up [m/s].
+    pitch_rate : [rad/s].
     """
     forward_speed, up_speed = velocity[0] - pitch_rate * motion.above, velocity[1] + pitch_rate * motion.ahead
     normal_speed = up_speed * motion.flap_cosine + motion.flapping_speed
     chord_speed = forward_speed
-    if motion.level is not None:
-        chord_speed = dot(motion.level, (forward_speed, up_speed)) + motion.sweeping_speed
+    if motion.unpitched is not None:
+        chord_speed = dot(motion.unpitched, (forward_speed, up_speed)) + motion.sweeping_speed
     span_speed = None
     if motion.span is not None:
-        span_speed = dot(motion.span, (forward_speed, up_speed)) + motion.spanning_speed
+        span_speed = dot(motion.span, (forward_speed, up_speed)) + motion.spanwise_speed
     return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch, span_speed)
 
 
-def strip_moments(kernel: Any, motion: WingMotion, strips: StripForces) -> Any:
-    """Return the moments about the quarter chords of loads at the centre of pressure, leading edge up [N m]."""
+def strip_moments(kernel: Kernel, motion: WingMotion, strips: StripForces) -> PerStrip:
+    """Return the moments of the strips' loads about their quarter chords, leading edge up [N m].
+
+    The loads act at the centre of pressure.
+    """
     across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
     return pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across
 
 
 def wing_loads(
-    kernel: Any,
-    density: Any,
+    kernel: Kernel,
+    density: Scalar,
     motion: WingMotion,
     velocity: Pair,
-    pitch_rate: Any,
+    pitch_rate: Phases,
     at_centre_of_pressure: bool,
 ) -> BodyLoads:
-    """Return the sum of the strips' loads over both wings, stroke axes; `velocity` is that of the body there."""
+    """Return the air loads on both wings, in stroke axes.
+
+    Parameters
+    ----------
+    kernel, density, motion, velocity, pitch_rate : as in `strip_loads`.
+    at_centre_of_pressure : whether loads act at the centre of pressure rather than at the quarter chord.
+    """
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
     across = motion.flap_cosine  # of the span: what of a moment about it is in the plane of symmetry
-    if motion.level is not None:
-        forward, up = strips.chordwise * motion.level[0], up + strips.chordwise * motion.level[1]
-        across = across * motion.level[0]
+    if motion.unpitched is not None:
+        forward, up = (
+            strips.chordwise * motion.unpitched[0],
+            up + strips.chordwise * motion.unpitched[1],
+        )
+        across = across * motion.unpitched[0]
     moment = motion.ahead * up - motion.above * forward
     if at_centre_of_pressure:
         moment = moment + strip_moments(kernel, motion, strips) * across
-    forward, up, moment = (2.0 * over_strips(a) for a in (forward, up, moment))
+    forward, up, moment = (2.0 * sum_over_strips(a) for a in (forward, up, moment))
     return BodyLoads((forward, up), moment)
 
 
-def pressure_offset(kernel: Any, alpha: Any, chord: Any) -> Any:
+def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStrip:
     """Return how far the centre of pressure lies ahead of the quarter chord [m]."""
     return chord * (0.25 - kernel.centre_of_pressure(alpha))
 
 
-def body_drag(drag_area: Any, density: Any, velocity: Pair) -> Pair:
-    """Return the drag of the body at its centre of mass ``-1/2 rho S |v| v`` in the axes of `velocity` [N]."""
+def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair) -> Pair:
+    """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
+
+    Parameters
+    ----------
+    drag_area : S, drag coefficient times frontal area [m2].
+    density : rho [kg/m3].
+    velocity : v [m/s].
+    """
     squared = dot(velocity, velocity)
     moving = squared > 0.0
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
@@ -85,29 +127,37 @@ def body_drag(drag_area: Any, density: Any, velocity: Pair) -> Pair:
 
 
 def accelerations(
-    vehicle: Vehicle, gravity: Any, motion: WingMotion, loads: BodyLoads, attitude: Any, pitch_rate: Any
-) -> tuple[Any, Any, Any]:
-    """Return the body's accelerations (x'', z'') in the world [m/s2] and psi'' [rad/s2].
+    vehicle: Vehicle, gravity: Scalar, motion: WingMotion, loads: BodyLoads, attitude: Phases, pitch_rate: Phases
+) -> Triple:
+    """Return the body's accelerations x'' and z'' in the world [m/s2] and psi'' [rad/s2].
 
-    `attitude` is that of the stroke axes. The three rows are linear in (a, psi''), a the acceleration there:
-    ``M a + psi'' E S = F + M g + psi'^2 S - 2 psi' E S' - S''`` and
-    ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``, S the wings' first moment, I the pitch
-    inertia of body and wings, K the wings' swirl.
+    The three rows are linear in psi'' and the acceleration a in stroke axes: ``M a + psi'' E S = F + M g + psi'^2 S
+    - 2 psi' E S' - S''`` and ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``. S is the wings' first
+    moment, I the pitch inertia of body and wings, K the wings' acceleration moment.
+
+    Parameters
+    ----------
+    vehicle : gives the masses and the body's inertia.
+    gravity : [m/s2].
+    motion : of the wing.
+    loads : air loads in stroke axes.
+    attitude : pitch of the stroke axes from the world's [rad].
+    pitch_rate : psi' [rad/s].
     """
     mass = vehicle.mass
     pull = from_world(attitude, 0.0, -gravity)
-    arm, coriolis = turned(motion.first_moment), turned(motion.first_moment_rate)
-    push_forward, push_up = (
+    arm, coriolis = quarter_turn(motion.first_moment), quarter_turn(motion.first_moment_rate)
+    force_forward, force_up = (
         loads.force[i]
         + mass * pull[i]
         + pitch_rate * (pitch_rate * motion.first_moment[i] - 2.0 * coriolis[i])
         - motion.first_moment_acceleration[i]
         for i in range(2)
     )
-    turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.swirl
+    turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.acceleration_moment
     inertia = vehicle.body.pitch_inertia + motion.inertia
-    pitch_acceleration = (turn - dot(arm, (push_forward, push_up)) / mass) / (inertia - dot(arm, arm) / mass)
-    forward = (push_forward - pitch_acceleration * arm[0]) / mass
-    up = (push_up - pitch_acceleration * arm[1]) / mass
+    pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
+    forward = (force_forward - pitch_acceleration * arm[0]) / mass
+    up = (force_up - pitch_acceleration * arm[1]) / mass
     ax, az = to_world(attitude, forward, up)
     return ax, az, pitch_acceleration

@@ -6,19 +6,23 @@ never on the flight.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from wingbeat._jax.config import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
-from wingbeat.mechanics.wing_motion import Strips, WingShape, beside, shape_at, strips_of
+from wingbeat.mechanics.wing_motion import Strips, WingShape, shape_at, strips_of, with_time_axes
 from wingbeat.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Component, FlapAngles, PerStrip, PerStripBroadcast, Phases
+
 
 # Chordwise place of the leading and the trailing edge from the quarter chord, in chords.
 LEADING, TRAILING = 0.25, -0.75
 
 
-def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int) -> tuple[Any, Any]:
-    """Return where the corners of the left wing's strips are to the left [m].
+def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int) -> tuple[PerStrip, PerStrip]:
+    """Return how far the corners of the left wing's strips lie to the left [m].
 
     Parameters
     ----------
@@ -31,11 +35,11 @@ def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int
     -------
     Leading and trailing corners, inner ones first, shape (2 N, K) each.
     """
-    strips = beside(strips_of(vehicle.wing, count), phase)
+    strips = with_time_axes(strips_of(vehicle.wing, count), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
     half = _half_width(vehicle, wingbeat, shape, phase, count)
 
-    def edge(share: float) -> Any:
+    def edge(share: float) -> PerStrip:
         along = _edge(shape, strips, share)
         return jnp.concatenate([along - half, along + half])
 
@@ -43,9 +47,9 @@ def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int
 
 
 def lateral_corner(
-    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, share: Any, side: Any, phase: Any, count: int
-) -> Any:
-    """Return where given corners are to the left [m], each at a phase of its own: arrays of shape (K,) throughout.
+    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, share: Phases, side: Phases, phase: Phases, count: int
+) -> Phases:
+    """Return how far given corners lie to the left [m], each at its own phase: arrays of shape (K,) throughout.
 
     Parameters
     ----------
@@ -59,26 +63,28 @@ def lateral_corner(
     return _edge(shape, strips, share) + side * _half_width(vehicle, wingbeat, shape, phase, count)
 
 
-def _edge(shape: WingShape, strips: Strips, share: Any) -> Any:
+def _edge(shape: WingShape, strips: Strips, share: Component) -> PerStripBroadcast:
     return shape.left + share * strips.chord * shape.chordwise[1]
 
 
-def _half_width(vehicle: Vehicle, wingbeat: Wingbeat, shape: WingShape, phase: Any, count: int) -> Any:
+def _half_width(
+    vehicle: Vehicle, wingbeat: Wingbeat, shape: WingShape, phase: Phases, count: int
+) -> PerStripBroadcast:
     chordwise, normal = shape.chordwise, shape.normal
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     return 0.5 * width * (normal[2] * chordwise[0] - normal[0] * chordwise[2])
 
 
 def has_room(vehicle: Vehicle) -> bool:
-    """Say whether the shoulder lies beside the plane of symmetry, so that a root that pitches can keep off it.
+    """Say whether the shoulder lies beside the plane of symmetry, so that a pitching root can stay on its side.
 
-    Where the shoulder lies in the plane itself, some corner of the root is across in any stroke. The wing then
-    keeps to its side if neither arm nor hand turns by more than a right angle.
+    Where the shoulder lies in the plane itself, some corner of the root crosses in any stroke. The wing then keeps
+    to its side if neither arm nor hand turns by more than a right angle.
     """
     return bool(vehicle.wing.shoulder[1] != 0.0)
 
 
-def flap_angles(wingbeat: Wingbeat, phase: Any) -> Any:
+def flap_angles(wingbeat: Wingbeat, phase: Phases) -> FlapAngles:
     """Return the flap angles of arm and hand, up positive [rad], shape (2, K)."""
     flap = flap_angle(wingbeat, phase)
     return jnp.stack([flap, flap - fold_angle(wingbeat, phase)])

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces
@@ -26,52 +26,82 @@ from wingbeat.mechanics.wing_points import (
     point_motion,
 )
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases, StripVectors
+
 
 class EquationsOfMotion(NamedTuple):
-    """The terms of the equations of motion; C in Christoffel form: ``D' - 2 C`` is skew for rigid wings."""
+    """The terms of the equations of motion ``D q'' + C q' + h + g``, with any leading axes.
 
-    mass_matrix: Any
-    velocity_matrix: Any
-    time_force: Any
-    gravity_force: Any
+    C is in Christoffel form: ``D' - 2 C`` is skew for rigid wings.
+
+    Attributes
+    ----------
+    mass_matrix : D, shape (..., 5, 5) [kg, kg m, kg m2].
+    velocity_matrix : C, shape (..., 5, 5).
+    time_force : h, of span, fold and sweep that follow time, shape (..., 5) [N, N m].
+    gravity_force : g, shape (..., 5) [N, N m].
+    """
+
+    mass_matrix: CoordinateMatrix
+    velocity_matrix: CoordinateMatrix
+    time_force: Coordinates
+    gravity_force: Coordinates
 
 
 class AirForces(NamedTuple):
-    """Generalised air loads on the five coordinates, their power, and the strips of one wing in the world."""
+    """Air loads of both wings and the body on the five coordinates.
 
-    generalised: Any
-    power: Any
+    Attributes
+    ----------
+    generalised : generalised forces, shape (..., 5) [N, N m].
+    power : of the air loads on all that moves through the air [W], shape (...).
+    strips : loads on the strips of the left wing, shape (..., N).
+    strip_force : force on each strip in the world [N], shape (..., N, 3).
+    strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
+    """
+
+    generalised: Coordinates
+    power: Phases
     strips: StripForces
-    strip_force: Any
-    strip_velocity: Any
+    strip_force: StripVectors
+    strip_velocity: StripVectors
 
 
-def _point_masses(model: FlightModel) -> Any:
+def _point_masses(model: FlightModel) -> PerStrip:
     """Return the mass of each point times two wings [kg], shape (N,): half a strip's mass, twice."""
     return strips_of(model.vehicle.wing, model.strips).mass
 
 
-def _terms(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
+def _terms(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+) -> EquationsOfMotion:
     body, mass = model.vehicle.body, _point_masses(model)
     partial = partial_velocities(model, wingbeat, q, time).mass
-    turning, drifting = bias_accelerations(model, wingbeat, q, q_dot, time)
+    partial_rate, drift_rate = bias_accelerations(model, wingbeat, q, q_dot, time)
     own = jnp.diag(jnp.asarray([body.mass, body.mass, body.pitch_inertia, 0.0, 0.0]))
     down = model.air.gravity * jnp.asarray([0.0, 0.0, 1.0])
     return EquationsOfMotion(
         own + jnp.einsum("n,knai,knaj->ij", mass, partial, partial),
-        jnp.einsum("n,knai,knaj->ij", mass, partial, turning),
-        jnp.einsum("n,knai,kna->i", mass, partial, drifting),
+        jnp.einsum("n,knai,knaj->ij", mass, partial, partial_rate),
+        jnp.einsum("n,knai,kna->i", mass, partial, drift_rate),
         jnp.einsum("n,knai,a->i", mass, partial, down) + jnp.zeros(5).at[1].set(body.mass * model.air.gravity),
     )
 
 
 def air_forces_on(
-    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, motion: PointMotion
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, motion: PointMotion
 ) -> AirForces:
-    """Return the air loads from the motion of the wing points."""
+    """Return the air loads from the motion of the wing points at one instant.
+
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
+    motion : of the wing points.
+    """
     strips = strips_of(model.vehicle.wing, model.strips)
     length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
-    points, velocity = motion.place, motion.velocity.quarter_chord
+    points, velocity = motion.position, motion.velocity.quarter_chord
     span_speed = None
     if model.full_airspeed:
         span_speed = jnp.sum(velocity * jnp.cross(points.normal, points.chordwise), axis=-1)
@@ -85,18 +115,18 @@ def air_forces_on(
         span_speed,
     )
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
-    lever, sliding = motion.partial.quarter_chord, motion.drift.quarter_chord
+    lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
     if model.at_centre_of_pressure:
         ahead = pressure_offset(model.kernel, forces.alpha, strips.chord)[:, None]
         lever = lever + ahead[..., None] * motion.partial.chordwise
-        sliding = sliding + ahead * motion.drift.chordwise
+        drift = drift + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
     drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
     generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
-    sliding_power = 2.0 * jnp.sum(force * sliding)
+    drift_power = 2.0 * jnp.sum(force * drift)
     return AirForces(
         generalised,
-        generalised @ q_dot + sliding_power,
+        generalised @ q_dot + drift_power,
         forces,
         force,
         velocity,
@@ -104,25 +134,40 @@ def air_forces_on(
 
 
 def accelerations_from_torques(
-    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, torques: Any
-) -> Any:
-    """Return q'' (5) when the hinges are driven by torques (flap, pitch) of both wings together [N m]."""
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, torques: Pair
+) -> Coordinates:
+    """Return q'' where torques drive the hinges, at one instant, shape (5,) [m/s2, rad/s2].
+
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
+    torques : of flap and pitch, both wings together [N m].
+    """
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time).generalised
     tau = jnp.concatenate([jnp.zeros(3), jnp.asarray(torques)])
     return jnp.linalg.solve(terms.mass_matrix, tau + air - resistance(terms, q_dot))
 
 
-def resistance(terms: EquationsOfMotion, q_dot: Any) -> Any:
-    """Return ``C q' + h + g``."""
+def resistance(terms: EquationsOfMotion, q_dot: Coordinates) -> Coordinates:
+    """Return ``C q' + h + g``, shape (5,) [N, N m]."""
     return terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
 
 
-def _air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
+def _air_forces(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+) -> AirForces:
     return air_forces_on(model, wingbeat, q, q_dot, time, point_motion(model, wingbeat, q, q_dot, time))
 
 
-def _torque(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any, q_acceleration: Any) -> Any:
+def _torque(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    time: Phases,
+    q_acceleration: Coordinates,
+) -> Coordinates:
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time).generalised
     return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
@@ -130,7 +175,7 @@ def _torque(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: An
 
 @functools.partial(jax.jit, static_argnums=0)
 def _over_axes(
-    function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, time: Any, *vectors: Any
+    function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, time: Phases, *vectors: Any
 ) -> Any:
     """Apply a function of q, q', time and perhaps q'' to arrays with any leading axes."""
     moment, *rows = (jnp.asarray(a, dtype=float) for a in (time, *vectors))
@@ -141,13 +186,17 @@ def _over_axes(
     return jax.tree_util.tree_map(lambda a: a.reshape(*axes, *a.shape[1:]), found)
 
 
-def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> EquationsOfMotion:
-    """Return the terms D, C, h and g of the five-coordinate equations of motion.
+def equations_of_motion(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+) -> EquationsOfMotion:
+    """Return the terms of the five-coordinate equations of motion ``D q'' + C q' + h + g = tau + f_aero``.
+
+    They are those of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), with h for prescribed span, fold and sweep.
 
     Parameters
     ----------
-    model : the flight model, a `FlightModel`.
-    wingbeat : gives span and fold as functions of time, and the twist; its flap and pitch laws do not enter.
+    model : the flight model.
+    wingbeat : gives span, fold and sweep as functions of time, and the twist; its flap and pitch laws do not enter.
     q, q_dot : (x, z, body pitch, flap, root wing pitch) and rates, shape (..., 5) [m, rad; per s].
     time : [s], shape (...).
 
@@ -155,8 +204,6 @@ def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: A
     -------
     EquationsOfMotion : ``mass_matrix`` D and ``velocity_matrix`` C of shape (..., 5, 5), ``time_force`` h and
         ``gravity_force`` g of shape (..., 5); JAX arrays, so that they can be differentiated.
-
-    Su et al. 2023 (doi 10.48550/arXiv.2302.09602), with h for prescribed span and fold.
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -168,7 +215,9 @@ def equations_of_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: A
     return _over_axes(_terms, model, wingbeat, time, q, q_dot)
 
 
-def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> AirForces:
+def air_forces(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+) -> AirForces:
     """Return the generalised air loads f_aero of both wings and the body, and the loads of the strips.
 
     Parameters
@@ -177,15 +226,19 @@ def air_forces(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time:
 
     Returns
     -------
-    AirForces : ``generalised`` f_aero of shape (..., 5) [N, N m]; ``power``, that of the loads on everything that
-        moves through the air [W]; the strips of the left wing.
+    AirForces : ``generalised`` is f_aero, shape (..., 5) [N, N m].
     """
     return _over_axes(_air_forces, model, wingbeat, time, q, q_dot)
 
 
 def generalised_torques(
-    model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, q_acceleration: Any, time: Any
-) -> Any:
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    q_acceleration: Coordinates,
+    time: Phases,
+) -> Coordinates:
     """Return what must act on the coordinates, ``tau = D q'' + C q' + h + g - f_aero``.
 
     Parameters

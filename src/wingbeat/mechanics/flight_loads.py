@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.equations_of_motion import air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
@@ -13,48 +13,83 @@ from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_points import point_motion
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        Coordinates,
+        MassPoints,
+        PerStrip,
+        Phases,
+        PhasesAcceleration,
+        PhasesPair,
+        PhasesStrips,
+        StripVectors,
+    )
+
 
 class Loads(NamedTuple):
-    """Motions, forces, torques and powers along a flight; leading axis phase, strips of the left wing.
+    """Motions, forces, torques and powers along a flight, with the axes of phase first.
 
-    Torques and powers are of both wings together, vectors are (x, y, z) in the world, momenta and energies
-    of the whole vehicle; angular momentum is about the system's centre of mass, nose-up positive.
+    Vectors are in the world; strips are those of the left wing; torques and powers are of both wings together,
+    momenta and energies of the whole vehicle.
+
+    Attributes
+    ----------
+    flap, flap_rate : of the arm, up positive [rad, rad/s].
+    wing_pitch, wing_pitch_rate : at the root, leading edge up positive [rad, rad/s].
+    span_ratio : span over the full span.
+    fold, sweep : angle of the hand below the arm, and of the span ahead of the stroke plane [rad].
+    acceleration : (x'', z'', psi'') of the body [m/s2, m/s2, rad/s2].
+    strip_position, strip_velocity : of the quarter chords [m, m/s], shape (..., N, 3).
+    strip_speed : the speed V of the loads [m/s], shape (..., N).
+    strip_reynolds : Reynolds number of the strip's chord at that speed, shape (..., N).
+    alpha : angle of attack [rad], shape (..., N).
+    lift, drag : of each strip [N], shape (..., N).
+    strip_force : on each strip [N], shape (..., N, 3).
+    air_force : generalised air loads on the five coordinates [N, N m], shape (..., 5).
+    flap_torque, pitch_torque : of the hinges [N m].
+    hinge_power, actuator_power : of the hinges, and of all actuators [W].
+    aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], see `HingeLoads`.
+    air_power : of the air loads on all that moves through the air [W].
+    centre_of_mass : x and z [m], shape (..., 2).
+    momentum : x and z [kg m/s], shape (..., 2).
+    angular_momentum : about the centre of mass, nose-up positive [kg m2/s].
+    kinetic_energy, potential_energy : [J].
     """
 
-    flap: Any
-    flap_rate: Any
-    wing_pitch: Any
-    wing_pitch_rate: Any
-    span_ratio: Any
-    fold: Any
-    sweep: Any
-    acceleration: Any
-    strip_position: Any
-    strip_velocity: Any
-    strip_speed: Any
-    strip_reynolds: Any
-    alpha: Any
-    lift: Any
-    drag: Any
-    strip_force: Any
-    air_force: Any
-    flap_torque: Any
-    pitch_torque: Any
-    hinge_power: Any
-    actuator_power: Any
-    aerodynamic_power: Any
-    inertial_power: Any
-    body_power: Any
-    air_power: Any
-    centre_of_mass: Any
-    momentum: Any
-    angular_momentum: Any
-    kinetic_energy: Any
-    potential_energy: Any
+    flap: Phases
+    flap_rate: Phases
+    wing_pitch: Phases
+    wing_pitch_rate: Phases
+    span_ratio: Phases
+    fold: Phases
+    sweep: Phases
+    acceleration: PhasesAcceleration
+    strip_position: StripVectors
+    strip_velocity: StripVectors
+    strip_speed: PhasesStrips
+    strip_reynolds: PhasesStrips
+    alpha: PhasesStrips
+    lift: PhasesStrips
+    drag: PhasesStrips
+    strip_force: StripVectors
+    air_force: Coordinates
+    flap_torque: Phases
+    pitch_torque: Phases
+    hinge_power: Phases
+    actuator_power: Phases
+    aerodynamic_power: Phases
+    inertial_power: Phases
+    body_power: Phases
+    air_power: Phases
+    centre_of_mass: PhasesPair
+    momentum: PhasesPair
+    angular_momentum: Phases
+    kinetic_energy: Phases
+    potential_energy: Phases
 
 
-@stored
-def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
+@exported
+def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 
     Parameters
@@ -80,8 +115,9 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: An
     return jax.tree_util.tree_map(lambda a: a.reshape(*phase.shape, *a.shape[1:]), found)
 
 
-def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Loads:
-    flap, pitch, sweep = (law(wingbeat, phase) for law in (flap_angle, pitch_angle, sweep_angle))
+def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
+    flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
+    sweep = sweep_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
     body = body_rates(model, motion, pitch_state)[1:]
@@ -94,7 +130,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
     air = air_forces_on(model, wingbeat, q, q_dot, time, points)
     strips = strips_of(model.vehicle.wing, model.strips)
     mass = strips.mass
-    whole = _whole_body(model, q, q_dot, points.place.mass, points.velocity.mass, mass)
+    whole = _whole_body(model, q, q_dot, points.position.mass, points.velocity.mass, mass)
     return Loads(
         flap=flap,
         flap_rate=moved.flap_rate,
@@ -104,7 +140,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
         fold=fold_angle(wingbeat, phase),
         sweep=jnp.zeros_like(flap) if sweep is None else sweep,
         acceleration=body,
-        strip_position=points.place.quarter_chord,
+        strip_position=points.position.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
         strip_reynolds=model.air.reynolds(air.strips.speed, strips.chord),
@@ -119,7 +155,9 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> 
     )
 
 
-def _whole_body(model: FlightModel, q: Any, q_dot: Any, points: Any, velocity: Any, mass: Any) -> dict[str, Any]:
+def _whole_body(
+    model: FlightModel, q: Coordinates, q_dot: Coordinates, points: MassPoints, velocity: MassPoints, mass: PerStrip
+) -> dict[str, Any]:
     """Return centre of mass, momenta and energies of body and both wings."""
     body = model.vehicle.body
     plane = jnp.asarray([0, 2])

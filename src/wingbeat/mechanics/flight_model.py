@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
-from wingbeat._jax.elementwise_jvp import by_slopes
+from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
@@ -15,22 +15,43 @@ from wingbeat.mechanics.frames import from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.vehicle import Air, Vehicle
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Component, Phases, PitchState
+
+
+if TYPE_CHECKING:
+    from wingbeat.aero.coefficients import Kernel
+
+
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
 
 class State(NamedTuple):
-    """The body's state, world axes: place [m], body pitch nose-up [rad], velocity [m/s], pitch rate [rad/s]."""
+    """The body's state in the world, numbers or arrays of one shape.
 
-    x: Any = 0.0
-    z: Any = 0.0
-    body_pitch: Any = 0.0
-    u: Any = 0.0
-    w: Any = 0.0
-    pitch_rate: Any = 0.0
+    Attributes
+    ----------
+    x, z : place, forward and up [m].
+    body_pitch : nose-up positive [rad].
+    u, w : velocity, forward and up [m/s].
+    pitch_rate : [rad/s].
+    """
+
+    x: Component = 0.0
+    z: Component = 0.0
+    body_pitch: Component = 0.0
+    u: Component = 0.0
+    w: Component = 0.0
+    pitch_rate: Component = 0.0
 
 
 def check_state(state: State) -> None:
-    """Raise `InvalidInputError` unless every number of the state is finite."""
+    """Check that every number of a state is finite.
+
+    Raises
+    ------
+    InvalidInputError : some number is not finite.
+    """
     faults = FaultList()
     for name in STATE_NAMES:
         faults.number(f"initial_state.{name}", getattr(state, name))
@@ -68,7 +89,7 @@ class FlightModel:
 
     vehicle: Vehicle
     air: Air
-    kernel: Any
+    kernel: Kernel
     strips: int
     at_centre_of_pressure: bool
     full_airspeed: bool
@@ -87,16 +108,30 @@ class FlightModel:
             object.__setattr__(self, name, value)
 
 
-def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Any, vector: int = 1) -> WingMotion:
-    """Tabulate the wing's motion at the given phases, strips filled up to a multiple of `vector`."""
+def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: int = 1) -> WingMotion:
+    """Tabulate the wing's motion at given phases.
+
+    Parameters
+    ----------
+    model, wingbeat : the wing and how it beats.
+    phase : phases, shape (...).
+    vector : pads the strips to a multiple of this number.
+    """
     return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed)
 
 
-@by_slopes
+@elementwise_jvp
 def air_loads(
-    model_and_motion: tuple[FlightModel, WingMotion], forward: Any, up: Any, pitch_rate: Any
+    model_and_motion: tuple[FlightModel, WingMotion], forward: Phases, up: Phases, pitch_rate: Phases
 ) -> BodyLoads:
-    """Return the air loads on the whole vehicle in stroke axes; `forward` and `up` are its velocity there."""
+    """Return the air loads on the whole vehicle in stroke axes.
+
+    Parameters
+    ----------
+    model_and_motion : the flight model and its table of the wing's motion.
+    forward, up : velocity of the body in stroke axes [m/s].
+    pitch_rate : [rad/s].
+    """
     model, motion = model_and_motion
     wings = wing_loads(
         model.kernel, model.air.density, motion, (forward, up), pitch_rate, model.at_centre_of_pressure
@@ -105,8 +140,17 @@ def air_loads(
     return wings._replace(force=(wings.force[0] + drag[0], wings.force[1] + drag[1]))
 
 
-def body_rates(model: FlightModel, motion: WingMotion, pitch_state: Any) -> Any:
-    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...); place does not enter."""
+def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) -> PitchState:
+    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...) [rad/s, m/s2, m/s2, rad/s2].
+
+    The place of the body does not enter.
+
+    Parameters
+    ----------
+    model : the flight model.
+    motion : its table of the wing's motion.
+    pitch_state : (body_pitch, u, w, pitch_rate), shape (4, ...) [rad, m/s, m/s, rad/s].
+    """
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     # The air feels the pitch state in three ways only, so three derivatives of the loads serve all four.

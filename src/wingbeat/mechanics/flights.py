@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Integrated, Samples, Scalar, StartState, StateVector
+
 
 RTOL = 1e-10
 # The absolute tolerance over the relative one; states are in SI units, near one.
@@ -27,21 +32,40 @@ _IN_A_FLIGHT = 4096
 _VECTOR = 8
 
 
-def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Any, state: Any) -> Any:
-    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), the wing's motion evaluated at this very phase."""
+def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
+    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated at this very phase.
+
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    phase : one phase.
+    state : shape (6,) [m, rad, m/s, rad/s].
+    """
     motion = motion_table(model, wingbeat, phase, _VECTOR)
     return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
 
 
 def integrate(
-    rates: Callable[..., Any], start: Any, times: Any, args: Any, most_steps: int, rtol: Any = RTOL
-) -> Any:
-    """Integrate with Dopri8; return the states at `times`, not-a-number from where it gives up, and its own steps.
-
-    The steps are times and states, as many as there may be, infinite after the last.
+    rates: Callable[..., Any], start: StartState, times: Samples, args: Any, most_steps: int, rtol: Scalar = RTOL
+) -> Integrated:
+    """Integrate with Dopri8.
 
     It steps exactly onto every fourth of the times and takes those between from the integrator's own polynomials:
     stepping onto all takes a third longer, and longer steps fail at the kinks of the loads.
+
+    Parameters
+    ----------
+    rates : of (time, state, args).
+    start : state at the first time, shape (n,).
+    times : increasing, shape (K,).
+    args : passed to `rates`.
+    most_steps : besides those onto the times.
+    rtol : relative tolerance; the absolute one is a hundredth of it.
+
+    Returns
+    -------
+    States at `times`, shape (K, n), not-a-number from where it gives up; times and states of its own steps, as many
+    as there may be, infinite after the last.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
@@ -68,15 +92,21 @@ def integrate(
 
 
 class Steps(NamedTuple):
-    """Where an integrator stepped: phases (M,), and the states there (M, 6), in the order and units of `State`."""
+    """Where an integrator stepped.
+
+    Attributes
+    ----------
+    phase : phases, shape (M,).
+    states : the states there, shape (M, 6), in the order and units of `State`.
+    """
 
     phase: np.ndarray
     states: np.ndarray
 
 
-@stored
-def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any, rtol: Any) -> Any:
-    def rates(phase: Any, state: Any, args: tuple[FlightModel, Wingbeat]) -> Any:
+@exported
+def _fly(model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Samples, rtol: Scalar) -> Integrated:
+    def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat]) -> Any:
         flown, beat = args
         return state_rates(flown, beat, phase, state) / beat.frequency
 
@@ -86,10 +116,19 @@ def _fly(model: FlightModel, wingbeat: Wingbeat, start: Any, phases: Any, rtol: 
 def fly_through(
     model: FlightModel, wingbeat: Wingbeat, state: State, phases: np.ndarray, rtol: float = RTOL
 ) -> tuple[np.ndarray, Steps]:
-    """Fly an initial state with prescribed wings; return the states at phases from 0 on, which may repeat.
+    """Fly an initial state with prescribed wings.
 
-    States are (x, z, body_pitch, u, w, pitch_rate), shape (K, 6); not-a-number from where the integrator gave up.
-    The second is where it stepped.
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    state : at phase 0 [m, rad, m/s, rad/s].
+    phases : from 0 on, shape (K,); they may repeat.
+    rtol : relative tolerance.
+
+    Returns
+    -------
+    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), not-a-number from where the integrator gave up; and
+    where it stepped.
     """
     states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)
     count = int(np.isfinite(at).sum())
@@ -100,7 +139,18 @@ def fly_through(
 def fly_beats(
     model: FlightModel, wingbeat: Wingbeat, state: State, beats: int, samples: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Fly several beats; return ``beats * samples + 1`` phases and the states there, as `fly_through` does."""
+    """Fly several beats with prescribed wings.
+
+    Parameters
+    ----------
+    model, wingbeat, state : as in `fly_through`.
+    beats : number of beats.
+    samples : in each beat.
+
+    Returns
+    -------
+    ``beats * samples + 1`` phases, and the states there as `fly_through` gives them.
+    """
     one_beat = np.linspace(0.0, 1.0, samples + 1)
     current, pieces = state, [np.array([state], dtype=float)]
     for _ in range(beats):
@@ -111,8 +161,10 @@ def fly_beats(
 
 
 @functools.partial(jax.jit, static_argnames=("torques",))
-def _drive(model: FlightModel, wingbeat: Wingbeat, start: Any, times: Any, torques: Any, args: Any) -> Any:
-    def rates(time: Any, state: Any, args: Any) -> Any:
+def _drive(
+    model: FlightModel, wingbeat: Wingbeat, start: StartState, times: Samples, torques: Any, args: Any
+) -> Integrated:
+    def rates(time: Scalar, state: Any, args: Any) -> Any:
         q, q_dot = state[:5], state[5:]
         flown, beat, more = args
         torque = torques(time, more)
@@ -124,17 +176,17 @@ def _drive(model: FlightModel, wingbeat: Wingbeat, start: Any, times: Any, torqu
 def fly_torque_driven(
     model: FlightModel,
     wingbeat: Wingbeat,
-    coordinates: Any,
-    rates: Any,
+    coordinates: ArrayLike,
+    rates: ArrayLike,
     torques: Callable[[Any, Any], Any],
-    times: Any,
+    times: ArrayLike,
     args: Any = None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5).
 
     Raises
     ------
-    InvalidInputError : wrong shapes, not finite, or times that do not increase.
+    InvalidInputError : wrong shapes, numbers that are not finite, or times that do not increase.
     """
     faults = FaultList()
     q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))

@@ -9,29 +9,33 @@ the body. Only the plane of symmetry turns, so in-plane vectors are pairs (forwa
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING
 
 from wingbeat._jax.elementary import cos, sin
 
-Pair = tuple[Any, Any]
-Triple = tuple[Any, Any, Any]
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Component, Pair
 
 
-def to_world(attitude: Any, forward: Any, up: Any) -> Pair:
+def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
     """Turn an in-plane vector into the world (x, z) from axes pitched nose-up by `attitude`."""
     c, s = cos(attitude), sin(attitude)
     return c * forward - s * up, s * forward + c * up
 
 
-def from_world(attitude: Any, x: Any, z: Any) -> Pair:
+def from_world(attitude: Component, x: Component, z: Component) -> Pair:
     """Turn an in-plane vector from the world into axes pitched nose-up by `attitude`."""
     c, s = cos(attitude), sin(attitude)
     return c * x + s * z, c * z - s * x
 
 
-def stroke_pitch(stroke_plane_angle: Any) -> Any:
-    """Return how far stroke axes are pitched nose-up from body axes [rad]; none for a vertical stroke plane.
+def stroke_pitch(stroke_plane_angle: Component) -> Component:
+    """Return how far stroke axes are pitched nose-up from body axes [rad]; 0 for a vertical stroke plane.
 
     Their first axis is ``e_c0 = (sin beta, 0, cos beta)``, their third ``d_up = (-cos beta, 0, sin beta)``.
+
+    Parameters
+    ----------
+    stroke_plane_angle : beta, from the body axis [rad].
     """
     return 0.5 * math.pi - stroke_plane_angle

@@ -11,16 +11,20 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.frames import stroke_pitch
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Coordinates, Scalar
+
 
 TRIMS = ("body-pitch", "flap", "tail")
 # Largest force over weight, and moment over weight times chord, of what counts as balance.
@@ -30,23 +34,37 @@ _STEPS = 12
 
 
 class Posture(NamedTuple):
-    """What a steady glide is made of: speed [m/s] and angles [rad].
+    """What defines a steady glide.
 
-    The path is below the horizontal, the body above the path by their angles; the wing's angle of attack is that of
-    the chord at the root, were the wing not flapped.
+    Attributes
+    ----------
+    speed : along the path [m/s].
+    glide_angle : of the path below the horizontal [rad].
+    body_above_path : angle of the body above the path [rad].
+    flap : flap angle [rad].
+    angle_of_attack : that of the root chord, without flap [rad].
     """
 
-    speed: Any
-    glide_angle: Any
-    body_above_path: Any
-    flap: Any
-    angle_of_attack: Any
+    speed: Scalar
+    glide_angle: Scalar
+    body_above_path: Scalar
+    flap: Scalar
+    angle_of_attack: Scalar
 
 
 class Glide(NamedTuple):
-    """One steady glide, SI units and radians; torques of both wings together.
+    """One steady glide; torques are of both wings together.
 
-    ``tail_moment`` is what a tail would have to give, nose up; none where the glide is trimmed without one.
+    Attributes
+    ----------
+    angle_of_attack : that of the root chord, without flap [rad].
+    speed, sink : along the path, and downwards [m/s].
+    glide_angle : of the path below the horizontal [rad].
+    glide_ratio : distance over height lost.
+    body_pitch, wing_pitch, flap : [rad].
+    tail_moment : the moment that a tail would need to supply, nose-up positive [N m]; 0 where the glide is trimmed.
+    flap_torque, pitch_torque : that hold the wings [N m].
+    trimmed : whether the pitching moment vanishes.
     """
 
     angle_of_attack: float
@@ -64,24 +82,24 @@ class Glide(NamedTuple):
 
 
 # A posture that is none: no balance was found.
-_NOWHERE = Posture(*[math.nan] * 5)
+_NO_POSTURE = Posture(*[math.nan] * 5)
 
 
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
-    """Return the wingbeat of wings that are held: spread and straight as in mid-downstroke, the twist as it is."""
+    """Return the wingbeat of wings held still: spread and straight, as at mid-downstroke, twist kept."""
     still = {"flap_amplitude": 0.0, "pitch_amplitude": 0.0, "span_retraction": 0.0, "fold_amplitude": 0.0}
     return dataclasses.replace(wingbeat, **still)
 
 
-def _angles(model: FlightModel, posture: Posture) -> tuple[Any, Any]:
+def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
     """Return body pitch and wing pitch [rad]."""
     body_pitch = posture.body_above_path - posture.glide_angle
     above_body = posture.angle_of_attack - posture.body_above_path
     return body_pitch, above_body - stroke_pitch(model.vehicle.wing.stroke_plane_angle)
 
 
-@stored
-def _needed(model: FlightModel, wingbeat: Wingbeat, numbers: Any) -> Any:
+@exported
+def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
     """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]."""
     posture = Posture(*numbers)
     body_pitch, wing_pitch = _angles(model, posture)
@@ -101,43 +119,51 @@ class GlideSolver:
     model : the flight model.
     wingbeat : gives the twist.
     flap : angle at which the wings are held [rad].
-    trim : what is turned until the pitching moment vanishes: ``"body-pitch"``, the wings keeping their angle of
-        attack; ``"flap"``, the body keeping along the path; or ``"tail"``, nothing.
+    trim : what is turned until the pitching moment vanishes: ``"body-pitch"`` while the wings keep their angle of
+        attack, ``"flap"`` while the body stays along the path, or ``"tail"`` for nothing.
     reach : least and largest of the angle that trims [rad], body pitch or flap.
+
+    Attributes
+    ----------
+    model : the flight model.
     """
 
     def __init__(
         self, model: FlightModel, wingbeat: Wingbeat, flap: float, trim: str, reach: tuple[float, float]
     ) -> None:
         self.model, self._flap, self._trim, self._reach = model, flap, trim, reach
-        self._evaluate = _needed.bind(model, held_still(wingbeat))
+        self._evaluate = _required.bind(model, held_still(wingbeat))
         weight = model.vehicle.mass * model.air.gravity
         self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
 
     def at(self, angle_of_attack: float) -> Glide:
-        """Return the glide at an angle of attack [rad]; all not-a-number where no forces balance.
+        """Return the glide at an angle of attack; all not-a-number where the forces do not balance.
 
-        A glide that nothing trims keeps its body along the path, and says what moment it lacks.
+        A glide that nothing trims keeps its body along the path, and gives the moment that it lacks.
+
+        Parameters
+        ----------
+        angle_of_attack : [rad].
         """
         start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack)
         posture = self._solve(start, rows=2, free=[0, 1])
         if posture is None:
-            return self._told(_NOWHERE._replace(angle_of_attack=angle_of_attack), trimmed=False)
+            return self._glide_of(_NO_POSTURE._replace(angle_of_attack=angle_of_attack), trimmed=False)
         turned = None if self._trim == "tail" else self._trimmed(posture)
-        return self._told(turned or posture, trimmed=turned is not None)
+        return self._glide_of(turned or posture, trimmed=turned is not None)
 
-    def _trimmed(self, level: Posture) -> Posture | None:
-        """Return the posture without a moment that is nearest to `level`, its forces always in balance, or None."""
+    def _trimmed(self, untrimmed: Posture) -> Posture | None:
+        """Return the posture without a moment that is nearest to `untrimmed`, forces always in balance, or None."""
         column, reach = 3, np.array(self._reach)
         if self._trim == "body-pitch":
-            column, reach = 2, reach + level.glide_angle  # above the path, not the horizontal
-        ends: list[tuple[Posture, float] | None] = [(level, self._moment(level))] * 2
+            column, reach = 2, reach + untrimmed.glide_angle  # above the path, not the horizontal
+        ends: list[tuple[Posture, float] | None] = [(untrimmed, self._moment(untrimmed))] * 2
         for step in range(1, _STEPS + 1):
             for side, end in enumerate(ends):
                 if end is None:
                     continue
-                angle = level[column] + step / _STEPS * (reach[side] - level[column])
-                there = self._solve(_put(end[0], column, angle), rows=2, free=[0, 1])
+                angle = untrimmed[column] + step / _STEPS * (reach[side] - untrimmed[column])
+                there = self._solve(_with_angle(end[0], column, angle), rows=2, free=[0, 1])
                 moment = 0.0 if there is None else self._moment(there)
                 if there is not None and moment * end[1] <= 0.0:
                     found = self._solve(_between(end, (there, moment)), rows=3, free=[0, 1, column])
@@ -169,17 +195,17 @@ class GlideSolver:
             found[free] = unknowns
             return found
 
-        def miss(unknowns: np.ndarray) -> np.ndarray:
+        def residual(unknowns: np.ndarray) -> np.ndarray:
             return np.asarray(self._evaluate(numbers(unknowns)))[:rows] / self._scale[:rows]
 
-        found = root(miss, held[free], tol=1e-14)
+        found = root(residual, held[free], tol=1e-14)
         posture = Posture(*numbers(found.x).tolist())
-        balanced = np.abs(miss(found.x)).max() <= _BALANCED  # what `root` calls a failure may be one bit off
+        balanced = np.abs(residual(found.x)).max() <= _BALANCED  # what `root` calls a failure may be one bit off
         ahead = posture.speed > 0.0 and abs(posture.glide_angle) < 0.5 * math.pi  # a wing can fall broadside, too
         return posture if balanced and ahead else None
 
-    def _told(self, posture: Posture, trimmed: bool) -> Glide:
-        needed = np.asarray(self._evaluate(np.array(posture)))
+    def _glide_of(self, posture: Posture, trimmed: bool) -> Glide:
+        required = np.asarray(self._evaluate(np.array(posture)))
         body_pitch, wing_pitch = _angles(self.model, posture)
         return Glide(
             posture.angle_of_attack,
@@ -190,14 +216,14 @@ class GlideSolver:
             body_pitch,
             wing_pitch,
             posture.flap,
-            0.0 if trimmed else float(needed[2]),
-            float(needed[3]),
-            float(needed[4]),
+            0.0 if trimmed else float(required[2]),
+            float(required[3]),
+            float(required[4]),
             trimmed,
         )
 
 
-def _put(posture: Posture, column: int, angle: float) -> Posture:
+def _with_angle(posture: Posture, column: int, angle: float) -> Posture:
     return Posture(*(angle if i == column else value for i, value in enumerate(posture)))
 
 

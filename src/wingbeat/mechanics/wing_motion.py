@@ -9,53 +9,71 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.mechanics.frames import Pair, Triple, from_world, stroke_pitch
+from wingbeat.mechanics.frames import from_world, stroke_pitch
 from wingbeat.vehicle import Vehicle, Wing
 
-_FEW = 32
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Component, Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Sums, Triple
+
+
+_FEW_STRIPS = 32
 
 
 class Strips(NamedTuple):
-    """What of the strips does not change with time, shape (N,) each, or (N, 1, ..) beside as many axes of time."""
+    """What of the strips of one wing does not change with time, shape (N,), or (N, 1, ...) beside axes of time.
 
-    span_fraction: Any
-    chord: Any
-    mass: Any
+    Attributes
+    ----------
+    span_fraction : distance of the strip's centre from the shoulder over the semi-span, 0 to 1.
+    chord : [m].
+    mass : [kg].
+    """
+
+    span_fraction: PerStripBroadcast
+    chord: PerStripBroadcast
+    mass: PerStripBroadcast
 
 
 class WingShape(NamedTuple):
-    """Where the strips of the left wing are, stroke axes, arrays of shape (N, ...).
+    """Where the strips of the left wing are, in stroke axes, arrays of shape (N, ...).
 
-    ``ahead``, ``left`` and ``above`` place the quarter chord from the body's centre of mass. Flap turns a strip
-    about the first axis, sweep then turns its span forward in the plane of that axis and the span, and pitch turns
-    it about its own span, which runs along the quarter chords. Without sweep its sine and cosine are None.
+    Flap turns a strip about the first axis. Sweep then turns its span forward, in the plane of that axis and the
+    span. Pitch turns it about its own span, which runs along the quarter chords.
+
+    Attributes
+    ----------
+    ahead, left, above : place of the quarter chord from the body's centre of mass [m].
+    flap_sine, flap_cosine : of the strip's flap angle.
+    pitch : pitch of the strip [rad].
+    pitch_sine, pitch_cosine : of that pitch.
+    sweep_sine, sweep_cosine : of the sweep angle, shape (...); None for a wing without sweep.
     """
 
-    ahead: Any
-    left: Any
-    above: Any
-    flap_sine: Any
-    flap_cosine: Any
-    pitch: Any
-    pitch_sine: Any
-    pitch_cosine: Any
-    sweep_sine: Any = None
-    sweep_cosine: Any = None
+    ahead: PerStripBroadcast
+    left: PerStripBroadcast
+    above: PerStripBroadcast
+    flap_sine: PerStripBroadcast
+    flap_cosine: PerStripBroadcast
+    pitch: PerStripBroadcast
+    pitch_sine: PerStripBroadcast
+    pitch_cosine: PerStripBroadcast
+    sweep_sine: Phases | None = None
+    sweep_cosine: Phases | None = None
 
     @property
-    def place(self) -> Triple:
-        """Where the quarter chord is."""
+    def quarter_chord(self) -> Triple:
+        """Place of the quarter chord, forward, left and up [m]."""
         return self.ahead, self.left, self.above
 
     @property
-    def level(self) -> Triple:
-        """Unit vector that is chordwise where the wing is not pitched."""
+    def unpitched(self) -> Triple:
+        """Unit vector along the chord that the strip has without pitch."""
         if self.sweep_sine is None:
             return 1.0, 0.0, 0.0
         inward = -self.sweep_sine
@@ -82,51 +100,66 @@ class WingShape(NamedTuple):
             return self._pitched(-self.pitch_sine, self.pitch_cosine)
         return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine
 
-    def _pitched(self, along: Any, across: Any) -> Triple:
+    def _pitched(self, along: PerStripBroadcast, across: PerStripBroadcast) -> Triple:
         """Return the vector of these parts along the unpitched chord and along the normal without pitch."""
-        forward, left, up = self.level
+        forward, left, up = self.unpitched
         return along * forward, along * left - across * self.flap_sine, along * up + across * self.flap_cosine
 
 
 class WingMotion(NamedTuple):
-    """What body and air feel of the wing, stroke axes, with any trailing axes of times.
+    """What air and body feel of the wing, in stroke axes, with any trailing axes of times.
 
-    For air loads, by strip: the quarter chord's place (``ahead`` of all strips alike, ``above``), its speed
-    ``flapping_speed`` along the normal that the strip has without pitch, the cosine of the strip's flap angle,
-    its pitch and its area; ``width`` is that of all strips alike. Pitch turns a strip about its quarter chord and
-    so changes no speed.
-    Where the wing sweeps, ``ahead`` is by strip, and the unpitched chord is no longer the first axis: ``level`` is
-    what it is in the plane of symmetry, ``sweeping_speed`` the quarter chord's speed along it. ``tilt`` is that of
-    the stroke plane. Where loads go with the whole airspeed, ``span`` is the unit vector along the span in the
-    plane of symmetry, ``spanning_speed`` the quarter chord's speed along it. All five are None where there is none.
-    For the balance, sums over the mass of both wings: ``first_moment`` and ``inertia`` of mass times place and
-    mass times place squared, ``swirl`` of mass times (place turned by a right angle) . acceleration.
+    Speeds are those of the quarter chord; pitch turns a strip about its quarter chord and so changes none of them.
+    Sums over mass points count both wings.
+
+    Attributes
+    ----------
+    ahead, above : place of the quarter chord [m]; `ahead` has no axis of strips unless the wing sweeps.
+    flapping_speed : along the normal that the strip has without pitch [m/s].
+    flap_cosine : of the strip's flap angle.
+    pitch : pitch of the strip [rad].
+    area : of the strip [m2].
+    width : of every strip, along the span [m], shape (...).
+    first_moment : sum of mass times place, forward and up [kg m].
+    first_moment_rate, first_moment_acceleration : its time derivatives [kg m/s, kg m/s2].
+    inertia, inertia_rate : sum of mass times place squared [kg m2], and its time derivative [kg m2/s].
+    acceleration_moment : sum of mass times (place turned by a right angle) . acceleration [N m].
+    unpitched : unit vector along the chord without pitch, in the plane of symmetry; None unless the wing sweeps.
+    sweeping_speed : along that chord [m/s]; None unless the wing sweeps.
+    tilt : of the stroke plane [rad]; None where it is 0.
+    span : unit vector along the span, in the plane of symmetry; None unless loads go with the whole airspeed.
+    spanwise_speed : along the span [m/s]; None unless loads go with the whole airspeed.
     """
 
-    ahead: Any
-    above: Any
-    flapping_speed: Any
-    flap_cosine: Any
-    pitch: Any
-    area: Any
-    width: Any
+    ahead: Phases | PerStrip
+    above: PerStrip
+    flapping_speed: PerStrip
+    flap_cosine: PerStrip
+    pitch: PerStrip
+    area: PerStrip
+    width: Phases
     first_moment: Pair
     first_moment_rate: Pair
     first_moment_acceleration: Pair
-    inertia: Any
-    inertia_rate: Any
-    swirl: Any
-    level: Pair | None = None
-    sweeping_speed: Any = None
-    tilt: Any = None
+    inertia: Phases
+    inertia_rate: Phases
+    acceleration_moment: Phases
+    unpitched: Pair | None = None
+    sweeping_speed: PerStrip | None = None
+    tilt: Phases | None = None
     span: Pair | None = None
-    spanning_speed: Any = None
+    spanwise_speed: PerStrip | None = None
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
-    """Cut a wing into `count` equal strips: span fractions, chords at strip centres [m], strip masses [kg].
+    """Cut a wing into equal strips.
 
-    A strip's mass is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
+    The mass of a strip is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
+
+    Parameters
+    ----------
+    wing : gives chord, mass and mass exponent p.
+    count : number of strips, N.
     """
     span_fraction = (jnp.arange(count) + 0.5) / count
     stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
@@ -138,23 +171,23 @@ def strips_of(wing: Wing, count: int) -> Strips:
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
 
 
-def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Any:
+def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
     """Return the angle of the stroke plane from the body axis [rad]."""
     if at_default(wingbeat, "stroke_plane_tilt"):
         return wing.stroke_plane_angle
     return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
 
 
-def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Any) -> Any:
+def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
     """Return how far stroke axes are pitched nose-up from the world's [rad]."""
     attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
     return attitude if motion.tilt is None else attitude - motion.tilt
 
 
-def filled_up(strips: Strips, vector: int) -> Strips:
-    """Return the strips and, at the last one's place, some without chord and mass, in all a multiple of `vector`.
+def padded(strips: Strips, vector: int) -> Strips:
+    """Return the strips, followed by strips without chord and mass up to a multiple of `vector`.
 
-    At a single time XLA on CPU works along the strips, and a few left over cost it more than a whole vector.
+    At a single time XLA on CPU works along the strips, and a few left over cost more than a whole vector.
     """
     more = (0, -strips.span_fraction.size % vector)
     return Strips(
@@ -162,22 +195,30 @@ def filled_up(strips: Strips, vector: int) -> Strips:
     )
 
 
-def beside(strips: Strips, times: Any) -> Strips:
-    """Return the strips with an axis of length one for each axis of `times`."""
-    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(times)))) for a in strips))
+def with_time_axes(strips: Strips, phase: Phases) -> Strips:
+    """Return the strips with an axis of length one for each axis of `phase`."""
+    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(phase)))) for a in strips))
 
 
-def twist_factors(wingbeat: Wingbeat, span_fraction: Any) -> Any:
+def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
     """Return each strip's wing pitch over that of the root, ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
 def wing_shape(
-    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any, flap: Any, pitch: Any
+    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
 ) -> WingShape:
-    """Place the strips for given flap and root pitch [rad]; span and fold follow the phase.
+    """Place the strips of the left wing at given flap and pitch angles; span, fold and sweep follow the phase.
 
-    Inboard of the wrist a strip follows the flap angle of the arm, outboard that of the hand.
+    Inboard of the wrist a strip has the flap angle of the arm, outboard that of the hand.
+
+    Parameters
+    ----------
+    vehicle : gives the wing.
+    wingbeat : gives span, fold, sweep and twist.
+    strips : of the wing.
+    phase : phases, shape (...).
+    flap, pitch : flap angle and wing pitch at the root [rad], shape (...).
     """
     wing = vehicle.wing
     length = wing.semi_span * span_ratio(wingbeat, phase)
@@ -209,24 +250,32 @@ def wing_shape(
     )
 
 
-def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Any) -> WingShape:
+def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> WingShape:
     """Place the strips at a phase of the prescribed wingbeat."""
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
 
 
 def mass_points(shape: WingShape, strips: Strips) -> Triple:
-    """Return the mass points, stroke axes, a triple of shape (2, N, ...); each carries half its strip's mass.
+    """Return the mass points in stroke axes [m], three components of shape (2, N, ...).
 
+    Each has half the mass of its strip.
     Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     """
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
-    x, y, z = (place + offsets * fore for place, fore in zip(shape.place, shape.chordwise, strict=True))
+    x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
     return x, y, z
 
 
-def time_rates(function: Any, phase: Any, frequency: Any) -> tuple[Any, Any, Any]:
-    """Return a function of phase with its first and second time derivatives, exactly."""
+def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar) -> tuple[Any, Any, Any]:
+    """Return a function of phase with its first and second time derivatives, by automatic differentiation.
+
+    Parameters
+    ----------
+    function : of phases; returns any pytree.
+    phase : phases, shape (...).
+    frequency : [Hz].
+    """
     one = jnp.ones_like(phase)
 
     def rate(at: Any) -> tuple[Any, Any]:
@@ -241,64 +290,73 @@ def time_rates(function: Any, phase: Any, frequency: Any) -> tuple[Any, Any, Any
     return value, scaled(first, frequency), scaled(second, frequency * frequency)
 
 
-def turned(pair: Pair) -> Pair:
-    """Turn an in-plane pair nose-up by a right angle."""
+def quarter_turn(pair: Pair) -> Pair:
+    """Turn an in-plane vector nose-up by a right angle."""
     return -pair[1], pair[0]
 
 
-def over_strips(a: Any) -> Any:
-    """Return the sum over the first axis, of few strips as additions, of which XLA on CPU makes vector code."""
-    if a.shape[0] > _FEW:
+def sum_over_strips(a: PerStrip) -> Phases:
+    """Return the sum over the strips; of few by additions, of which XLA on CPU makes vector code."""
+    if a.shape[0] > _FEW_STRIPS:
         return jnp.sum(a, axis=0)
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
 
 
-def sums_over_strips(mass: Any, rows: Sequence[Any]) -> Any:
-    """Return the sums over the strips of each row times the strips' mass; rows come first.
+def mass_moments(mass: PerStripBroadcast, rows: Sequence[PerStrip]) -> Sums:
+    """Return the sums over the strips of each row times the strips' mass, shape (rows, ...).
 
-    As one sum they compile in a third of the time of a sum for each.
+    One sum of all rows compiles in a third of the time of a sum for each.
     """
-    return over_strips(jnp.stack([mass * row for row in rows], axis=1))
+    return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))
 
 
-def dot(a: tuple[Any, ...], b: tuple[Any, ...]) -> Any:
-    """Return the scalar product of two pairs or of two triples."""
+def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
+    """Return the scalar product of two in-plane vectors or of two vectors in space."""
     products = [one * other for one, other in zip(a, b, strict=True)]
     return sum(products[1:], products[0])
 
 
 def wing_motion(
-    vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, count: int, vector: int = 1, along_span: bool = False
+    vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int, vector: int = 1, along_span: bool = False
 ) -> WingMotion:
-    """Tabulate what body and air feel of the wing at the given phases, in one pass, strips `filled_up`.
+    """Tabulate what air and body feel of the wing at given phases, in one pass.
 
-    The motion along the span is in the table only if it is asked for.
+    Parameters
+    ----------
+    vehicle, wingbeat : the wing and how it beats.
+    phase : phases, shape (...).
+    count : number of strips, N.
+    vector : pads the strips to a multiple of this number.
+    along_span : whether to add the motion along the span.
     """
     phase = jnp.asarray(phase, dtype=float)
-    strips = beside(filled_up(strips_of(vehicle.wing, count), vector), phase)
+    strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
 
-    def strip_places(at: Any) -> tuple[WingShape, Pair, Pair]:
+    def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
         """Return the shape and, in the plane of symmetry, mid-chords and vectors to the leading edge."""
         shape = shape_at(vehicle, wingbeat, strips, at)
         fore = shape.chordwise[0], shape.chordwise[2]
         quarter = 0.25 * strips.chord
         return shape, (shape.ahead - quarter * fore[0], shape.above - quarter * fore[1]), fore
 
-    here, rates, pushes = time_rates(strip_places, phase, wingbeat.frequency)
-    (shape, place, fore), (shape_rate, speed, fore_speed), (_, push, fore_push) = here, rates, pushes
+    (shape, place, fore), rates, accelerations = time_rates(strip_places, phase, wingbeat.frequency)
+    (shape_rate, speed, fore_rate), (_, acceleration, fore_acceleration) = rates, accelerations
 
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
-    mass, spread = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
+    mass, gyration = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
 
-    second = dot(place, place) + spread * dot(fore, fore)
-    half_rate = dot(place, speed) + spread * dot(fore, fore_speed)
-    swirl = dot(turned(place), push) + spread * dot(turned(fore), fore_push)
-    sums = sums_over_strips(mass, (*place, *speed, *push, second, half_rate, swirl))
+    second = dot(place, place) + gyration * dot(fore, fore)
+    half_rate = dot(place, speed) + gyration * dot(fore, fore_rate)
+    turning = dot(quarter_turn(place), acceleration) + gyration * dot(quarter_turn(fore), fore_acceleration)
+    sums = mass_moments(mass, (*place, *speed, *acceleration, second, half_rate, turning))
 
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     swept = shape.sweep_sine is not None
     steady = at_default(wingbeat, "stroke_plane_tilt")
-    span = tuple(jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise) if along_span else None
+    span = None
+    if along_span:
+        x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
+        span = x, y, z
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
@@ -312,10 +370,10 @@ def wing_motion(
         first_moment_acceleration=(sums[4], sums[5]),
         inertia=sums[6],
         inertia_rate=2.0 * sums[7],
-        swirl=sums[8],
-        level=(jnp.broadcast_to(shape.level[0], shape.pitch.shape), shape.level[2]) if swept else None,
-        sweeping_speed=dot(shape_rate.place, shape.level) if swept else None,
+        acceleration_moment=sums[8],
+        unpitched=(jnp.broadcast_to(shape.unpitched[0], shape.pitch.shape), shape.unpitched[2]) if swept else None,
+        sweeping_speed=dot(shape_rate.quarter_chord, shape.unpitched) if swept else None,
         tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),
         span=None if span is None else (span[0], span[2]),
-        spanning_speed=None if span is None else dot(shape_rate.place, span),
+        spanwise_speed=None if span is None else dot(shape_rate.quarter_chord, span),
     )

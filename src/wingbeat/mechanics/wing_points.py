@@ -6,32 +6,60 @@ fixed q (what span and fold move by themselves), bias what ``r''`` is at ``q'' =
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.mechanics.frames import Triple, stroke_pitch, to_world
+from wingbeat.mechanics.frames import stroke_pitch, to_world
 from wingbeat.mechanics.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        Component,
+        Coordinates,
+        Corners,
+        MassPoints,
+        PerStrip,
+        Phases,
+        Scalar,
+        StripPoints,
+        Triple,
+        Vectors,
+    )
 
 
 class WingPoints(NamedTuple):
-    """Left wing in the world: mass points (2, N, 3), quarter chords, chordwise and normal unit vectors (N, 3)."""
+    """Points of the left wing in the world.
 
-    mass: Any
-    quarter_chord: Any
-    chordwise: Any
-    normal: Any
+    Attributes
+    ----------
+    mass : mass points [m], shape (2, N, 3).
+    quarter_chord : [m], shape (N, 3).
+    chordwise, normal : unit vectors towards the leading edge and normal to chord and span, shape (N, 3).
+    """
+
+    mass: MassPoints
+    quarter_chord: StripPoints
+    chordwise: StripPoints
+    normal: StripPoints
 
 
-def _in_world(attitude: Any, vector: Triple) -> Any:
+def _in_world(attitude: Component, vector: Triple) -> Vectors:
     x, z = to_world(attitude, vector[0], vector[2])
     return jnp.stack([x, vector[1], z], axis=-1)
 
 
-def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Place the left wing in the world for coordinates q at a time [s]."""
+def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
+    """Place the left wing in the world.
+
+    Parameters
+    ----------
+    model, wingbeat : give the wing and its span, fold and sweep.
+    q : (x, z, body pitch, flap, root wing pitch), shape (5,) [m, rad].
+    time : [s].
+    """
     wing = model.vehicle.wing
     strips = strips_of(wing, model.strips)
     shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
@@ -39,7 +67,7 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> Wi
     attitude = q[2] + stroke_pitch(stroke_plane(wing, wingbeat))
     return WingPoints(
         place + _in_world(attitude, mass_points(shape, strips)),
-        place + _in_world(attitude, shape.place),
+        place + _in_world(attitude, shape.quarter_chord),
         _in_world(attitude, shape.chordwise),
         _in_world(attitude, shape.normal),
     )
@@ -49,8 +77,15 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> Wi
 CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
 
 
-def corners_of(points: WingPoints, chord: Any, width: Any) -> Any:
-    """Return the corners of the left wing's strips in the world, shape (N, 4, 3), in the order of `CORNERS`."""
+def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
+    """Return the corners of the left wing's strips in the world [m], shape (N, 4, 3), in the order of `CORNERS`.
+
+    Parameters
+    ----------
+    points : of the wing.
+    chord : of the strips [m].
+    width : of a strip along the span [m].
+    """
     out = 0.5 * width * jnp.cross(points.normal, points.chordwise)
     leading, trailing = (
         points.quarter_chord + share * chord[:, None] * points.chordwise for share in (0.25, -0.75)
@@ -58,8 +93,8 @@ def corners_of(points: WingPoints, chord: Any, width: Any) -> Any:
     return jnp.stack([leading - out, leading + out, trailing + out, trailing - out], axis=1)
 
 
-@stored
-def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Any) -> Any:
+@exported
+def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Corners:
     """Return `corners_of` the strips along a flight, shape (K, N, 4, 3).
 
     Parameters
@@ -72,7 +107,7 @@ def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: A
     wing = model.vehicle.wing
     chord = strips_of(wing, model.strips).chord
 
-    def at(body: State, when: Any) -> Any:
+    def at(body: State, when: Scalar) -> Corners:
         q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(wingbeat, when), pitch_angle(wingbeat, when)])
         points = wing_points(model, wingbeat, q, when / wingbeat.frequency)
         return corners_of(points, chord, wing.semi_span * span_ratio(wingbeat, when) / model.strips)
@@ -80,49 +115,73 @@ def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: A
     return jax.vmap(at)(state, phase)
 
 
-def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Return ``dr/dq`` of all wing points, each with a last axis of five."""
+def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
+    """Return the partial velocities ``dr/dq`` of all wing points, with a last axis of five."""
     return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
 
 
-def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Any, time: Any) -> WingPoints:
-    """Return ``dr/dt`` at fixed q of all wing points: what span and fold move by themselves."""
+def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
+    """Return ``dr/dt`` at fixed q of all wing points [m/s]: what span, fold and sweep move."""
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 
-def bias_accelerations(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> tuple[Any, Any]:
-    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``."""
+def bias_accelerations(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
+) -> tuple[MassPoints, MassPoints]:
+    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``.
 
-    def by_q(at: Any) -> Any:
+    Parameters
+    ----------
+    model, wingbeat, q, time : as in `wing_points`.
+    q_dot : rates of q, shape (5,) [per s].
+    """
+
+    def by_q(at: Coordinates) -> Any:
         return partial_velocities(model, wingbeat, at, time).mass
 
-    def by_time(at: Any, when: Any) -> Any:
+    def by_time(at: Coordinates, when: Scalar) -> Any:
         return drift_velocities(model, wingbeat, at, when).mass
 
     still, one = jnp.zeros_like(time), jnp.ones_like(time)
-    turning = jax.jvp(by_q, (q,), (q_dot,))[1]
-    return turning, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
+    partial_rate = jax.jvp(by_q, (q,), (q_dot,))[1]
+    return partial_rate, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
         by_time, (q, time), (jnp.zeros_like(q), one)
     )[1]
 
 
 class PointMotion(NamedTuple):
-    """Wing points with their velocities, partial velocities, drifts and bias accelerations (``r''`` at q'' = 0)."""
+    """Wing points and their derivatives.
 
-    place: WingPoints
+    Attributes
+    ----------
+    position : the points.
+    velocity : their velocities.
+    partial : partial velocities ``dr/dq``, with a last axis of five.
+    drift : ``dr/dt`` at fixed q.
+    bias : accelerations ``r''`` at ``q'' = 0``.
+    """
+
+    position: WingPoints
     velocity: WingPoints
     partial: WingPoints
     drift: WingPoints
     bias: WingPoints
 
 
-def point_motion(model: FlightModel, wingbeat: Wingbeat, q: Any, q_dot: Any, time: Any) -> PointMotion:
-    """Differentiate the wing's place once for all that a given motion needs."""
+def point_motion(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
+) -> PointMotion:
+    """Differentiate the wing points once for all that a given motion needs.
 
-    def place(along: Any) -> WingPoints:
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `bias_accelerations`.
+    """
+
+    def place(along: Scalar) -> WingPoints:
         return wing_points(model, wingbeat, q + along * q_dot, time + along)
 
-    def velocity(along: Any) -> tuple[WingPoints, WingPoints]:
+    def velocity(along: Scalar) -> tuple[WingPoints, WingPoints]:
         return jax.jvp(place, (along,), (jnp.ones_like(along),))
 
     still = jnp.zeros_like(time)

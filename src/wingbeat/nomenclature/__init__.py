@@ -1,7 +1,7 @@
-"""The one place that knows what a quantity is called: its name, symbol, unit, label and meaning.
+"""The one table of quantities: name, symbol, unit, label and meaning.
 
-The orbit record, the data sets, the studies, the figures, the pages and the explorer all look here. Units are SI,
-written as the CF conventions do: ``m s-1``. People read ``m/s`` or degrees, which `plain` and `for_people` make.
+Records, data sets, studies, figures, pages and the explorer use it. Units are SI in CF form: ``m s-1``. For
+readers, `plain` writes ``m/s`` and `for_people` converts to degrees.
 """
 
 from wingbeat.nomenclature.lookup import attributes_of, axis_label, find, label_of, plain_unit

@@ -1,4 +1,4 @@
-"""Names of what is given: the animal, its wingbeat, the air, the coefficients, a run in a tunnel."""
+"""Names of inputs: the animal, its wingbeat, the air, the coefficients, a run in a tunnel."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ __all__ = ["AERO", "GIVEN", "RUN", "WINGBEAT"]
 _ORDERS = f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}"
 _HALF = "half of peak to peak"
 GIVEN = (
-    Term("mass", "kg", "whole mass", "M", "whole mass, body and both wings; in place of body.mass"),
-    Term("body.mass", "kg", "mass without the wings", "", "mass without the wings; in place of vehicle.mass"),
+    Term("mass", "kg", "whole mass", "M", "whole mass, body and both wings; give this or body.mass"),
+    Term("body.mass", "kg", "mass without the wings", "", "mass without the wings; give this or vehicle.mass"),
     Term(
         "pitch_inertia",
         "kg m2",
         "pitch inertia of the body",
         "",
-        "of the body alone, pitch axis, own centre of mass",
+        "of the body alone, about the pitch axis through its centre of mass",
     ),
     Term("drag_area", "m2", "drag area of the body", "", "drag coefficient times frontal area; 0 is no body drag"),
     Term("semi_span", "m", "semi-span of the wing", "L₀", "shoulder to tip at mid-downstroke"),
@@ -26,12 +26,12 @@ GIVEN = (
     Term(
         "mass_exponent", "1", "exponent of the strip masses", "p", "p in the strip masses (1 - s/L)^p; 0 is uniform"
     ),
-    Term("shoulder", "m", "place of the shoulder", "", "forward, left, up of the body's centre of mass"),
+    Term("shoulder", "m", "position of the shoulder", "", "forward, left, up of the body's centre of mass"),
     Term("stroke_plane_angle", "rad", "stroke-plane angle", "β", "from the body axis; a quarter turn is vertical"),
     Term("density", "kg m-3", "density of the air", "ρ"),
     Term("viscosity", "m2 s-1", "kinematic viscosity of the air", "ν"),
-    Term("gravity", "m s-2", "pull of the planet", "g"),
-    Term("payload", "kg", "load that the body carries"),
+    Term("gravity", "m s-2", "acceleration of gravity", "g"),
+    Term("payload", "kg", "payload"),
     Term("speed", "m s-1", "mean horizontal speed", "U", short="speed"),
     Term("climb", "m s-1", "mean vertical speed"),
     Term("path.body_pitch", "rad", "body pitch along the path", "ψ", "body pitch, nose up, along the whole path"),
@@ -50,7 +50,7 @@ WINGBEAT = (
     Term("pitch_mean", "rad", "mean wing pitch", "", "mean wing pitch at the root, leading edge up positive"),
     Term("pitch_amplitude", "rad", f"wing pitch amplitude, {_HALF}", "", _HALF),
     Term(
-        "span_retraction", "1", "span retraction at mid-upstroke", "", "share of the span drawn in at mid-upstroke"
+        "span_retraction", "1", "span retraction at mid-upstroke", "", "share of the span retracted at mid-upstroke"
     ),
     Term(
         "twist_ratio",
@@ -61,8 +61,8 @@ WINGBEAT = (
     ),
     Term("fold_amplitude", "rad", "largest fold of the hand", "", "drop of the hand below the arm at mid-upstroke"),
     Term("wrist", "1", "span fraction of the wrist"),
-    Term("pitch_phase", "rad", "by how much of a turn wing pitch runs ahead of flap"),
-    Term("downstroke_fraction", "1", "share of the beat that the downstroke takes"),
+    Term("pitch_phase", "rad", "phase lead of wing pitch over flap"),
+    Term("downstroke_fraction", "1", "share of the wingbeat taken by the downstroke"),
     Term(
         "sweep_mean",
         "rad",
@@ -80,16 +80,16 @@ WINGBEAT = (
     Term(
         "sweep_phase",
         "rad",
-        "by how much of a turn sweep runs ahead of the downstroke",
+        "phase lead of sweep over the downstroke",
         "",
-        "by how much of a turn sweep runs ahead of that",
+        "phase lead over mid-downstroke",
     ),
     Term(
         "stroke_plane_tilt",
         "rad",
         "tilt added to the stroke-plane angle",
         "",
-        "is added to the wing's stroke-plane angle",
+        "added to the wing's stroke-plane angle",
     ),
     Term("flap_harmonics", "rad", "harmonics of the flap angle", "", _ORDERS),
     Term("pitch_harmonics", "rad", "harmonics of the wing pitch", "", _ORDERS),
@@ -117,7 +117,7 @@ AERO = (
     Term("blend_width_deg", "deg", "half width of the blends where pieces of the coefficients meet"),
     Term("strips", "1", "number of strips of a wing"),
     Term("force_point", "", "where on the chord the air load acts"),
-    Term("airspeed", "", "airspeed of a strip that makes its loads"),
+    Term("airspeed", "", "airspeed that determines the loads of a strip"),
     Term("function", "", "digest of a coefficient function"),
     Term("constant", "1", "constant of a coefficient formula"),
     Term("amplitude", "1", "amplitude of a coefficient formula's sine"),

@@ -1,4 +1,4 @@
-"""Find what the table of names says of a dotted name, as records, studies and ``--set`` write it."""
+"""Look up a dotted name, as in records, studies and ``--set``, in the table of names."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from wingbeat.nomenclature.units import plain
 __all__ = ["attributes_of", "axis_label", "find", "label_of", "plain_unit"]
 
 _AXES = ("x", "y", "z")
-# What stands before or behind a name and says which of its numbers is meant.
+# A part before or after a name that says which of its numbers is meant.
 _ABOUT = {
     "initial_state": "{}, at the top of the stroke",
-    "closure": "miss of the {}, when re-flown",
+    "closure": "residual of the {} when re-flown",
     "limit": "limit of the {}",
     "lower": "lower bound of the {}",
     "upper": "upper bound of the {}",
@@ -24,8 +24,8 @@ _ABOUT = {
 def find(path: str) -> Term | None:
     """Return the entry of a dotted name, None if the table has none.
 
-    The longest end of the name that stands in the table counts, so that ``wing.mass`` and ``body.mass`` differ. A
-    ``_deg`` at the end of an angle's name gives its entry in degrees.
+    The longest end of the name in the table counts, so ``wing.mass`` and ``body.mass`` differ. If an angle's name
+    ends in ``_deg``, its entry is in degrees.
 
     >>> find("vehicle.wing.mass").label, find("wingbeat.flap_mean_deg").unit, find("nonsense")
     ('mass of one wing', 'deg', None)
@@ -42,7 +42,7 @@ def find(path: str) -> Term | None:
 
 
 def plain_unit(path: str) -> str:
-    """Return the unit of a dotted name in plain text, ``1`` where it has none or the table does not hold it.
+    """Return the unit of a dotted name in plain text, ``1`` if it has none or is not in the table.
 
     >>> plain_unit("wing.mass"), plain_unit("mean_power"), plain_unit("air.gravity"), plain_unit("wing.shoulder.x")
     ('kg', 'W', 'm/s2', 'm')
@@ -52,16 +52,16 @@ def plain_unit(path: str) -> str:
 
 
 def label_of(path: str) -> str:
-    """Return what to call the number at a dotted name; the name itself where the table does not hold it.
+    """Return the label of the number at a dotted name; the name itself if it is not in the table.
 
     >>> label_of("closure.u"), label_of("floquet_multipliers.0.1")
-    ('miss of the forward velocity of the body, when re-flown', 'Floquet multipliers of the orbit, item 0.1')
+    ('residual of the forward velocity of the body when re-flown', 'Floquet multipliers of the orbit, item 0.1')
     """
     term, parts = find(path), path.split(".")
     if term is None:
         return path
     if parts[0] == "constraints":
-        return f"{term.label}, kept to {path.partition('.')[2]}"
+        return f"{term.label}, limited to {path.partition('.')[2]}"
     label = term.label
     for part in (parts[0], parts[-1]) if len(parts) > 1 else ():
         label = _ABOUT.get(part, "{}").format(label)
@@ -72,7 +72,7 @@ def label_of(path: str) -> str:
 
 
 def attributes_of(term: Term) -> dict[str, str]:
-    """Return the attributes of a variable of a data set; a text has no unit, and not every name a symbol."""
+    """Return the attributes of a variable of a data set; texts have no unit, and some names have no symbol."""
     known = {"units": term.unit, "long_name": term.label, "symbol": term.symbol}
     return {key: value for key, value in known.items() if value}
 

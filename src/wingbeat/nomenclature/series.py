@@ -1,4 +1,4 @@
-"""Names of what is known along a beat, and along a glide polar."""
+"""Names of series along a wingbeat and along a glide polar."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SERIES = (
     Term("strip_position", "m", "quarter-chord point of the left wing's strip, world", "r"),
     Term("strip_corner", "m", "corner of the left wing's strip, world", "r"),
     Term("strip_velocity", "m s-1", "velocity of the strip's quarter-chord point, world", "v"),
-    Term("strip_speed", "m s-1", "airspeed of the strip that makes its loads", "V"),
+    Term("strip_speed", "m s-1", "airspeed that determines the loads of the strip", "V"),
     Term("strip_reynolds", "1", "Reynolds number of the strip, from its speed and chord", "Re"),
     Term("alpha", "rad", "effective angle of attack", "α"),
     Term("lift", "N", "lift of one strip of one wing", "dL"),
@@ -45,7 +45,7 @@ SERIES = (
     Term("hinge_power", "W", "hinge power, both wings", "P"),
     Term("actuator_power", "W", "actuator power, both wings: hinges, span, fold and sweep", "P_act"),
     Term("aerodynamic_power", "W", "hinge power against the air loads, both wings", "P_aero"),
-    Term("inertial_power", "W", "hinge power that speeds up the wings in the body, both wings", "P_in"),
+    Term("inertial_power", "W", "hinge power that accelerates the wings relative to the body, both wings", "P_in"),
     Term("body_power", "W", "hinge power due to the body's motion and to weight, both wings", "P_body"),
     Term("air_power", "W", "power of the air loads on the vehicle", "P_air"),
     Term("centre_of_mass_x", "m", "forward position of the system's centre of mass", "x_G"),
@@ -57,12 +57,12 @@ SERIES = (
     Term("potential_energy", "J", "potential energy of body and wings", "E_pot"),
 )
 GLIDE = (
-    Term("angle_of_attack", "rad", "angle of attack of the root chord, were the wing not flapped", "α"),
+    Term("angle_of_attack", "rad", "angle of attack of the root chord, without flap", "α"),
     Term("glide.speed", "m s-1", "speed along the path", "V", short="speed"),
     Term("sink", "m s-1", "sinking speed", "V_s"),
     Term("glide_angle", "rad", "angle of the path below the horizontal", "γ"),
-    Term("glide_ratio", "1", "glide ratio, way forward over way down", "L/D"),
-    Term("tail_moment", "N m", "moment that a tail would have to give, nose up positive", "M_t"),
+    Term("glide_ratio", "1", "glide ratio, horizontal over vertical distance", "L/D"),
+    Term("tail_moment", "N m", "moment that a tail would need to supply, nose up positive", "M_t"),
     Term("glide.flap_torque", "N m", "flap torque that holds the wings, both wings", "τ_φ"),
     Term("glide.pitch_torque", "N m", "wing pitch torque that holds the wings, both wings", "τ_θ"),
     Term("trimmed", "1", "whether the pitching moment vanishes without a tail"),

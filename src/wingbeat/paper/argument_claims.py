@@ -119,10 +119,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "small-angles-critical",
             "abstract; discussion",
-            "the lift and little drag at small angles of attack are what saves power and pitching (tested: of the "
-            "power that "
-            "Dickinson's C_D would cost more in Su-Fan's flight of the bat at 10 m/s, at least half falls below "
-            "13 deg; ours: that share)",
+            "lift with little drag at small angles of attack saves power and pitching (tested: Dickinson's C_D "
+            "would cost more power in the bat's flight with Su-Fan at 10 m/s; at least half of the extra arises "
+            "below 13 deg; ours: that share)",
             "critical",
             "1",
             small_angles_critical,
@@ -130,8 +129,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "hand-leaves-small-angles",
             _DISCUSSION,
-            "the hand does not use the small angles, with either model (tested: more than half of the beat beyond "
-            "13 deg at 3/4 span; ours: the lesser share)",
+            "with both models the hand does not use small angles (tested: more than half of the wingbeat beyond "
+            "13 deg at 3/4 span; ours: the smaller share)",
             "> 0.5",
             "1",
             hand_leaves_small_angles,
@@ -139,9 +138,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-nose-up",
             _DISCUSSION,
-            "the arm is a little nose-up throughout the beat with Su-Fan (tested: alpha at 1/4 span above 0 and at "
-            "most 13 deg, the angles that the paper itself calls small, at every phase; ours: the share of the "
-            "beat)",
+            "with Su-Fan the arm is slightly nose-up throughout the wingbeat (tested: alpha at 1/4 span is above "
+            "0 and at most 13 deg, which the paper calls small, at every phase; ours: the share of the wingbeat)",
             1.0,
             "1",
             arm_nose_up,
@@ -149,9 +147,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-angle-smaller-throughout",
             _DISCUSSION,
-            "the arm's effective angle of attack is smaller throughout the beat with Su-Fan (tested: "
-            "at every phase "
-            "at 1/4 span; ours: the share of the beat)",
+            "with Su-Fan the arm's effective angle of attack is smaller throughout the wingbeat (tested: at every "
+            "phase at 1/4 span; ours: the share of the wingbeat)",
             1.0,
             "1",
             arm_angle_smaller_throughout,
@@ -176,8 +173,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "closer-power",
             _DISCUSSION,
-            "Su-Fan's power is much closer to that found for like bats (tested: peak power less 4 W at most half "
-            "of Dickinson's, where the paper's own peaks of 30 and 150 W give .18; ours: the ratio)",
+            "Su-Fan's power is much closer to that found for similar bats (tested: peak power minus 4 W at most "
+            "half of that with Dickinson's; the paper's own peaks of 30 and 150 W give 0.18; ours: the ratio)",
             "<= 0.5",
             "1",
             closer_power,
@@ -185,8 +182,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "gains-at-speed",
             _DISCUSSION,
-            "Su-Fan betters the frequencies of both animals most at high speed (tested: how much nearer to the "
-            "measured, relative, from 10 m/s on less below; the pigeon by both references; ours: the least)",
+            "Su-Fan improves the frequencies of both animals most at high speed (tested: how much closer to the "
+            "measured frequency, relative, from 10 m/s on minus below; the pigeon by both references; ours: the "
+            "smallest)",
             "> 0",
             "1",
             gains_at_speed,
@@ -194,7 +192,7 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "many-wingbeats",
             "methods, simulation",
-            "many wingbeats may satisfy the conditions of one flight (tested: unknowns less conditions, bat)",
+            "many wingbeats may satisfy the conditions of one flight (tested: unknowns minus conditions, bat)",
             "> 0",
             "1",
             many_wingbeats,

@@ -1,4 +1,4 @@
-"""What a study of assumptions found, as a page to read, a table of every set, and one figure."""
+"""The results of an assumption study: a page to read, a table of every set, and one figure."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from wingbeat.style import BLUE, GREEN, VERMILION, drawing, letter_panels, new_f
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# A claim must hold in this many sets before its never holding beside another one says anything.
+# A pair of claims is reported as never holding together only if each holds in this many sets.
 _OFTEN = 20
-# Assumptions that explain less of a claim's number than this are not named in words.
+# Assumptions that explain less of a claim's number than this are not named.
 _TELLING = 0.05
-# A surface that explains less than this of numbers it has not seen says little of what a claim hangs on.
+# A surface that explains less than this of unseen numbers says little about what a claim depends on.
 TRUSTED = 0.3
 _BEST = 5
 
@@ -33,8 +33,8 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
 
     Parameters
     ----------
-    study : what was run.
-    folder : where to.
+    study : the study.
+    folder : folder to write to.
     heading : a line on how it was run: command, time.
 
     Raises
@@ -56,30 +56,27 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
     """Return the page."""
     kept = np.nansum(study.holds, axis=1)
     lines = [
-        "# What the paper's claims hang on",
+        "# What the paper's claims depend on",
         "",
         "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder, bounds or treatment of negative "
-        "angles "
-        f"of attack. Here {len(study.sets)} sets of assumptions, spread evenly over the plausible ranges below "
-        "with the "
-        "animals' whole masses held at the paper's, each ask for "
-        f"{ORBITS} least-frequency orbits: pigeon and bat, both coefficient models, at the speeds the "
-        "claims need. "
+        f"angles of attack. Here we use {len(study.sets)} sets of assumptions. They fill the plausible ranges "
+        f"below uniformly and keep the animals' whole masses of the paper. Each set needs {ORBITS} orbits of "
+        "lowest frequency: pigeon and bat, both coefficient models, at the speeds of the claims. "
         f"{100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of them were found and certified.",
         "",
         heading,
         "",
-        "![Share of sets that satisfy each claim, and what it hangs on](assumptions.png)",
+        "![Share of sets that satisfy each claim, and what it depends on](assumptions.png)",
         "",
         "## Claim by claim",
         "",
-        "*Told* is the share of sets whose orbits exist to test the claim; *holds* the share of those that "
-        "satisfy it, with the standard error that so many sets leave. "
-        "*Hangs on* names the assumptions that explain at least a twentieth of the claim's number in a quadratic "
-        "response surface (share of the variance of its rank), *quality* how much of numbers it has not seen the "
-        f"surface explains; below {TRUSTED:g} it says little.",
+        "*Testable* is the share of sets whose orbits exist to test the claim. *Holds* is the share of those that "
+        "satisfy it, with its standard error. *Depends on* names the assumptions that explain at least a "
+        "twentieth of the claim's number in a quadratic response surface (share of the variance of its rank). "
+        f"*Quality* is the share that the surface explains of numbers not used in the fit; below {TRUSTED:g} it "
+        "says little.",
         "",
-        "| claim | holds [%] | told [%] | hangs on | quality |",
+        "| claim | holds [%] | testable [%] | depends on | quality |",
         "| --- | --- | --- | --- | --- |",
     ]
     for claim, holds, hang in zip(study.claims, study.holds.T, hangs, strict=True):
@@ -91,13 +88,12 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "",
         "## All at once",
         "",
-        f"No set satisfies more than {kept.max():.0f} of the {len(study.claims)} claims; half of the sets "
-        "satisfy at "
-        f"least {np.median(kept):.0f}.",
+        f"No set satisfies more than {kept.max():.0f} of the {len(study.claims)} claims; half of the sets satisfy "
+        f"at least {np.median(kept):.0f}.",
         "",
         *_apart(study),
         "",
-        f"The {_BEST} sets that satisfy most:",
+        f"The {_BEST} sets that satisfy the most claims:",
         "",
         "| " + " | ".join(["claims", *(a.name for a in ASSUMPTIONS), "claims not satisfied"]) + " |",
         "| " + " | ".join(["---"] * (len(ASSUMPTIONS) + 2)) + " |",
@@ -106,7 +102,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         missed = [claim.id for claim, holds in zip(study.claims, study.holds[i], strict=True) if holds != 1]
         assumed = [v if isinstance(v, str) else f"{v:.3g}" for v in (study.sets[i][a.name] for a in ASSUMPTIONS)]
         lines.append("| " + " | ".join([f"{kept[i]:.0f}", *assumed, ", ".join(missed)]) + " |")
-    lines += ["", "## What was sampled", "", "| assumption | range | why |", "| --- | --- | --- |"]
+    lines += ["", "## What was sampled", "", "| assumption | range | reason |", "| --- | --- | --- |"]
     for a in ASSUMPTIONS:
         span = ", ".join(a.choices) if a.choices else f"{a.low:g} to {a.high:g}"
         lines.append(f"| {a.name}: {a.words} | {span} | {a.source} |")
@@ -114,7 +110,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
 
 
 def _share(holds: np.ndarray) -> str:
-    """Return the share of sets that satisfy a claim, in percent, with its standard error where it is not sure.
+    """Return the share of sets that satisfy a claim, in percent, with its standard error if it is not 0 or 100.
 
     >>> _share(np.array([1.0, 1.0, 0.0, 1.0]))
     '75 ± 22'
@@ -130,11 +126,11 @@ def _named(hang: Importance | None) -> str:
     if hang is None:
         return "-"
     order = [i for i in np.argsort(-hang.shares) if hang.shares[i] >= _TELLING]
-    return ", ".join(f"{ASSUMPTIONS[i].name} {hang.shares[i]:.2f}" for i in order) or "none of them alone"
+    return ", ".join(f"{ASSUMPTIONS[i].name} {hang.shares[i]:.2f}" for i in order) or "none alone"
 
 
 def _apart(study: Judged) -> list[str]:
-    """Return a line for each pair of claims that hold often, but never together."""
+    """Return a line for each pair of claims that hold often but never together."""
     lines = []
     often = [k for k in range(len(study.claims)) if np.nansum(study.holds[:, k]) >= _OFTEN]
     for i, k in enumerate(often):
@@ -144,13 +140,13 @@ def _apart(study: Judged) -> list[str]:
                 lines.append(f"- never together: `{study.claims[k].id}` and `{study.claims[other].id}`")
     never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
     if never:
-        lines.append(f"- under no set: {', '.join(f'`{name}`' for name in never)}")
+        lines.append(f"- in no set: {', '.join(f'`{name}`' for name in never)}")
     return lines or ["- every pair of claims that hold in many sets holds together in some"]
 
 
 @drawing(font=9.0)
 def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
-    """Draw, for each claim, the share of sets that satisfy it and what its number hangs on."""
+    """Draw, for each claim, the share of sets that satisfy it and what its number depends on."""
     from matplotlib import colormaps
 
     count = len(study.claims)
@@ -161,7 +157,7 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
     bars.barh(places, share, color=BLUE, height=0.7)
     bars.plot(100 * told.mean(axis=0), places, "|", color=VERMILION, markersize=9)
-    bars.set(xlim=(0, 103), xlabel="bar: sets that satisfy it [%]\ntick: sets that tell [%]")
+    bars.set(xlim=(0, 103), xlabel="bar: sets that satisfy it [%]\ntick: sets that can test it [%]")
     bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
     shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
     image = heat.imshow(
@@ -179,6 +175,6 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     for axes in (bars, heat, fits):
         axes.tick_params(length=2)
     letter_panels((bars, heat, fits))
-    title = f"{len(study.sets)} sets of assumptions: which claims hold, and what they hang on"
+    title = f"{len(study.sets)} sets of assumptions: which claims hold, and what they depend on"
     figure.suptitle(title, fontsize=10)
     return figure

@@ -38,7 +38,7 @@ _LEFT_OUT = {
 # Searches of each orbit, one of them from the answer at the speed before, and how sure they are. Six missed 10
 # of the same orbits and ended 4 too high, at 1.4 times the cost.
 STARTS = 4
-SURENESS = "of 103 orbits that 20 searches found under 12 sets these missed 11 and ended 2 more than 0.5 % too high"
+SURENESS = "of 103 orbits that 20 starts found for 12 sets, these miss 11 and give 2 more than 0.5 % too high"
 _SET = "set"
 
 

@@ -44,7 +44,7 @@ class Assumption:
         return self.low + share * (self.high - self.low)
 
 
-_UNSAID = "the paper does not say, and the two sets of coefficients need not have been treated alike"
+_UNSAID = "the paper does not say, and may have treated the two sets of coefficients differently"
 # What only one of the animals does in its upstroke or along its wing.
 _OWN = {"pigeon": "span_retraction", "bat": "twist_ratio"}
 
@@ -59,7 +59,7 @@ ASSUMPTIONS = (
     Assumption(
         "mass_exponent",
         "wing mass per span as (1 - s/L)^p",
-        "0 is even; 2 and 4 match van den Berg and Rayner 1995 and Harvey et al. 2022",
+        "0 is uniform; 2 and 4 match van den Berg and Rayner 1995 and Harvey et al. 2022",
         0.0,
         4.0,
     ),
@@ -74,43 +74,45 @@ ASSUMPTIONS = (
     Assumption(
         "shoulder_ahead",
         "shoulder ahead of the body's centre of mass over semi-span",
-        "0 by default; .13 in Harvey et al. 2022's pigeon",
+        "0 by default; 0.13 in Harvey et al. 2022's pigeon",
         0.0,
         0.13,
     ),
     Assumption(
-        "shoulder_above", "shoulder above it over semi-span", "0 by default; .03 in the same pigeon", 0.0, 0.04
+        "shoulder_above", "shoulder above it over semi-span", "0 by default; 0.03 in the same pigeon", 0.0, 0.04
     ),
     Assumption(
         "shoulder_aside",
         "shoulder beside the plane of symmetry over semi-span",
-        "0 by default; .10 in the same pigeon, half of what its span of .613 m exceeds twice the wing's .278 m by",
+        "0 by default; 0.10 in the same pigeon, half the difference between its span of 0.613 m and twice the "
+        "wing's 0.278 m",
         0.0,
         0.10,
     ),
     Assumption(
-        "span_retraction", "share of span drawn in at mid-upstroke, pigeon", "the paper gives no number", 0.0, 0.5
+        "span_retraction", "share of span retracted at mid-upstroke, pigeon", "the paper gives no number", 0.0, 0.5
     ),
     Assumption("twist_ratio", "pitch at the tip over that at the root, bat", "1.6 in the paper", 1.3, 1.9),
     Assumption(
         "flap_amplitude_deg",
         "largest flap amplitude allowed [deg]",
-        "half of 90 (Bullen and McKenzie 2002 at 10 m/s) to 140 deg (their largest)",
+        "half of 90 deg (Bullen and McKenzie 2002 at 10 m/s) to half of 140 deg (their largest)",
         40.0,
         70.0,
     ),
     Assumption("trims", "mean angles that are free", "the paper names neither", choices=TRIMS),
     Assumption(
         "flap_mean_deg",
-        "largest mean flap angle allowed up and down, where it is free [deg]",
-        "the paper gives no bound; 0 is a beat even about the shoulder, 30 the bound of the species files",
+        "largest mean flap angle allowed up and down, if it is free [deg]",
+        "the paper gives no bound; 0 is a stroke symmetric about the shoulder, 30 the bound of the species files",
         0.0,
         30.0,
     ),
     Assumption(
         "pitch_phase_deg",
-        "by how much of a turn pitch runs ahead of flap [deg]",
-        "the paper gives no phase; 0 is pitch fastest where flap turns, a twelfth of a beat either way is a guess",
+        "phase lead of pitch over flap [deg]",
+        "the paper gives no phase; at 0 pitch is fastest where flap reverses; a twelfth of a wingbeat either way "
+        "is a guess",
         -30.0,
         30.0,
     ),
@@ -118,19 +120,19 @@ ASSUMPTIONS = (
     Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
     Assumption(
         "airspeed",
-        "speed of a segment that makes its loads: across its span, or its part along the span, too",
-        "the paper says airspeed at each segment; strip theory takes the planar one",
+        "speed that determines a segment's loads: across its span only, or also along it",
+        "the paper says airspeed at each segment; strip theory uses the planar one",
         choices=AIRSPEEDS,
     ),
     Assumption(
         "force_point",
         "where the force acts, Su-Fan (Dickinson's has no centre of pressure)",
-        "quarter chord in the paper, which fits a centre of pressure all the same",
+        "quarter chord in the paper, although it also fits a centre of pressure",
         choices=FORCE_POINTS,
     ),
     Assumption(
         "body_drag_factor",
-        "drag area of the body over .2 times Pennycuick's frontal area",
+        "drag area of the body over 0.2 times Pennycuick's frontal area",
         "the paper names no body drag",
         0.0,
         1.0,

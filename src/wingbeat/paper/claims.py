@@ -80,12 +80,10 @@ def markdown(claims: Sequence[Claim]) -> str:
     lines = [
         "# The paper's claims beside ours",
         "",
-        "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. One row for each quantitative or directional claim; "
-        "our number is under our default assumptions, the first of those below. A claim *holds* if it does "
-        "under every "
-        "set of assumptions tried, *holds under* those named, or *fails* under all. What holds is consistent "
-        "with the "
-        "paper; it does not prove that the authors assumed the same.",
+        "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. One row for each quantitative or directional "
+        "claim; our number is under our default assumptions, the first of those below. A claim *holds* if it does "
+        "under every set of assumptions tried, *holds under* those named, or *fails* under all. What holds is "
+        "consistent with the paper; it does not prove that the authors assumed the same.",
         "",
         f"{len(claims)} claims: {tally}.",
         "",

@@ -10,9 +10,8 @@ from wingbeat.aero import Dickinson, SuFan, ellington_normal_drag
 from wingbeat.paper.claim import NO_DATA, Claim, tested, untestable
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift, printed_moment
 
-# "Small": at most this part of the largest. Of the plate's drag up to 13 deg, 15 % of its largest, the paper says
-# that
-# it is a small penalty; its lift there, of which it says that it is much, is 68 %.
+# "Small": at most this part of the maximum. The paper calls the plate's drag up to 13 deg, 15 % of its maximum, a
+# small penalty, and its lift there, 68 %, large.
 SMALL = 0.2
 # Where a formula is evaluated: from just above zero, past the blend, to the end of the measurements.
 _ALPHA_DEG = np.arange(1.0, 110.01, 0.05)
@@ -40,9 +39,8 @@ def _about_lift() -> list[Claim]:
         tested(
             "lift-slope",
             "abstract; results; discussion",
-            "C_L rises as thin-aerofoil theory has it, 2 pi per rad, below 8 deg (tested: least-squares line "
-            "through "
-            "the formula at 0, 2, ... 8 deg within 10 %)",
+            "below 8 deg C_L rises by 2 pi per rad, as in thin-aerofoil theory (tested: least-squares line "
+            "through the formula at 0, 2, ... 8 deg within 10 %)",
             2 * np.pi,
             "1/rad",
             slope,
@@ -52,8 +50,7 @@ def _about_lift() -> list[Claim]:
             "exponential-term",
             "abstract",
             "the exponential captures the rise of C_L at small angles (tested: it brings the slope below 8 deg "
-            "nearer "
-            "to 2 pi; ours: the slope without it)",
+            "nearer to 2 pi; ours: the slope without it)",
             2 * np.pi,
             "1/rad",
             bare,
@@ -127,7 +124,7 @@ def _about_drag() -> list[Claim]:
         tested(
             "drag-monotonic",
             "results",
-            "C_D rises monotonically from 0 to 90 deg (ours: least rise between samples)",
+            "C_D rises monotonically from 0 to 90 deg (ours: smallest rise between samples)",
             "> 0",
             "1",
             np.diff(drag[to_ninety]).min(),
@@ -136,7 +133,7 @@ def _about_drag() -> list[Claim]:
         tested(
             "drag-below-dickinson",
             "results",
-            "C_D is below Dickinson's at every angle (ours: least difference, 0 to 90 deg)",
+            "C_D is below Dickinson's at every angle (ours: smallest difference, 0 to 90 deg)",
             "> 0",
             "1",
             (fly_drag - drag)[to_ninety].min(),
@@ -158,14 +155,13 @@ def _about_drag() -> list[Claim]:
 
 
 def _small_below_13(name: str, symbol: str, values: np.ndarray, model: str = "Dickinson") -> Claim:
-    """Return the claim that a coefficient is small from 0 to 13 degrees: beside its own largest there is."""
+    """Return the claim that a coefficient is small from 0 to 13 degrees, compared with its own maximum."""
     share = float(values[_ALPHA_DEG <= 13].max() / values[_ALPHA_DEG <= 90].max())
     return tested(
         name,
         "discussion, simulations",
         f"{model}'s {symbol} is small between 0 and 13 deg (tested: there at most {100 * SMALL:.0f} % of its own "
-        "largest "
-        "up to 90 deg; ours: that share)",
+        "maximum up to 90 deg; ours: that share)",
         "small",
         "1",
         share,
@@ -188,7 +184,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "moment-slope",
             "results",
-            "C_M about mid-chord rises as thin-aerofoil theory has it, pi/2 per rad, at small angles (tested: line "
+            "at small angles C_M about mid-chord rises by pi/2 per rad, as in thin-aerofoil theory (tested: line "
             "through 0 and the formula at 2, 4, 6, 8 deg within 10 %)",
             np.pi / 2,
             "1/rad",
@@ -198,7 +194,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "moment-like-lift",
             "results",
-            "C_M follows a trend very like that of C_L (tested: correlation over 1 to 110 deg at least .9)",
+            "C_M follows a trend very like that of C_L (tested: correlation over 1 to 110 deg at least 0.9)",
             "very similar",
             "1",
             likeness,
@@ -234,7 +230,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "centre-limit",
             "results; discussion",
-            "the centre of pressure tends to the quarter chord as the angle tends to 0 (within .01)",
+            "the centre of pressure tends to the quarter chord as the angle tends to 0 (within 0.01)",
             0.25,
             "chord",
             at_zero,
@@ -243,7 +239,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "centre-monotonic",
             "discussion",
-            "the centre of pressure moves back monotonically (ours: largest step forward between 1 and 110 deg)",
+            "the centre of pressure moves back monotonically (ours: largest forward step between 1 and 110 deg)",
             0.0,
             "chord",
             np.max(np.maximum.accumulate(centre) - centre),
@@ -252,7 +248,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "centre-plateau",
             "discussion",
-            "the centre of pressure stays around .4 until 40 deg (tested: 10 to 40 deg within .01)",
+            "the centre of pressure stays around 0.4 until 40 deg (tested: 10 to 40 deg within 0.01)",
             0.4,
             "chord",
             centre[to_forty].mean(),
@@ -301,13 +297,12 @@ def _about_both() -> list[Claim]:
         untestable(
             "rotation-gain",
             "discussion",
-            "rotating wings gain a factor of 1.5 to 2.5 over still ones through a stable leading-edge vortex "
-            "(ours: "
-            "Dickinson's largest C_L over the plate's, which differ in more than rotation)",
+            "rotating wings gain a factor of 1.5 to 2.5 over non-rotating ones through a stable leading-edge "
+            "vortex (ours: Dickinson's largest C_L over the plate's, which differ in more than rotation)",
             "1.5 to 2.5",
             "1",
             lifts[1].max() / lifts[0].max(),
-            "one rotating fly wing and one still plate do not separate rotation from Reynolds number and aspect "
-            "ratio",
+            "one rotating fly wing and one non-rotating plate cannot separate rotation from Reynolds number and "
+            "aspect ratio",
         ),
     ]

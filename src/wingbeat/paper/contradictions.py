@@ -13,9 +13,9 @@ _OPEN = (
 )
 WHY = {
     5: f"{_OPEN}.",
-    6: f"{_OPEN}; another family of beats has other angles.",
-    7: f"{_OPEN}. It gives no wing mass either, and a beat of least frequency is not one of least power.",
-    8: f"{_OPEN}. It gives neither the body's pitch inertia nor the place of the shoulder.",
+    6: f"{_OPEN}; another family of wingbeats has other angles.",
+    7: f"{_OPEN}. It gives no wing mass either, and a wingbeat of lowest frequency is not one of lowest power.",
+    8: f"{_OPEN}. It gives neither the body's pitch inertia nor the position of the shoulder.",
 }
 
 

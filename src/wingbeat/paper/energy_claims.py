@@ -34,7 +34,7 @@ def peak_power(model: str) -> FlightClaim:
     return FlightClaim(
         f"peak-power-{model}",
         "results, energetics",
-        f"the peak power at 10 m/s with {model}, in our reading the bat's (within 25 %)",
+        f"the peak power at 10 m/s with {model}, which we read as the bat's (within 25 %)",
         paper,
         "W",
         test,
@@ -81,7 +81,8 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
     return FlightClaim(
         f"pitch-range-{model}",
         "results, body pitch",
-        f"body pitch varies in a beat with {model} by this much, in our reading the bat's at 10 m/s ({words})",
+        f"with {model} body pitch varies by this much within a wingbeat, which we read as the bat's at 10 m/s "
+        f"({words})",
         paper,
         "deg",
         test,
@@ -103,7 +104,7 @@ def less_pitching(animal: str) -> FlightClaim:
     return FlightClaim(
         f"less-pitching-{animal}",
         "abstract; discussion",
-        f"Su-Fan's coefficients lead to less body pitching, the {animal}'s (tested: range at 10 m/s; ours: its "
+        f"with Su-Fan's coefficients the {animal}'s body pitches less (tested: range at 10 m/s; ours: its "
         "ratio to Dickinson's)",
         "< 1",
         "1",

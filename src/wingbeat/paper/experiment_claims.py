@@ -36,8 +36,7 @@ def experiment_claims() -> list[Claim]:
             "blockage",
             where,
             "the chord is under 10 % of the channel's width, so blockage is minor (tested: chord over width; "
-            "broadside "
-            f"the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the section)",
+            f"broadside the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the section)",
             "< 0.10",
             "1",
             CHORD / width,
@@ -57,8 +56,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "collapse",
             "results, centre of pressure",
-            "the four Reynolds numbers collapse (ours: the spread of the formulas over Reynolds number, which they "
-            "do not hold)",
+            "the four Reynolds numbers collapse (ours: how much the formulas vary with Reynolds number, which "
+            "they do not contain)",
             "collapse",
             "1",
             0.0,
@@ -68,10 +67,8 @@ def experiment_claims() -> list[Claim]:
             "animals-reynolds",
             "introduction; title",
             "birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made (tested: pigeon and "
-            "bat "
-            f"of the paper, at each speed, within {REYNOLDS_FITTED[0]:.0f} to {REYNOLDS_FITTED[1]:.0f}; ours: of "
-            "the "
-            "two the one further from 40 000)",
+            f"bat of the paper, at each speed, within {REYNOLDS_FITTED[0]:.0f} to {REYNOLDS_FITTED[1]:.0f}; ours: "
+            "the Reynolds number farther from 40 000)",
             40000.0,
             "1",
             tuple(_reynolds_at(speed) for speed in SPEEDS),
@@ -79,8 +76,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "r-squared",
             "abstract; results, after the formulas",
-            "C_D is described by a sine alone and C_L by a sine and an exponential, both with R-squared above .995 "
-            "(ours: the lesser of the two when those forms are fitted to a SYNTHETIC campaign like theirs)",
+            "C_D is described by a sine alone and C_L by a sine and an exponential, both with R-squared above "
+            "0.995 (ours: the smaller of the two when those forms are fitted to a SYNTHETIC campaign like theirs)",
             "> 0.995",
             "1",
             min(fitted.lift.r_squared, fitted.drag.r_squared),

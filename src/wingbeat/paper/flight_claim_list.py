@@ -10,7 +10,8 @@ from wingbeat.paper.treatments import ANIMALS
 
 _RESULTS, _DISCUSSION = "results, simulations", "discussion, simulations"
 _PARTS = (
-    "the two models part as the bat flies faster than 5 m/s (tested: trend of Dickinson's frequency over Su-Fan's "
+    "above 5 m/s the two models' frequencies for the bat diverge (tested: trend of Dickinson's frequency over "
+    "Su-Fan's "
 )
 
 
@@ -20,8 +21,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "closed-loops",
             "results, sample orbit",
-            "height, pitch and velocities return after a beat: their loops are closed (tested: largest miss in SI "
-            "units when flown by an independent integrator, at most 1e-6)",
+            "height, pitch and velocities return after a wingbeat: their loops are closed (tested: largest "
+            "residual in SI units, at most 1e-6, when flown by an independent integrator)",
             "closed",
             "SI",
             flight.closed_loops,
@@ -45,9 +46,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "stable",
             "methods, simulation",
-            "the solutions found are stable periodic ones (tested: largest size of a Floquet multiplier of body "
-            "pitch, "
-            "velocities and pitch rate over all Su-Fan orbits, below 1)",
+            "the solutions found are stable periodic ones (tested: largest modulus of a Floquet multiplier of "
+            "body pitch, velocities and pitch rate over all Su-Fan orbits, below 1)",
             "stable",
             "1",
             flight.stable,
@@ -55,18 +55,18 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "least-frequency",
             "methods, simulation",
-            "the optimisation finds the one wingbeat of least frequency (tested: searches from several starts end "
-            "at one optimum, or else what is found hangs on the start; ours: most distinct optima of one orbit)",
+            "the optimisation finds the one wingbeat of lowest frequency (tested: all starts end at one optimum, "
+            "otherwise the result depends on the start; ours: largest number of distinct optima of one orbit)",
             "the one",
             "1",
             flight.least_frequency,
         ),
         *pigeon_claims(),
-        closer_at_speed("bat-closer-at-speed", "bat", flight.BAT_MEASURED, "as the paper has it"),
+        closer_at_speed("bat-closer-at-speed", "bat", flight.BAT_MEASURED, "as in the paper"),
         FlightClaim(
             "bat-slow-alike",
             _RESULTS,
-            "up to 5 m/s both models give the bat a like frequency (tested: ratio within 15 %)",
+            "up to 5 m/s both models give the bat a similar frequency (tested: ratio within 15 %)",
             "similar",
             "1",
             flight.bat_slow_alike,
@@ -105,8 +105,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "hand-alpha",
             _DISCUSSION,
-            "the hand has the larger angle of attack, with either model (tested: mean size at 3/4 less that at 1/4 "
-            "span, bat at 10 m/s; ours: the lesser of the models)",
+            "with both models the hand has the larger angle of attack (tested: mean absolute value at 3/4 minus "
+            "that at 1/4 span, bat at 10 m/s; ours: the smaller of the two)",
             "> 0",
             "deg",
             flight.hand_alpha_larger,
@@ -114,9 +114,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "arm-lifts",
             _DISCUSSION,
-            "the arm lifts, more than the hand, with either model (tested: mean upward force over weight at 1/4 "
-            "less "
-            "that at 3/4 span)",
+            "with both models the arm lifts more than the hand (tested: mean upward force over weight at 1/4 "
+            "minus that at 3/4 span)",
             "> 0",
             "1",
             flight.arm_lifts,
@@ -124,7 +123,7 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "hand-thrusts",
             _DISCUSSION,
-            "the hand gives the thrust, with either model (tested: its mean forward force over weight)",
+            "with both models the hand produces the thrust (tested: its mean forward force over weight)",
             "> 0",
             "1",
             flight.hand_thrusts,
@@ -132,8 +131,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "arm-drags",
             _DISCUSSION,
-            "the arm has more drag than the hand, with either model (tested: mean forward force over weight at 1/4 "
-            "less that at 3/4 span)",
+            "with both models the arm has more drag than the hand (tested: mean forward force over weight at 1/4 "
+            "minus that at 3/4 span)",
             "< 0",
             "1",
             flight.arm_drags,
@@ -141,9 +140,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "arm-pitches-least",
             _DISCUSSION,
-            "with Su-Fan the arm needs little pitching (tested: the root's pitch amplitude less Dickinson's, "
-            "bat at "
-            "10 m/s)",
+            "with Su-Fan the arm needs little pitching (tested: the root's pitch amplitude minus Dickinson's, bat "
+            "at 10 m/s)",
             "< 0",
             "deg",
             flight.arm_pitches_least,
@@ -151,8 +149,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "force-balance",
             _DISCUSSION,
-            "over a beat lift equals weight and thrust equals drag (tested: largest departure over weight, by 256 "
-            "samples, below .01)",
+            "over a wingbeat lift equals weight and thrust equals drag (tested: largest deviation over weight, "
+            "from 256 samples, below 0.01)",
             0.0,
             "1",
             flight.force_balance,
@@ -171,9 +169,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "power-exponent",
             _DISCUSSION,
-            "power goes roughly as frequency squared (tested: exponent from the two models' peaks at 10 m/s, "
-            "1.5 to "
-            "2.5; 0 where the frequencies are within 5 %)",
+            "power goes roughly as frequency squared (tested: exponent from the two models' peaks at 10 m/s, 1.5 "
+            "to 2.5; 0 if the frequencies are within 5 %)",
             2.0,
             "1",
             energy.power_exponent,
@@ -181,7 +178,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "measured-power-below",
             _DISCUSSION,
-            "the less than 4 W found for like bats lies below what either model gives (tested: lower peak power)",
+            "the power found for similar bats, less than 4 W, is below that of both models (tested: lower peak "
+            "power)",
             "> 4",
             "W",
             energy.measured_power_below,
@@ -190,8 +188,7 @@ def flight_claim_list() -> list[FlightClaim]:
             "lower-power",
             "abstract",
             "Su-Fan's coefficients lead to lower power (tested: mean positive power at 10 m/s, both animals; "
-            "ours: the "
-            "larger ratio to Dickinson's)",
+            "ours: the larger ratio to Dickinson's)",
             "< 1",
             "1",
             energy.lower_power,
@@ -201,8 +198,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "few-degrees",
             _DISCUSSION,
-            "the bat's body pitches by a few degrees only, as in life (tested: Su-Fan's range at 10 m/s at most "
-            "5 deg)",
+            "the bat's body pitches by only a few degrees, as in live bats (tested: Su-Fan's range at 10 m/s at "
+            "most 5 deg)",
             "few",
             "deg",
             energy.few_degrees,
@@ -212,8 +209,7 @@ def flight_claim_list() -> list[FlightClaim]:
             "differentiable",
             "discussion, last paragraph",
             "the formulas suit gradient-based optimisation (tested: the sample orbits, found by gradients, are "
-            "optima: "
-            "largest residual of the optimality conditions at most 1e-5)",
+            "optima: largest residual of the optimality conditions at most 1e-5)",
             "suitable",
             "1",
             flight.differentiable,

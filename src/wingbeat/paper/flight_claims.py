@@ -126,8 +126,8 @@ def smaller_alpha(station: float) -> FlightClaim:
     return FlightClaim(
         f"smaller-alpha-{words.replace('/', '-of-')}",
         "results, forces; discussion",
-        f"at {words} span the bat's effective angles of attack are smaller with Su-Fan (tested: mean size over the "
-        "beat at 10 m/s; ours: Su-Fan's less Dickinson's)",
+        f"at {words} span the bat's effective angles of attack are smaller with Su-Fan (tested: mean absolute "
+        "value over the wingbeat at 10 m/s; ours: Su-Fan's minus Dickinson's)",
         "< 0",
         "deg",
         test,
@@ -148,9 +148,8 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
     return FlightClaim(
         f"smaller-{words}-force",
         "results, forces",
-        f"the bat's {words} forces at 1/4 and 3/4 span are smaller with Su-Fan (tested: swing over the beat at "
-        "10 m/s; "
-        "ours: the larger ratio of Su-Fan's to Dickinson's)",
+        f"the bat's {words} forces at 1/4 and 3/4 span are smaller with Su-Fan (tested: peak to peak over the "
+        "wingbeat at 10 m/s; ours: the larger ratio of Su-Fan's to Dickinson's)",
         "< 1",
         "1",
         test,

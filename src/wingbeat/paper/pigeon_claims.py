@@ -14,7 +14,7 @@ from wingbeat.species import load_species
 
 _RESULTS = "results, simulations"
 _WORDS = {
-    "usherwood": "pigeons with a load at 4.46 m/s, Usherwood et al. 2005",
+    "usherwood": "loaded pigeons at 4.46 m/s, Usherwood et al. 2005",
     "pennycuick": "Pennycuick's law of 1996 for this mass, span and area",
 }
 # "Agrees very well": the mean deviation is at most this. Usherwood et al. 2005 state 8.02 +- 0.69 Hz, a spread of
@@ -49,9 +49,9 @@ def closer_at_speed(name: str, animal: str, measured: float, words: str) -> Flig
     return FlightClaim(
         name,
         "abstract; discussion, simulations",
-        f"the {animal}'s frequency comes out nearer to the measured one than with Dickinson's coefficients, above "
-        f"all fast (tested: mean relative deviation from {measured:.3g} Hz, {words}, at 10 m/s and more; ours: "
-        "Dickinson's over Su-Fan's)",
+        f"the {animal}'s frequency is closer to the measured one with Su-Fan's than with Dickinson's "
+        f"coefficients, especially at high speed (tested: mean relative deviation from {measured:.3g} Hz, "
+        f"{words}, at 10 m/s and above; ours: Dickinson's over Su-Fan's)",
         "> 1",
         "1",
         test,
@@ -103,7 +103,7 @@ def pigeon_data_claim() -> Claim:
         "pigeon-agrees",
         _RESULTS,
         "above 10 m/s the pigeon's frequency agrees very well with that of Tobalske and Dial 1996 (ours: the "
-        "nearer of two other references; by each of them the claim is judged in rows of its own)",
+        "nearer of two other references; other rows judge the claim by each of them)",
         "remarkably well",
         "Hz",
         min(pigeon_reference(name) for name in PIGEON_REFERENCES),

@@ -18,10 +18,10 @@ def planform_claim(orbits: Orbits) -> Claim:
     return Claim(
         "wing-shape",
         "methods, simulation",
-        "the shape of the wing does not change the optimum much (tested: a taper of 3 to 1 at the area of the "
-        "rectangle, and a leaf at its area and its second moment of area about the shoulder, both of the same "
-        f"span; median change of frequency over all speeds, animals and models at most {100 * INSIGNIFICANT:.0f} "
-        "%)",
+        "the shape of the wing does not change the optimum much (tested: a taper of 3 to 1 with the rectangle's "
+        "area, and a leaf shape with its area and its second moment of area about the shoulder, both with the "
+        "same span; median change of frequency over all speeds, animals and models at most "
+        f"{100 * INSIGNIFICANT:.0f} %)",
         "not significant",
         "1",
         findings,

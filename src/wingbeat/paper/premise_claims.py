@@ -41,19 +41,18 @@ def premise_claims() -> list[Claim]:
             "two-dimensional",
             "methods, experimental setup; discussion",
             "at aspect ratio 6 the flow is largely two-dimensional (ours: the formula's lift slope over 0 to 8 "
-            "deg, "
-            f"beside 2 pi in two dimensions and {finite:.2f} per rad of a finite wing, 2 pi A/(A + 2))",
+            f"deg; theory gives 2 pi in two dimensions and {finite:.2f} per rad for a finite wing, 2 pi A/(A + 2))",
             2 * np.pi,
             "1/rad",
             slope,
-            "the flow was not measured, and a thick blunt plate lowers the slope as its tips do",
+            "the flow was not measured, and a thick blunt plate lowers the slope just as tips do",
         ),
         tested(
             "formulas-differentiable",
             "discussion, last paragraph",
-            "the formulas are differentiable (tested: slope of the centre of pressure at 0, whose power .6 of the "
-            "angle is too steep for one; ours: its steepness at 1e-4 deg; C_L there is "
-            f"{float(printed_lift(fit, np.zeros(1))[0]):.3f}, so that mirrored it jumps)",
+            "the formulas are differentiable (tested: slope of the centre of pressure at 0, which is "
+            "infinite because it grows as the angle to the power 0.6; ours: its slope at 1e-4 deg; C_L is "
+            f"{float(printed_lift(fit, np.zeros(1))[0]):.3f} there, so it jumps when mirrored)",
             "differentiable",
             "1/rad",
             steepness,
@@ -63,10 +62,8 @@ def premise_claims() -> list[Claim]:
             "same-peak-as-insects",
             "discussion, experiment",
             "the peak of C_L near 40 deg is in line with that of Dickinson's insect wing (tested: its C_L at 40 "
-            "deg "
-            f"within {100 * IN_LINE:.0f} % of its largest, as near as the paper calls very good elsewhere; ours: "
-            "the "
-            f"shortfall; its peak is at {peak:.0f} deg)",
+            f"deg within {100 * IN_LINE:.0f} % of its maximum, which the paper calls very good elsewhere; ours: "
+            f"the shortfall; its peak is at {peak:.0f} deg)",
             0.0,
             "1",
             shortfall(fly, 40.0),
@@ -76,9 +73,8 @@ def premise_claims() -> list[Claim]:
             "same-peak-as-bird-wing",
             "discussion, experiment",
             "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: the plate's C_L at "
-            "the 43 "
-            f"deg that the paper prints for the wing within {100 * IN_LINE:.0f} % of its largest; ours: the "
-            "shortfall)",
+            f"the 43 deg that the paper prints for the wing within {100 * IN_LINE:.0f} % of its maximum; ours: "
+            "the shortfall)",
             0.0,
             "1",
             shortfall(fit, 43.0),
@@ -87,8 +83,8 @@ def premise_claims() -> list[Claim]:
         tested(
             "drag-alike-in-form",
             "results; discussion, experiment",
-            "C_D has the form of that of insect wings (tested: correlation with Dickinson's, 0 to 90 deg, at least "
-            ".99)",
+            "C_D has the form of that of insect wings (tested: correlation with Dickinson's, 0 to 90 deg, at "
+            "least 0.99)",
             "similar",
             "1",
             likeness,
@@ -125,12 +121,12 @@ def premise_claims() -> list[Claim]:
             "comparable",
             "1",
             float(printed_lift(fit, alpha).max()),
-            "their data could not be had",
+            "their data were not available",
         ),
         untestable(
             "edge-vortex",
             "discussion, experiment",
-            "a leading-edge vortex makes the lift past stall, grows to 40 deg and is shed beyond "
+            "a leading-edge vortex produces the lift past stall, grows up to 40 deg and is shed beyond "
             "(ours: angle of the "
             "formula's largest C_L)",
             40.0,

@@ -51,20 +51,20 @@ class Treatment:
     leaf: bool = False
 
 
-_HEAVY = "flap amplitude at most 45 deg, wing mass spread evenly"
+_HEAVY = "flap amplitude at most 45 deg, uniform wing mass"
 TREATMENTS = (
     Treatment(
         "mirrored",
         "coefficients mirrored at negative angles; wing mass as in the species file",
         "mirrored",
     ),
-    Treatment("signed", "formulas used as they stand at negative angles where finite", "signed"),
+    Treatment("signed", "formulas used as printed at negative angles where finite", "signed"),
     Treatment("mirrored-heavy", f"mirrored; {_HEAVY}", "mirrored", True, 45.0),
     Treatment("signed-heavy", f"signed; {_HEAVY}", "signed", True, 45.0),
     Treatment("mirrored-tapered", "mirrored; wings tapered 3 to 1, same area", "mirrored", taper=1 / 3),
     Treatment(
         "mirrored-leaf",
-        "mirrored; wings like a leaf, same area and same second moment of area about the shoulder",
+        "mirrored; leaf-shaped wings, same area and same second moment of area about the shoulder",
         "mirrored",
         leaf=True,
     ),

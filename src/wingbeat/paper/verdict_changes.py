@@ -21,13 +21,17 @@ REPLACED = {
     "less-pitching": ("less-pitching-pigeon", "less-pitching-bat"),
 }
 _REFERENCE = "judged by each reference drawn in figure 5, no longer by 6.25 Hz, which was our own guess"
-_SMALL = "'small' is now small beside the coefficient's own largest, as the paper uses the word of its own drag"
+_SMALL = (
+    "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for its own "
+    "drag"
+)
 _IN_LINE = (
-    "'in line with' is now the lift at the other's angle; the curves are flat there, and 2 degrees was too strict"
+    "'in line with' now compares the lift at the other's angle; the curves are flat there, and 2 degrees was too "
+    "strict"
 )
 # Why a claim is asked otherwise than before, by its name now.
 ASKED_OTHERWISE = {
-    "pigeon-agrees": "the data that the paper draws could not be had, and 6.25 Hz was our own guess",
+    "pigeon-agrees": "the data that the paper draws were not available, and 6.25 Hz was our own guess",
     **{
         f"pigeon-{what}-{by}": _REFERENCE
         for what in ("agrees", "dickinson-off", "closer-at-speed")
@@ -35,18 +39,18 @@ ASKED_OTHERWISE = {
     },
     "gains-at-speed": _REFERENCE,
     "bat-closer-at-speed": "the same test; its words now say whose 6 Hz it is",
-    "less-pitching-pigeon": "each animal by itself: the worse of the two hid the other",
-    "less-pitching-bat": "each animal by itself: the worse of the two hid the other",
-    "animals-reynolds": "asked at each speed, no longer at 10 m/s alone",
-    "two-dimensional": "the flow was not measured, and the lift slope of a thick plate does not tell",
+    "less-pitching-pigeon": "each animal separately: the worse of the two hid the other",
+    "less-pitching-bat": "each animal separately: the worse of the two hid the other",
+    "animals-reynolds": "judged at each speed, no longer only at 10 m/s",
+    "two-dimensional": "the flow was not measured, and the lift slope of a thick plate does not decide it",
     "same-peak-as-insects": _IN_LINE,
     "same-peak-as-bird-wing": f"new: the paper's own second example; {_IN_LINE}",
     "dickinson-drag-small": _SMALL,
-    "dickinson-lift-small": f"new: the paper says it of lift, too; {_SMALL}",
+    "dickinson-lift-small": f"new: the paper says it of lift as well; {_SMALL}",
     "drag-penalty-small": f"new: the drag that the paper calls small; {_SMALL}",
-    "arm-nose-up": "'a small nose-up pitch' is now positive and at most 13 degrees, no longer positive alone",
-    "closer-power": "'much closer' is now at most half as far, no longer closer by any amount",
-    "wing-shape": "judged at equal second moment of area, too, no longer at equal area alone",
+    "arm-nose-up": "'a small nose-up pitch' now means positive and at most 13 degrees, no longer only positive",
+    "closer-power": "'much closer' now means at most half as far, no longer closer by any amount",
+    "wing-shape": "judged also at equal second moment of area, no longer only at equal area",
 }
 
 
@@ -105,7 +109,7 @@ def _change(row: dict[str, Any] | None, claim: Claim) -> Change:
         why = ASKED_OTHERWISE.get(claim.id, "asked in other words")
     else:
         then, now = (_shown(number) for number in (row.get("ours"), claim.findings[0].number))
-        why = f"asked as before of other flights: {then} then, {now} now" if then != now else "asked as before"
+        why = f"same test, other flights: {then} then, {now} now" if then != now else "asked as before"
     return Change(claim.id, row["verdict"], claim.verdict, why)
 
 

@@ -27,3 +27,7 @@ __all__ = [
     "tornado_page",
     "wingbeat_page",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

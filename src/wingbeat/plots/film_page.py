@@ -26,6 +26,10 @@ def film_page(beat: FilmedBeat) -> Figure:
 
     Points are the frames, folded into one beat; the curve is the spline with its 95 % band, and below it stands how
     far the frames are from it, with two standard deviations of a frame.
+
+    Parameters
+    ----------
+    beat : from `fit_film`.
     """
     columns = list(beat.laws)
     figure = new_figure(min(COLUMN * len(columns), PAGE), 95.0)

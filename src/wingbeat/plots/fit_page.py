@@ -41,6 +41,10 @@ def fit_page(fit: WingFit) -> Figure:
 
     Points are the measurements with two standard errors either side; the curve is the fit with the 95 % band of a
     new measurement, C_M the curve that follows from the other three.
+
+    Parameters
+    ----------
+    fit : from `fit_wing`.
     """
     shown = ["C_L", "C_D", *(name for name in ("x_cp", "C_M") if name in fit.table.mean)]
     rows = (len(shown) + 1) // 2

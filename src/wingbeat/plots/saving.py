@@ -19,15 +19,27 @@ _SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.
 
 
 def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
-    """Note a fault unless the name ends like a figure that can be written."""
+    """Note a fault unless the suffix of a name is that of a figure that can be written.
+
+    Parameters
+    ----------
+    faults : takes the fault.
+    where : the name of the option or argument.
+    path : of the figure.
+    """
     if os.path.splitext(path)[1].lower() not in FIGURE_SUFFIXES:
-        faults.add(where, os.fspath(path), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+        faults.add(where, os.fspath(path), "is not a figure format", f"end it in {', '.join(FIGURE_SUFFIXES)}")
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     """Write a figure as PNG (300 dots an inch), PDF or SVG, by its suffix, whole or not at all.
 
     The same figure gives the same bytes: no date is written. Text in a PDF stays text.
+
+    Parameters
+    ----------
+    figure : from one of the pages.
+    path : of the file to write; its suffix, .png, .pdf or .svg, says which.
 
     Raises
     ------

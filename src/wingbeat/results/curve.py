@@ -37,7 +37,16 @@ MOST_SPEEDS = 1000
 
 
 class Curve:
-    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`."""
+    """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`.
+
+    Attributes
+    ----------
+    dataset : every certified optimum over (speed, optimum), labelled.
+    marks : changes between neighbouring speeds.
+    gaps : speeds at which nothing is certified [m/s].
+    warnings : what a reader should know.
+    characteristic_speeds : speeds of minimum power and maximum range [m/s].
+    """
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -45,7 +54,7 @@ class Curve:
 
     def __repr__(self) -> str:
         data = self._dataset
-        what = f"least {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
+        what = f"minimum {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
         return f"<Curve {data.attrs['species']}: {what}>"
 
     @property
@@ -55,7 +64,7 @@ class Curve:
 
     @property
     def marks(self) -> list[dict[str, Any]]:
-        """What happens between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
+        """Changes between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
         return self._about["marks"]
 
     @property
@@ -71,9 +80,9 @@ class Curve:
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of least power and greatest range, and those a power limit sustains; see `characteristic_speeds`.
+        """Speeds of minimum power and of maximum range, and those within a power limit.
 
-        Of the power that was made least, or of the mean positive power if that was something else.
+        They use the minimised power, or the mean positive power if the objective is not a power.
         """
         data = self._dataset
         torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
@@ -109,7 +118,11 @@ class Curve:
         return finite_or_none(record)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -131,17 +144,17 @@ def solve_curve(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Curve:
-    """Find the certified orbits of least objective along speed, and every other optimum found on the way.
+    """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
-    Every optimum that searches find is continued to the neighbouring speeds, both ways, until nothing is new, in
+    Every optimum that is found is continued to the neighbouring speeds, both ways, until nothing is new, in
     steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
     curve carries a mark.
 
     Parameters
     ----------
-    problem : what is asked at each speed; its own speed does not count.
+    problem : the problem at each speed; its own speed is ignored.
     speeds : at least two, increasing [m/s]; 0 is hover.
-    starts : searches at either end of the range, and a third as many at each speed between.
+    starts : starts at both ends of the range, and a third as many at each speed in between.
     seed : of the random starts.
     power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
     progress : called with (tasks done, tasks known of).
@@ -166,7 +179,7 @@ def solve_curve(
     elif good and not all(low < high for low, high in itertools.pairwise(values)):
         faults.add("speeds", values, "must increase", "give each speed once, the slowest first")
     if power_limit is not None:
-        faults.number("power_limit", power_limit, above=0, unit="W", fix="what can be sustained")
+        faults.number("power_limit", power_limit, above=0, unit="W", fix="the sustainable power")
     faults.raise_if_any()
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
@@ -182,6 +195,10 @@ def solve_curve(
 def load_curve(path: str | PathLike[str]) -> Curve:
     """Read a curve that `Curve.save` wrote.
 
+    Parameters
+    ----------
+    path : of a NetCDF file (.nc).
+
     Raises
     ------
     FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
@@ -192,17 +209,22 @@ def load_curve(path: str | PathLike[str]) -> Curve:
 def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """Return the curve in a dataset that came from a file.
 
+    Parameters
+    ----------
+    dataset : from a file.
+    path : of that file, for messages.
+
     Raises
     ------
-    FileError : it is none, or damaged.
+    FileError : it is no curve, or damaged.
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":
-        raise FileError(f"cannot read {shown} as a curve: it is none; give a file of `wingbeat curve -o`")
+        raise FileError(f"cannot read {shown} as a curve: it is not one; give a file of `wingbeat curve -o`")
     try:
         curve = Curve(dataset)
         if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
-            raise ValueError("the inputs are not those it was solved from")
+            raise ValueError("the inputs are not those of its solution")
         curve.record()
     except (LookupError, ValueError, TypeError, AttributeError) as error:
         raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve it again") from None

@@ -27,7 +27,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Flight:
-    """A flight sampled at phases (beats flown since the start), shape (K,), with states of shape (K, 6)."""
+    """A flight with prescribed wings, sampled along its beats; made by `simulate`.
+
+    Attributes
+    ----------
+    model, wingbeat : what flew.
+    phase : beats since the start, shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number from
+        where the integrator gave up.
+    """
 
     model: FlightModel
     wingbeat: Wingbeat
@@ -53,7 +61,11 @@ class Flight:
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -72,7 +84,7 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     wingbeat : the prescribed wingbeat.
     state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
     beats : number of wingbeats.
-    samples : samples a beat.
+    samples : samples per wingbeat.
 
     Raises
     ------
@@ -132,7 +144,11 @@ class TorqueDrivenFlight:
         )
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -156,7 +172,7 @@ def simulate_torque_driven(
     Parameters
     ----------
     model : the flight model.
-    wingbeat : gives span, fold and twist; its flap and pitch laws do not enter.
+    wingbeat : gives span, fold, sweep and twist; its flap and pitch laws do not enter.
     coordinates, rates : q and q' at the first time, shape (5,) each [m, rad; per s].
     torques : JAX-traceable function of time [s] and `args` that gives (flap, pitch) torques of both wings [N m].
     times : increasing sample times [s], shape (K,).

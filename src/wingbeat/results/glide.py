@@ -32,10 +32,16 @@ DEFAULT_ALPHA_DEG = np.arange(1.0, 31.0)
 
 @dataclass(frozen=True)
 class GlidePolar:
-    """Steady glides of one species, in the order asked for; see `glide_polar`.
+    """Steady glides of one species over the angle of attack; made by `glide_polar`.
 
-    ``least_sink`` and ``best_ratio`` are the slowest sink and the flattest path there are between the angles of
-    attack asked for; None where these end before the least or the best.
+    Attributes
+    ----------
+    species : what glides.
+    aero : its air loads.
+    trim : what was turned until the pitching moment vanished.
+    glides : one for each angle of attack, in the order asked for.
+    least_sink, best_ratio : slowest sink and flattest path between the angles of attack asked for; None where these
+        end before it is reached.
     """
 
     species: Species
@@ -81,7 +87,11 @@ class GlidePolar:
         return xr.Dataset(variables, attrs=attributes).set_coords("angle_of_attack")
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
 
         Raises
         ------
@@ -101,16 +111,16 @@ def glide_polar(
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
     Lift, drag, weight and, where it can be, the pitching moment balance, with the same air loads as in flapping
-    flight. Where no angle trims the moment, the body is kept along the path and `Glide.tail_moment` says what is
+    flight. If no angle trims the moment, the body stays along the path and `Glide.tail_moment` is what is
     lacking.
 
     Parameters
     ----------
     species : gives vehicle, twist, air, and the range of body pitch.
     aero : as in `OrbitProblem`, `SuFan()` if not given.
-    angles_of_attack : of the chord at the root, were the wing not flapped [rad]; 1 to 30 degrees if not given.
+    angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
-    trim : what is turned until the moment vanishes: ``"body-pitch"`` under wings that keep their angle of attack,
+    trim : what turns until the moment is zero: ``"body-pitch"`` under wings that keep their angle of attack,
         ``"flap"`` with the body along the path, or ``"tail"``, nothing.
 
     Raises
@@ -132,7 +142,7 @@ def glide_polar(
     if not isinstance(species, Species):
         faults.add("species", species, "is not a Species", "use load_species(name or path)")
     elif species.air.gravity == 0:
-        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "without weight nothing glides")
+        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "nothing glides without weight")
     faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
@@ -166,13 +176,13 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     notes = list(polar.species.warnings)
     found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
     if len(found) < len(polar.glides):
-        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady glide ahead")
+        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady forward glide")
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]
         notes.append(
-            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would have to give "
-            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body is kept along the path"
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would need to supply "
+            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body stays along the path"
         )
     coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
     low, high = coefficients.reynolds_range or (0.0, math.inf)
@@ -183,5 +193,5 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
             f"Reynolds number outside the fitted {low:g} to {high:g} in {outside} of {len(found)} glides "
             f"(it runs from {min(reynolds):.0f} to {max(reynolds):.0f})"
         )
-    notes.append("no induced drag is added to what the coefficients hold")
+    notes.append("the model adds no induced drag to the coefficients")
     return notes

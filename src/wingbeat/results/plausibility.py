@@ -1,4 +1,4 @@
-"""Whether an orbit is plausible: its numbers beside its species' ranges, a statement apart from the certificate."""
+"""Whether an orbit is plausible: its numbers compared with the species' ranges, apart from the certificate."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from wingbeat.species.plausibility import JUDGED
 
 __all__ = ["Statements", "is_judgement", "plausibility", "statements"]
 
-# Of the ranges of a species, what a reader calls each number.
+# The reader's name of each judged number.
 _NAMES = {
     "positive_power_per_mass": "power per mass",
     "frequency": "frequency",
@@ -28,7 +28,7 @@ _KEYS = {"name", "value", "unit", "low", "high", "within", "source"}
 
 
 class Statements(NamedTuple):
-    """What is said of an orbit: how it closes, and whether it is plausible; `good` where both hold."""
+    """How well an orbit closes, and whether it is plausible; `good` if it is certified and plausible."""
 
     closes: str
     plausible: str
@@ -36,15 +36,15 @@ class Statements(NamedTuple):
 
 
 def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return name, value, unit, low, high, within and source of each number that is judged; SI and radians.
+    """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
 
-    An end that nothing is known of is None. `within` says that no end that is known is passed; it is None where the
-    number has no value, as a Strouhal number in hover.
+    An unknown end of a range is None. `within` is true if the value passes no known end; it is None if the
+    number has no value, such as the Strouhal number in hover.
 
     Parameters
     ----------
     problem, beat : the problem and its certified beat.
-    record : the numbers of the orbit record that are judged.
+    record : the judged numbers of the orbit record.
     """
     values = {
         "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
@@ -73,33 +73,33 @@ def _judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, 
 
 
 def is_judgement(value: Any) -> bool:
-    """Say whether a value read from a file has the form of the record's ``plausibility``."""
+    """Return whether a value read from a file has the form of the record's ``plausibility``."""
     whole = isinstance(value, list) and all(isinstance(one, dict) and one.keys() == _KEYS for one in value)
     return whole and all(one["name"] in _NAMES and isinstance(one["source"], str) for one in value)
 
 
 def statements(record: dict[str, Any]) -> Statements:
     """Return the two statements on an orbit record: ``closes to 3e-09`` and ``plausible: no: ...``."""
-    misses = list((record.get("closure") or {}).values())
-    worst = None if not misses or None in misses else max(map(abs, misses))
+    residuals = list((record.get("closure") or {}).values())
+    worst = None if not residuals or None in residuals else max(map(abs, residuals))
     certified = record.get("status") == "converged"
     if certified and worst is not None:
         closes = f"closes to {worst:.0e}"
     else:
-        closes = "does not close: the flight ran off" if worst is None else f"misses its start by {worst:.1e}"
+        closes = "does not close: the flight diverged" if worst is None else f"does not close: residual {worst:.1e}"
     judged = record.get("plausibility") or []
     outside = [one for one in judged if one["within"] is False]
     unknown = [_NAMES[one["name"]] for one in judged if one["low"] is None and one["high"] is None]
     if not judged or len(unknown) == len(judged):
-        return Statements(closes, "plausible: not judged: no range is known", False)
+        return Statements(closes, "plausible: unknown: no range is known", False)
     if outside:
         return Statements(closes, f"plausible: no: {'; '.join(map(_how, outside))}", False)
-    left_out = f", where a range is known; none of {' and '.join(unknown)}" if unknown else ""
+    left_out = f"; no range is known for {' and '.join(unknown)}" if unknown else ""
     return Statements(closes, f"plausible: yes{left_out}", certified)
 
 
 def _how(one: dict[str, Any]) -> str:
-    """Return how a number lies outside its range, angles in degrees."""
+    """Return how a number is outside its range, angles in degrees."""
     value: float = one["value"]
     above = one["high"] is not None and value > one["high"]
     end: float = one["high" if above else "low"]
@@ -107,7 +107,7 @@ def _how(one: dict[str, Any]) -> str:
         return f"{value / end:.2g} times the power of muscle"
     factor, unit = (math.degrees(1.0), "deg") if one["unit"] == "rad" else (1.0, one["unit"])
     unit = "" if unit == "1" else f" {unit}"
-    # With so many digits that both differ.
+    # As many digits as it takes to tell the two apart.
     digits = next(n for n in range(3, 17) if n == 16 or f"{value * factor:.{n}g}" != f"{end * factor:.{n}g}")
     name, side = _NAMES[one["name"]], "above" if above else "below"
     return f"{name} {value * factor:.{digits}g} {side} {end * factor:.{digits}g}{unit}"

@@ -28,7 +28,7 @@ from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
 # Before the name of a function of the user's.
 _OWN = "the user's own"
-_ANEW = "is not in the file; set the problem up with it anew"
+_ANEW = "is not in the file; set up the problem with it again"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
 

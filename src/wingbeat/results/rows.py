@@ -1,4 +1,4 @@
-"""An orbit record as rows of label and value, in the units a reader wants: what terminal and page show."""
+"""An orbit record as rows of label and value in readable units, for terminal and page."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = [
 Rows = list[tuple[str, str]]
 
 _STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
-# What says that a wingbeat goes without one of the laws beyond the paper's; none of them needs a line then.
+# Values that switch off the laws beyond the paper's; such rows are left out.
 _OFF: dict[str, Any] = {
     **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
     **{name: [] for name in ("flap_harmonics", "pitch_harmonics", "span_harmonics")},
@@ -30,7 +30,7 @@ _OFF: dict[str, Any] = {
 
 
 def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
-    """Return every group of numbers that an orbit record holds, by its title; empty ones have no rows."""
+    """Return the groups of numbers in an orbit record, by title; an empty group has no rows."""
     aero = record.get("aero", {})
     place = f"{record.get('species')} at {_of(record, 'speed')}"
     if record.get("climb"):
@@ -39,10 +39,10 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else [])])
     return {
         "flight": [("species, mean speed", place), ("air loads", loads), *flight_rows(record)],
-        "short of an orbit, at the closest beat": deficit_rows(record.get("failed_balance") or []),
-        "nearest changes that fly, each by itself": change_rows(record.get("relaxations") or []),
+        "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
+        "smallest single changes that fly": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
-        "plausible, and the range": plausible_rows(record.get("plausibility") or []),
+        "plausible ranges": plausible_rows(record.get("plausibility") or []),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
         "power, both wings": power_rows(record),
         "certificate": certificate_rows(record),
@@ -65,7 +65,7 @@ def flight_rows(record: dict[str, Any]) -> Rows:
 
 
 def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
-    """Return each number that is judged, with its range and whether it lies within."""
+    """Return each judged number with its range, and whether it is within it."""
     rows = []
     for one in judged:
         factor, unit = for_people(cf(str(one["unit"])))
@@ -81,7 +81,7 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
 
 
 def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
-    """Return which laws of balance fail, and by how much."""
+    """Return which balances fail, and by how much."""
     share = {"N m": "of weight times chord"}
     rows = []
     for short in deficits:
@@ -96,7 +96,7 @@ def change_rows(changes: list[dict[str, Any]]) -> Rows:
 
 
 def wingbeat_rows(beat: dict[str, Any]) -> Rows:
-    """Return the numbers of a wingbeat, those of laws that are off left out."""
+    """Return the numbers of a wingbeat, without laws that are off."""
     shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
     rows = [(name.replace("_", " "), _of(beat, name)) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
@@ -108,12 +108,12 @@ def state_rows(state: dict[str, Any]) -> Rows:
 
 
 def power_label(name: str) -> str:
-    """Return what to call a power beside the word power: "hinges, mean" for "hinge power, mean"."""
+    """Return a power's label without the word power: "hinges, mean" for "hinge power, mean"."""
     return _label(name).replace(" power,", "s,")
 
 
 def power_rows(record: dict[str, Any]) -> Rows:
-    """Return means and peaks of power, and per mass where the record tells it."""
+    """Return means and peaks of power, also per mass if the record holds the mass."""
     hinges = ("mean_power", "mean_positive_power", "peak_power")
     vehicle = record.get("vehicle")
     mass = vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"] if vehicle else None
@@ -134,19 +134,19 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     closure = record.get("closure") or {}
     rows = []
     if record.get("objective_value") is not None:
-        rows.append(("made least", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
+        rows.append(("minimised", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
     for constraint, value in (record.get("constraints") or {}).items():
-        rows.append((f"kept to {constraint}", _number(value, "", 1.0)))
+        rows.append((f"constraint {constraint}", _number(value, "", 1.0)))
     if closure:
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))
-        miss = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"
-        rows.append(("largest miss when re-flown", f"{miss}, in {worst}"))
+        residual = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"
+        rows.append(("largest residual when re-flown", f"{residual}, in {worst}"))
     if record.get("optimality") is not None:
         rows.append(("optimality (largest KKT residual)", f"{record['optimality']:.1e}"))
     if "starts" in record:
-        rows.append(("searches, those that ended here", f"{record['starts']}, {record.get('starts_at_best')}"))
-        rows.append(("distinct optima met", str(record.get("distinct_optima"))))
-    rows.append(("on the bound of", ", ".join(record.get("active_bounds") or []) or "nothing"))
+        rows.append(("starts, those that ended here", f"{record['starts']}, {record.get('starts_at_best')}"))
+        rows.append(("distinct optima found", str(record.get("distinct_optima"))))
+    rows.append(("at the bound of", ", ".join(record.get("active_bounds") or []) or "nothing"))
     return rows
 
 
@@ -173,14 +173,14 @@ def _label(name: str) -> str:
 
 
 def _of(numbers: dict[str, Any], name: str) -> str:
-    """Return one number of a record in the unit that people like."""
+    """Return one number of a record in a readable unit."""
     factor, unit = for_people(NOMENCLATURE[name].unit)
     return _number(numbers.get(name), unit, factor)
 
 
 def _number(value: Any, unit: str, factor: float) -> str:
     if isinstance(value, list | tuple):
-        # Of harmonics, a ten-thousandth of a degree is nothing.
+        # Harmonics below a ten-thousandth of a degree are zero for a reader.
         shown = [f"{each * factor:.3g}" if abs(each * factor) >= 1e-4 else "0" for each in value]
         return f"{', '.join(shown)} {unit}".rstrip()
     if value is None:

@@ -29,10 +29,16 @@ QUANTITIES = ("frequency", "mean_positive_power")
 
 
 class Sensitivities:
-    """Derivatives of an optimum by every number it hangs on; made by `sensitivities`.
+    """Derivatives of an optimum with respect to every number it depends on; made by `sensitivities`.
 
-    `slopes` holds those by parameters, `prices` those by the bounds and limits that bind; `values` the quantities
-    at the optimum.
+    Attributes
+    ----------
+    problem : the problem that was solved.
+    unknowns : pitch state at phase 0 and free parameters of the optimum.
+    values : the quantities at the optimum, by name.
+    units : their units.
+    slopes : derivatives by the parameters.
+    prices : derivatives by the bounds and limits that bind.
     """
 
     def __init__(
@@ -58,17 +64,31 @@ class Sensitivities:
         )
 
     def ranked(self, quantity: str = QUANTITIES[0]) -> list[Sensitivity]:
-        """Return the sensitivities by parameters, those that can change a quantity most first.
+        """Return the sensitivities to the parameters, those that can change a quantity most first.
 
-        What counts is the change over the plausible range, or where there is none, that of one percent.
+        They are ranked by the change over the plausible range, or, where there is none, by the change for one
+        percent.
+
+        Parameters
+        ----------
+        quantity : name of one that was differentiated.
+
+        Raises
+        ------
+        InvalidInputError : a quantity that was not differentiated.
         """
         self._check(quantity)
         return sorted(self.slopes, key=lambda s: -max(abs(end) for end in self.swing(s, quantity)))
 
     def swing(self, slope: Sensitivity, quantity: str) -> tuple[float, float]:
-        """Return the change of a quantity to the low and the high end of a parameter's plausible range.
+        """Return the change of a quantity to the low and to the high end of a parameter's plausible range.
 
-        Where there is no range, to one percent less and more.
+        Where there is no range, the ends are one percent less and more.
+
+        Parameters
+        ----------
+        slope : the sensitivity to that parameter.
+        quantity : name of one that was differentiated.
         """
         parameter = slope.parameter
         ends = parameter.plausible or (
@@ -83,12 +103,12 @@ class Sensitivities:
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
     def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
-        """Return what is not known: every plausible range, all of it as likely, and a fit's covariance.
+        """Return the uncertainty of the inputs: uniform over their plausible ranges, and a fit's covariance.
 
         Parameters
         ----------
-        fit : the fit that the coefficients are of, from `read_model`; without it they count as exact.
-        share : draws every range in about its value, and the covariance likewise.
+        fit : the fit that the coefficients come from, read with `read_model`; without it they count as exact.
+        share : narrows every range about its value to this share, and the covariance likewise.
 
         Raises
         ------
@@ -102,7 +122,7 @@ class Sensitivities:
         return found if fit is None else found + _of_fit(self.problem, parameters, fit, share)
 
     def error_bar(self, quantity: str, fit: FittedModel | None = None, share: float = 1.0) -> ErrorBar:
-        """Return a quantity with its standard deviation to first order, and what it is due to.
+        """Return a quantity with its standard deviation to first order, and the contributions to it.
 
         Parameters
         ----------
@@ -124,7 +144,7 @@ class Sensitivities:
 
 
 def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES) -> Sensitivities:
-    """Differentiate an orbit by every number it hangs on, and price the bounds and limits that bind.
+    """Differentiate an orbit by every number it depends on, and price the bounds and limits that bind.
 
     The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
     other quantities follow from the conditions of the optimum (implicit function theorem; Fiacco 1983, Introduction
@@ -195,9 +215,15 @@ _BORNE_OUT = 0.9
 
 
 class Comparison(NamedTuple):
-    """A quantity's spread to first order and by samples; `standard_error` is that of the samples' deviation.
+    """A quantity's uncertainty to first order, compared with that of samples.
 
-    `explained` is the share of the samples' variance that the first order foretells draw by draw.
+    Attributes
+    ----------
+    first_order : the first-order estimate.
+    mean, deviation : mean and standard deviation of the samples.
+    standard_error : of that deviation.
+    explained : share of the samples' variance that the first order predicts draw by draw.
+    certified, drawn : number of draws that were certified, and of all.
     """
 
     first_order: ErrorBar
@@ -210,7 +236,7 @@ class Comparison(NamedTuple):
 
     @property
     def first_order_holds(self) -> bool:
-        """Whether the draws bear out the first order; if not, it is a ranking and no error bar."""
+        """Whether the samples confirm the first order; if not, it ranks the inputs but is no error bar."""
         return self.explained >= _BORNE_OUT
 
 
@@ -224,14 +250,14 @@ def uncertainty_by_samples(
     processes: int = 1,
     progress: Progress | None = None,
 ) -> dict[str, Comparison]:
-    """Solve the orbit for parameters drawn from their spreads, and set the outcome beside the first order.
+    """Solve the orbit for parameters drawn from their uncertainties, and compare the result with the first order.
 
     Parameters
     ----------
     found : the sensitivities of the orbit.
     quantities : names of those that were differentiated.
-    samples : how many draws.
-    seed : of the draws.
+    samples : number of random samples.
+    seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.
     processes, progress : as in `solve_orbits`.
 

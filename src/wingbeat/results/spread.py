@@ -16,9 +16,13 @@ from wingbeat.results.record import POWERS, power_summary
 
 
 class Spread(NamedTuple):
-    """Numbers of the draws that were certified, by their name in the record, shape (certified,) each.
+    """Spread of an orbit's numbers over draws of its wingbeat; made by `orbit_spread`.
 
-    ``estimates`` are those of the orbit that they are draws of, ``asked`` how many draws there were.
+    Attributes
+    ----------
+    values : numbers of the draws that were certified, by their name in the record, shape (certified,) each.
+    estimates : those of the orbit that they are draws of.
+    asked : number of draws.
     """
 
     values: dict[str, np.ndarray]
@@ -27,13 +31,17 @@ class Spread(NamedTuple):
 
     @property
     def certified(self) -> int:
-        """How many orbits there are."""
+        """Number of draws that were certified."""
         return len(next(iter(self.values.values())))
 
     def standard_error(self, name: str) -> float | None:
-        """Return how far the draws are from the orbit, root mean square; None if fewer than three were certified.
+        """Return the root mean square distance of the draws from the orbit; None if fewer than three are certified.
 
-        From the orbit, not from their own mean: what noise adds on average counts too.
+        The distance is that from the orbit, not from the mean of the draws: a bias that noise adds counts too.
+
+        Parameters
+        ----------
+        name : of a number in the record.
         """
         values, estimate = self.values[name], self.estimates[name]
         if len(values) < 3 or estimate is None or not np.isfinite(values).all():
@@ -44,12 +52,12 @@ class Spread(NamedTuple):
 def orbit_spread(
     orbit: Orbit, wingbeats: Sequence[Wingbeat], progress: Callable[[int, int], None] | None = None
 ) -> Spread:
-    """Trim and certify each of the wingbeats as the orbit was, starting from it, and return how its numbers spread.
+    """Trim and certify each wingbeat, starting from the orbit, and return the spread of the orbit's numbers.
 
     Parameters
     ----------
     orbit : a certified orbit.
-    wingbeats : in place of the problem's stock wingbeat; what is free in the problem is found anew.
+    wingbeats : each replaces the problem's stock wingbeat; the problem's free parameters are solved for again.
     progress : called with (wingbeats done, wingbeats in all).
 
     Returns

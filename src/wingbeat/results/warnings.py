@@ -1,4 +1,4 @@
-"""Honest warnings: where an orbit leans on a guess, or leaves what the model was fitted to."""
+"""Warnings: where an orbit depends on a guess, or leaves the range the model was fitted to."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.vehicle import Air, Vehicle
 
-# Hover's induced velocity is felt up to about three times that speed: there the wake bends alpha by some 10 %.
+# The wake matters up to about three times the induced velocity of hover: there it changes alpha by about 10 %.
 _SLOW = 3.0
 _MENTION = 0.01
-# A body that turns by this much within a beat turns a sixth of its lift into thrust and drag by turns.
+# Pitching by this much within a wingbeat turns a sixth of the lift into thrust and drag in turn.
 _SWING = math.radians(20.0)
-# Phases at which a stroke is looked at, how far across, as a share of the wing's length, is told, and how far past
-# the shoulder's range [rad].
+# Phases at which a stroke is checked; a warning is due this far across the plane of symmetry (share of the
+# semi-span) or this far past the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
-# Optima whose objectives differ by less than this share are worth the same to most.
+# Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
 
 
 def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
-    """Return everything a reader should know before trusting an orbit."""
+    """Return what a reader should know before trusting an orbit."""
     problem = solution.problem
     air = problem.air
     notes = list(problem.species.warnings)
@@ -36,14 +36,14 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
-            notes.append(f"the optimum leans on the bound of {name}, which is a guess: see the species file")
+            notes.append(f"the optimum is at the bound of {name}, which is a guess: see the species file")
         if name in ("u", "w", "pitch_rate"):
-            notes.append(f"the start's {name} met the limit of the search; distrust this orbit")
+            notes.append(f"the initial {name} is at the solver's limit; do not trust this orbit")
     swing = float(np.ptp(solution.certificate.pitch))
     if swing > _SWING:
         notes.append(
-            f"body pitch swings through {math.degrees(swing):.0f} degrees in each beat: "
-            "the body rows with the wings, which flying animals were not checked to do"
+            f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
+            "no flying animal we know of does"
         )
     notes += crossing(problem, solution.wingbeat)
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
@@ -52,32 +52,32 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     notes += rivals(solution)
     if solution.distinct_optima > 1:
         notes.append(
-            f"{solution.starts} searches met {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
-            "ended in this one, the best met, which is not proven the best of all"
+            f"{solution.starts} starts found {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
+            "ended in this one, the best found; a better one may exist"
         )
     return notes
 
 
 def at_lower_bound(solution: Solution) -> list[str]:
-    """Warn that least frequency is the bound itself: other orbits at the bound are worth the same."""
+    """Warn that the lowest frequency is the bound itself: other orbits at the bound are equally good."""
     if solution.status is not Status.CONVERGED:
         return []
     low = solution.problem.bounds["frequency"][0]
     return [
-        f"the least frequency is its lower bound, {low:g} Hz: the bound is the answer, more starts cannot better "
-        "it, and other orbits at this bound are worth the same; lower the bound, minimise a power, or see "
+        f"the lowest frequency is its lower bound, {low:g} Hz: more starts cannot improve it, and other orbits "
+        "at this bound are equally good; lower the bound, minimise a power, or see "
         f"`wingbeat glide {solution.problem.species.name}`"
     ]
 
 
 def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
-    """Return the species' bounds of a parameter, or along the path; a user's own are no guess."""
+    """Return the species' bounds of a parameter or of the path; a user's own bounds are no guess."""
     species = problem.species
     return (species.path_bounds | species.bounds)[name]
 
 
 def rivals(solution: Solution) -> list[str]:
-    """Warn of other optima that are worth nearly the same, and say where they differ most."""
+    """Warn of other optima that are nearly as good, and say where they differ most."""
     if solution.status is not Status.CONVERGED:
         return []
     best, unknowns = solution.objective, solution.problem.unknowns()
@@ -94,7 +94,7 @@ def rivals(solution: Solution) -> list[str]:
     )
     unit = " degrees" if angle else ""
     return [
-        f"other optima met within 1 % of the best: {len(others)}; they differ most in {name}, "
+        f"other optima within 1 % of the best: {len(others)}; they differ most in {name}, "
         f"{there:.3g} against {here:.3g}{unit}"
     ]
 
@@ -102,7 +102,7 @@ def rivals(solution: Solution) -> list[str]:
 def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
     """Warn of wings that pass through the plane of symmetry, and so through each other, or turn past their joints.
 
-    A search keeps off both; what is prescribed, such as a filmed wingbeat, may not.
+    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
     leading, trailing = map(np.asarray, lateral_corners(problem.vehicle, wingbeat, phase, problem.aero.strips))
@@ -112,33 +112,33 @@ def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
     if across > _ACROSS * problem.vehicle.wing.semi_span:
         notes.append(
             f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
-            "where it meets the other: no animal can beat like this"
+            "where it meets the other wing: no animal can do this"
         )
     angles = np.asarray(flap_angles(wingbeat, phase))
     low, high = problem.bounds["flap"]
     if max(low - angles.min(), angles.max() - high) > _PAST:
         least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])
-        reach = f"the shoulder reaches from {low:.0f} to {high:.0f}"
+        reach = f"the shoulder allows {low:.0f} to {high:.0f}"
         notes.append(f"the wing flaps from {least:.0f} to {most:.0f} degrees; {reach}")
     return notes
 
 
 def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
-    """Warn where the missing induced flow matters, by the momentum theory of a hovering actuator disc."""
+    """Warn where induced flow matters, by the momentum theory of a hovering actuator disc."""
     disc = math.pi * vehicle.wing.semi_span**2
     induced = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * disc))
     if speed >= _SLOW * induced:
         return []
     return [
-        f"no induced flow is modelled: at {speed:.1f} m/s, below {_SLOW * induced:.1f} m/s (three times the "
-        "induced velocity of hover), power is understated"
+        f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
+        f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
     ]
 
 
 def fitted_range(solution: Solution, beat: Beat) -> list[str]:
     """Warn of the share of beat and strips outside the coefficients' Reynolds and alpha range.
 
-    Every phase and every strip counts alike; strips are of equal width.
+    Every phase and every strip counts equally; strips have equal width.
     """
     problem = solution.problem
     coefficients = problem.aero.coefficients
@@ -157,7 +157,7 @@ def fitted_range(solution: Solution, beat: Beat) -> list[str]:
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of beat and strips: there the extension '{coefficients.extension}' decides"
+            f"{share:.0%} of beat and strips: there the extension '{coefficients.extension}' applies"
         )
     return notes
 

@@ -49,8 +49,8 @@ def bird(
     mass : of the whole bird [kg].
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
-    name, common_name, scientific_name : what it is called.
-    measured : any number of a species file by its own name, in place of what the laws give: ``wing_mass``,
+    name, common_name, scientific_name : its names.
+    measured : any number of a species file by its name, which replaces that of the laws: ``wing_mass``,
         ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density`` and so on.
 
     Raises
@@ -77,9 +77,18 @@ def bat(
     scientific_name: str = "",
     **measured: Any,
 ) -> Species:
-    """Return a bat from its mass [kg], wing span [m] and wing area [m2], as `bird` does, with twist and fold.
+    """Return a bat from its mass, wing span and wing area, with twist and fold.
 
-    No law of bats' wing mass was found: 7 % of the whole for each is a guess, and its source says so.
+    The rest follows from published scaling laws, as in `bird`. No law of bats' wing mass was found: 7 % of the
+    whole for each wing is a guess, and its source says so.
+
+    Parameters
+    ----------
+    mass : of the whole bat [kg].
+    wing_span : tip to tip [m].
+    wing_area : both wings and the body between them [m2].
+    name, common_name, scientific_name : its names.
+    measured : as in `bird`.
 
     Raises
     ------
@@ -112,8 +121,8 @@ def robot(
     Parameters
     ----------
     mass, wing_span, wing_area, name, common_name, scientific_name, measured : as in `bird`.
-    frequency_range : lowest and highest wingbeat frequency that its motor gives [Hz]; if not given a wide guess,
-        and an orbit that leans on it says so.
+    frequency_range : lowest and highest wingbeat frequency of its motor [Hz]; by default a wide guess,
+        and a warning names it if an orbit is at it.
 
     Raises
     ------
@@ -159,8 +168,13 @@ def _species(
 def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     mass, span, area = size.values()
     faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the mass of the whole in kg")
-    good = faults.number("wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give it tip to tip in m")
-    if not faults.number("wing_area", area, above=0, unit="m2", fix="give that of both wings in m2") or not good:
+    good = faults.number(
+        "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
+    )
+    if (
+        not faults.number("wing_area", area, above=0, unit="m2", fix="give the area of both wings in m2")
+        or not good
+    ):
         return
     if area > span * span:
         faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "m and m2?")
@@ -174,7 +188,9 @@ def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: Fa
         return
     _, amplitude = bat_beat(mass, area)
     if single(amplitude) <= 0:
-        faults.add("wing_area", area, "is beyond the law of bats' flap_amplitude", "give flap_amplitude=")
+        faults.add(
+            "wing_area", area, "is outside the range of the law for bats' flap_amplitude", "give flap_amplitude="
+        )
 
 
 def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:
@@ -216,5 +232,5 @@ def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None
     elif all([faults.number(where, value, above=0, unit="Hz") for value in limits]):
         if limits[0] < limits[1]:
             return float(limits[0]), float(limits[1])
-        faults.add(where, limits, "leaves no room between its ends", "write (lowest, highest)")
+        faults.add(where, limits, "must have its low end below its high end", "write (lowest, highest)")
     return None

@@ -34,7 +34,7 @@ _LARGEST = 1 << 18  # bytes; ours have 12 000
 
 
 def load_species(name_or_path: str | os.PathLike[str]) -> Species:
-    """Return a species in the box by its name, or one of your own from a TOML file.
+    """Return a built-in species by its name, or your own from a TOML file.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
         return _build(packaged_text(name), f"{name}.toml", name)
     if isinstance(name, str) and not (name.endswith(".toml") or any(s in name for s in _SEPARATORS)):
         known = suggest(name.lower(), species_names()).replace("?", "")
-        faults.add("species", name, "is not in the box", f"{known}; or give the path of a .toml file")
+        faults.add("species", name, "is not a built-in species", f"{known}; or give the path of a .toml file")
     elif not isinstance(name, str | os.PathLike):
         faults.add("species", name, "must be a name or a path", f"the names are {', '.join(species_names())}")
     faults.raise_if_any()

@@ -193,8 +193,8 @@ class LocalProcesses:
         if not worker.ready and how == "crashed":
             self.false_starts += 1
             if self.false_starts >= _STARTS:
-                raise WorkerError("no worker process can be started; its own words are above")
-        text = f"no answer within {self._timeout:g} s" if how == "timeout" else f"its process ended with {ending}"
+                raise WorkerError("no worker process can be started; see its message above")
+        text = f"no result within {self._timeout:g} s" if how == "timeout" else f"its process ended with {ending}"
         self._end(worker, how, text)
 
     def _end(self, worker: _Worker, lost: str | None = None, text: str = "") -> None:

@@ -5,3 +5,7 @@ from wingbeat.viewer.page import bundle_path, write_page
 from wingbeat.viewer.scene import scene
 
 __all__ = ["animate", "bundle_path", "scene", "write_page"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
 from wingbeat.mechanics.body_dynamics import strip_loads
 from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table
@@ -18,60 +18,103 @@ from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_mot
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.orbits.flight.shooting import STEPS, Flown
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        Free,
+        Number,
+        Pair,
+        Path,
+        PitchState,
+        PitchTangents,
+        Samples,
+        Scalar,
+        Series,
+        StripSeries,
+    )
+
 
 class Beat(NamedTuple):
-    """One beat from phase 0 to 1, both ends included, at equal phases: arrays of shape (K,), SI and radians.
+    """One beat from phase 0 to 1, both ends included, at K equal phases.
 
-    Names and units are those of a dataset. ``alpha``, ``strip_reynolds``, ``lift`` and ``drag`` are those of the
-    strips of one wing, shape (K, strips). Torques and powers are of both wings together, ``force_x`` and
-    ``force_z`` the air load on the whole vehicle. ``frequency`` [Hz], ``flap_amplitude`` [rad], ``speed`` and
-    ``climb`` [m/s], ``mass`` [kg], ``weight`` [N] and ``semi_span`` [m] are numbers.
+    Names and units are those of a dataset. Torques and powers are of both wings together.
+
+    Attributes
+    ----------
+    phase : share of the beat, shape (K,).
+    time : [s], shape (K,).
+    body_pitch, pitch_rate, pitch_acceleration : of the body, nose-up positive [rad, rad/s, rad/s2], shape (K,).
+    u, w, u_rate, w_rate : velocity forward and up, and its rates [m/s, m/s2], shape (K,).
+    flap, flap_rate : of the arm, up positive [rad, rad/s], shape (K,).
+    wing_pitch, wing_pitch_rate : at the root, leading edge up positive [rad, rad/s], shape (K,).
+    flap_torque, pitch_torque : of the hinges [N m], shape (K,).
+    hinge_power, actuator_power : of the hinges, and of all actuators [W], shape (K,).
+    aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], shape (K,).
+    alpha : angle of attack of the strips of one wing [rad], shape (K, strips).
+    strip_reynolds : Reynolds number of their chords, shape (K, strips).
+    lift, drag : of these strips [N], shape (K, strips).
+    force_x, force_z : air load on the whole vehicle, forward and up [N], shape (K,).
+    frequency : [Hz].
+    flap_amplitude : [rad].
+    speed, climb : mean velocity, forward and up [m/s].
+    mass : [kg].
+    weight : [N].
+    semi_span : [m].
     """
 
-    phase: Any
-    time: Any
-    body_pitch: Any
-    u: Any
-    w: Any
-    pitch_rate: Any
-    u_rate: Any
-    w_rate: Any
-    pitch_acceleration: Any
-    flap: Any
-    flap_rate: Any
-    wing_pitch: Any
-    wing_pitch_rate: Any
-    flap_torque: Any
-    pitch_torque: Any
-    hinge_power: Any
-    actuator_power: Any
-    aerodynamic_power: Any
-    inertial_power: Any
-    body_power: Any
-    alpha: Any
-    strip_reynolds: Any
-    lift: Any
-    drag: Any
-    force_x: Any
-    force_z: Any
-    frequency: Any
-    flap_amplitude: Any
-    speed: Any
-    climb: Any
-    mass: Any
-    weight: Any
-    semi_span: Any
+    phase: Series
+    time: Series
+    body_pitch: Series
+    u: Series
+    w: Series
+    pitch_rate: Series
+    u_rate: Series
+    w_rate: Series
+    pitch_acceleration: Series
+    flap: Series
+    flap_rate: Series
+    wing_pitch: Series
+    wing_pitch_rate: Series
+    flap_torque: Series
+    pitch_torque: Series
+    hinge_power: Series
+    actuator_power: Series
+    aerodynamic_power: Series
+    inertial_power: Series
+    body_power: Series
+    alpha: StripSeries
+    strip_reynolds: StripSeries
+    lift: StripSeries
+    drag: StripSeries
+    force_x: Series
+    force_z: Series
+    frequency: Number
+    flap_amplitude: Number
+    speed: Number
+    climb: Number
+    mass: Number
+    weight: Number
+    semi_span: Number
 
-    def mean(self, values: Any) -> Any:
-        """Return the mean of a series over the beat, by the trapezoidal rule."""
+    def mean(self, values: Samples) -> Scalar:
+        """Return the mean of a series over the beat, by the trapezoidal rule.
+
+        Parameters
+        ----------
+        values : the series, shape (K,).
+        """
         return jnp.mean(0.5 * (values[:-1] + values[1:]))
 
-    def mean_positive(self, values: Any) -> Any:
-        """Return the mean of the positive part of a series, which runs straight between its samples."""
+    def mean_positive(self, values: Samples) -> Scalar:
+        """Return the mean of the positive part of a series, with straight lines between its samples.
+
+        Parameters
+        ----------
+        values : the series, shape (K,).
+        """
         return mean_positive(values)
 
 
-def mean_positive(values: Any, xp: Any = jnp) -> Any:
+def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
     """Return the mean of the positive part of samples at equal phases, straight lines between them.
 
     Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero. `xp` is the array
@@ -91,16 +134,16 @@ NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "s
 class _Tables(NamedTuple):
     """What the wing does at given phases, whatever the body does."""
 
-    phase: Any
+    phase: Samples
     motion: WingMotion
     hinges: HingeMotion
-    flap: Any
-    wing_pitch: Any
-    frequency: Any
-    flap_amplitude: Any
+    flap: Samples
+    wing_pitch: Samples
+    frequency: Scalar
+    flap_amplitude: Scalar
 
 
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> _Tables:
+def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables:
     return _Tables(
         phase,
         motion_table(model, wingbeat, phase),
@@ -112,9 +155,9 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Any) -> _Tables:
     )
 
 
-def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) -> Beat:
+def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair) -> Beat:
     motion = tables.motion
-    body = settled(body_rates(model, motion, path)[1:])
+    body = fusion_barrier(body_rates(model, motion, path)[1:])
     body_pitch, u, w, pitch_rate = path
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
@@ -153,15 +196,15 @@ def _series(model: FlightModel, tables: _Tables, path: Any, mean_velocity: Any) 
     )
 
 
-@stored(static=("free",), hot=True)
+@exported(static=("free",), hot=True)
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,
-    values: Any,
-    path: Any,
-    tangents: Any,
-    ends: Any,
-    mean_velocity: Any,
+    values: Free,
+    path: PitchState,
+    tangents: PitchTangents,
+    ends: Pair,
+    mean_velocity: Pair,
     *,
     free: tuple[str, ...],
 ) -> tuple[Beat, Beat]:
@@ -170,8 +213,8 @@ def _part(
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
-    # Tables are settled so that each direction reads them and does not make them anew.
-    tables, table_tangents = settled((tables, jax.vmap(along)(directions)))
+    # A barrier, so that each direction reads the tables and does not compute them again.
+    tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(directions)))
     found, change = jax.linearize(lambda table, a: _series(model, table, a, mean_velocity), tables, path)
     return found, jax.vmap(change)(table_tangents, tangents)
 
@@ -214,8 +257,8 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
     return Beat(*(join(name) for name in Beat._fields))
 
 
-@stored
-def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Any, path: Any, mean_velocity: Any) -> Beat:
+@exported
+def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
     """Return the beat of states that were flown.
 
     Parameters

@@ -21,7 +21,14 @@ _ROUGH_SAMPLES = 32
 
 @dataclass(frozen=True)
 class Certificate:
-    """One period flown by the certifier: phases (K,), states (K, 6), and where it stepped."""
+    """One period flown by the certifier.
+
+    Attributes
+    ----------
+    phase : phases, shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
+    steps : where the integrator stepped.
+    """
 
     phase: np.ndarray
     states: np.ndarray

@@ -6,17 +6,21 @@ in half the time.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Stretches, StretchMaps, StretchStates
+
 
 # Steps in each of the certifier's own, which are short at the kinks of the loads: with two the multipliers of
 # unstable bats come within 1e-5 of those of an adaptive flight.
@@ -27,8 +31,10 @@ _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
 _LANES = 64
 
 
-@stored
-def _state_maps(model: FlightModel, wingbeat: Wingbeat, begin: Any, end: Any, path: Any) -> Any:
+@exported
+def _state_maps(
+    model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
+) -> StretchMaps:
     """Return the derivative of the pitch state at the end of each stretch by that at its begin, shape (K, 4, 4).
 
     Each stretch is flown from where the path is, (K, 4), and from beside it.
@@ -39,8 +45,8 @@ def _state_maps(model: FlightModel, wingbeat: Wingbeat, begin: Any, end: Any, pa
     def stage(carry: Any, given: Any) -> tuple[Any, None]:
         state, rate, total = carry
         motion, along, weight = given
-        here = settled(state + along * seconds * rate)
-        rate = settled(jax.vmap(lambda at: body_rates(model, motion, at))(here))
+        here = fusion_barrier(state + along * seconds * rate)
+        rate = fusion_barrier(jax.vmap(lambda at: body_rates(model, motion, at))(here))
         return (state, rate, total + weight * rate), None
 
     def step(state: Any, index: Any) -> tuple[Any, None]:
@@ -68,6 +74,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     Parameters
     ----------
     steps : where the certifier stepped.
+    model, wingbeat : what flies.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:

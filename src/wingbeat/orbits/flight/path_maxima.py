@@ -6,22 +6,26 @@ of equal height.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Columns, Quarters, SampledSeries
+
+
 PARTS = 4
 
 
-def highest(series: Any) -> Any:
+def highest(series: SampledSeries) -> Quarters:
     """Return the largest sample in each quarter, ends included, along the first axis."""
     part = (series.shape[0] - 1) // PARTS
     return jnp.stack([jnp.max(series[i * part : (i + 1) * part + 1], axis=0) for i in range(PARTS)])
 
 
-def peaks(series: Any) -> Any:
+def peaks(series: SampledSeries) -> Quarters:
     """Return the peak in each quarter of a smooth curve through the samples of a closed path, along the first axis.
 
     The highest sample itself has a kink wherever two samples are level, and optima that lower a peak, or are at a
@@ -33,7 +37,7 @@ def peaks(series: Any) -> Any:
     return jnp.stack([jnp.sum(jax.lax.stop_gradient(_weights(four, jnp)) * four, axis=0) for four in samples])
 
 
-def _samples_around(series: Any, begin: int, end: int) -> list[Any]:
+def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
     """Return the indices of four samples, between the middle two of which the curve peaks in a quarter."""
     count = series.shape[0] - 1
     top = begin + jnp.argmax(series[begin : end + 1], axis=0)
@@ -66,7 +70,7 @@ def peak_weights(path: np.ndarray) -> np.ndarray:
     return weights
 
 
-def _weights(samples: Any, xp: Any) -> Any:
+def _weights(samples: Quarters, xp: Any) -> Quarters:
     """Return the weights of four samples that give the peak of the curve between the middle two.
 
     The first of those is the higher. Samples and weights are the first axis; `xp` is their array module.
@@ -89,7 +93,7 @@ def _weights(samples: Any, xp: Any) -> Any:
     )
 
 
-def spread(series: Any) -> Any:
+def spread(series: SampledSeries) -> Columns:
     """Return how far a series is, at each phase, above its least value in each quarter: shape (phases, quarters).
 
     The largest of all is the series' range. Above the least value only, it would have a kink where two are level.

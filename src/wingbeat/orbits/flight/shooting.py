@@ -7,18 +7,40 @@ its step began; last the chain of the small step maps. Place (x, z) feeds nothin
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.wing_motion import WingMotion
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.flight.stroke_distances import ROWS, least_distances
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        EndJacobian,
+        FlownPath,
+        Free,
+        FreeTangents,
+        LinearMap,
+        MappedTangents,
+        PathJacobian,
+        PitchState,
+        Scalar,
+        Stages,
+        StateTangents,
+        StateVector,
+        StrokeJacobian,
+        StrokeRows,
+        TableRows,
+        TableTangents,
+        Tangents,
+    )
+
 
 # One compiled march has this many steps; finer flights chain several.
 STEPS = 32
@@ -32,15 +54,17 @@ class Flown(NamedTuple):
     derivative by the free parameters, are there if they were asked for.
     """
 
-    end: Any
-    path: Any
-    end_jacobian: Any
-    path_jacobian: Any
-    stroke: Any = None
-    stroke_jacobian: Any = None
+    end: StateVector
+    path: FlownPath
+    end_jacobian: EndJacobian
+    path_jacobian: PathJacobian
+    stroke: StrokeRows = None
+    stroke_jacobian: StrokeJacobian = None
 
 
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> tuple[tuple[Any, Any], WingMotion]:
+def _tabulate(
+    model: FlightModel, wingbeat: Wingbeat, first: Scalar, last: Scalar
+) -> tuple[tuple[TableRows, Scalar], WingMotion]:
     """Tabulate the wing at the ends of the steps, then at their middles.
 
     Returns the table in rows and the length of a step [s], and the table as it is.
@@ -51,12 +75,12 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, first: Any, last: Any) -> 
     return (_in_rows(table), (last - first) / (wingbeat.frequency * STEPS)), table
 
 
-def _in_rows(table: WingMotion) -> Any:
+def _in_rows(table: WingMotion) -> TableRows:
     """Return one array of all quantities of a table, (rows, times): one array is cut up at less cost than many."""
     return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
 
 
-def _from_rows(rows: Any, like: Any) -> WingMotion:
+def _from_rows(rows: TableRows, like: Any) -> WingMotion:
     """Return the table whose rows these are; `like` is a table of any times."""
     leaves, tree = jax.tree_util.tree_flatten(like)
     sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
@@ -72,9 +96,9 @@ _STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] fo
 class March(NamedTuple):
     """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
 
-    states: Any
-    rates: Any
-    last: Any
+    states: Stages
+    rates: Stages
+    last: PitchState
 
 
 def _combine(stages: Any) -> Any:
@@ -82,7 +106,7 @@ def _combine(stages: Any) -> Any:
     return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))
 
 
-def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> March:
+def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start: PitchState) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
     stages = jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
 
@@ -102,7 +126,9 @@ def _march(model: FlightModel, table: Any, like: Any, step: Any, start: Any) -> 
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
 
-def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, states: Any) -> tuple[Any, Any]:
+def _stage_tangents(
+    model: FlightModel, table: TableRows, tangents: TableTangents, like: Any, states: Stages
+) -> tuple[StateTangents, FreeTangents]:
     """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
 
     Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, ..).
@@ -127,7 +153,7 @@ def _stage_tangents(model: FlightModel, table: Any, tangents: Any, like: Any, st
     return to_stages(jax.vmap(by_state)(jnp.eye(4))), to_stages(jax.vmap(by_free)(in_lanes(tangents)))
 
 
-def _through(by_state: Any, tangents: Any) -> Any:
+def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
     """Return what tangents (directions, 4, ..) become under a linear map (4, components, ..), by state first.
 
     Written out: XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
@@ -135,7 +161,14 @@ def _through(by_state: Any, tangents: Any) -> Any:
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
 
-def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: Any, components: int) -> Flown:
+def _chain(
+    flight: March,
+    by_state: StateTangents,
+    by_free: FreeTangents,
+    step: Scalar,
+    step_tangent: Free,
+    components: int,
+) -> Flown:
     """Compose the tangents of all stages into those of the steps, and these into those of the period.
 
     Directions are the first axis, components the next, steps the last.
@@ -146,12 +179,14 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     first = jnp.broadcast_to(jnp.eye(lengthen.size, 4)[..., None], (lengthen.size, 4, STEPS))
     state_tangents, rate_tangents = [first], []
     for i, advance in enumerate((0.5, 0.5, 1.0, None)):
-        rate_tangents.append(settled(_through(by_state[:, :, i], state_tangents[i]) + by_free[:, :, i]))
+        rate_tangents.append(fusion_barrier(_through(by_state[:, :, i], state_tangents[i]) + by_free[:, :, i]))
         if advance is not None:
             state_tangents.append(first + advance * (step * rate_tangents[i] + lengthen * rates[:, i]))
-    step_map = settled(first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2)))
+    step_map = fusion_barrier(
+        first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2))
+    )
     mean_speed = _combine(states.transpose(1, 0, 2))[1:3]
-    place_map = settled(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
+    place_map = fusion_barrier(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
 
     def follow(jacobian: Any, after: Any) -> tuple[Any, Any]:
         return _through(after[:4], jacobian).at[4:].add(after[4:]), jacobian
@@ -167,14 +202,14 @@ def _chain(flight: March, by_state: Any, by_free: Any, step: Any, step_tangent: 
     )
 
 
-@stored(static=("free", "components", "stroke"), hot=True)
+@exported(static=("free", "components", "stroke"), hot=True)
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,
-    values: Any,
-    start: Any,
-    first: Any,
-    last: Any,
+    values: Free,
+    start: PitchState,
+    first: Scalar,
+    last: Scalar,
     *,
     free: tuple[str, ...],
     components: int,
@@ -191,7 +226,7 @@ def fly_part(
 
     (table, step), along, like = jax.linearize(by_values, values, has_aux=True)
     tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
-    table, tangents = settled((table, tangents))
+    table, tangents = fusion_barrier((table, tangents))
     flight = _march(model, table, like, step, start)
     by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
     flown = _chain(flight, by_state, by_free, step, step_tangent, components)

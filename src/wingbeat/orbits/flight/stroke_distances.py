@@ -8,7 +8,7 @@ in the whole beat. Where in the beat the distance is least does not matter to fi
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, lateral
 from wingbeat.mechanics.wing_motion import Strips, strips_of
 from wingbeat.orbits.flight.path_maxima import PARTS
 from wingbeat.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Samples, StrokeIndices, StrokeRows, StrokeSeries
+
 
 # The limit of the corners, as a name among the active bounds.
 SYMMETRY = "plane_of_symmetry"
@@ -33,14 +37,14 @@ _BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
 _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 
 
-def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Any, strips: int) -> Any:
+def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -> StrokeSeries:
     """Return what the rows are the least of: corners over the wing's length, then angles, shape (4 N + 4, K)."""
     corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, strips)]
     angles = flap_angles(wingbeat, phase)
     return jnp.concatenate([*corners, angles, -angles])
 
 
-def _places(sampled: Any, strips: int) -> tuple[Any, Any]:
+def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIndices]:
     """Return which series is the least of each row, and at which sample.
 
     First the sample, by the least of all corners at each: XLA on CPU makes vector code of a least value, but not of
@@ -56,7 +60,7 @@ def _places(sampled: Any, strips: int) -> tuple[Any, Any]:
     return series, jnp.append(place.ravel(), jnp.argmin(sampled[4 * strips :], axis=-1))
 
 
-def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
+def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
     """Return the least distance of each row, shape (12,).
 
     Corner and phase are held when it is differentiated: at its least the rate by phase is 0.
@@ -68,11 +72,11 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
     outer, strip = jnp.divmod(corner, strips)
     of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
 
-    def distance(at: Any) -> Any:
+    def distance(at: Samples) -> Samples:
         share, side = jnp.where(trailing, TRAILING, LEADING), 2.0 * outer - 1.0
         return lateral_corner(vehicle, wingbeat, of_corners, share, side, at, strips) / vehicle.wing.semi_span
 
-    def angle(at: Any) -> Any:
+    def angle(at: Samples) -> Samples:
         angles = flap_angles(wingbeat, at)
         return jnp.stack([angles[0, 0], angles[1, 1], -angles[0, 2], -angles[1, 3]])
 
@@ -81,7 +85,7 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Any:
     return jnp.concatenate([_at_least(distance, phase, corners), _at_least(angle, phase, angles)])
 
 
-def _at_least(value: Callable[[Any], Any], phase: Any, rows: slice) -> Any:
+def _at_least(value: Callable[[Any], Any], phase: StrokeRows, rows: slice) -> Samples:
     """Return some rows at their least, by Newton's method from the phases of the least samples."""
     phase = phase[rows]
     for _ in range(_NEWTON):

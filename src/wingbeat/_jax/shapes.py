@@ -1,0 +1,99 @@
+"""Shapes of the arrays of the physics: aliases for signatures, against which the tests check every call.
+
+Axes of one name have one size in a call; ``*phases`` stands for any number of axes, none at a single instant; an
+axis marked ``#`` may have length one or be left out. The kind of array is left open, because one equation takes
+arrays and tracers of JAX, arrays of NumPy and plain floats. Only type checkers and tests import this module, since
+`jaxtyping` takes 30 ms.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from jaxtyping import Float, Int
+
+Scalar = Float[Any, ""]
+# Parameters of the wingbeat that are free.
+Free = Float[Any, "free"]
+# Angles of attack, any shape.
+Angles = Float[Any, "*angles"]
+# Knots of a cubic spline, and its coefficients, constant first.
+Knots = Float[Any, "knots"]
+Spline = Float[Any, "4 pieces"]
+
+# One number at each phase, or at each instant [s].
+Phases = Float[Any, "*phases"]
+# One number for each strip, at each phase: strips come first, because XLA on CPU works along the last axis.
+PerStrip = Float[Any, "strips *phases"]
+# The same, where what does not change has axes of length one; or one number for each of some strips, each at a
+# phase of its own.
+PerStripBroadcast = Float[Any, "strips *#phases"]
+# Components of vectors, apart: forward and up in the plane of symmetry, or forward, left and up.
+Component = Float[Any, "*#components"]
+Pair = tuple[Component, Component]
+Triple = tuple[Component, Component, Component]
+
+Vectors = Float[Any, "*#components 3"]
+# Sums over the strips.
+Sums = Float[Any, "sums *phases"]
+
+# (body_pitch, u, w, pitch_rate), their rates, and the body's acceleration (x'', z'', psi'').
+PitchState = Float[Any, "4 *phases"]
+BodyAcceleration = Float[Any, "3 *phases"]
+# (x, z, body_pitch, flap, wing_pitch), their rates, and generalised forces.
+Coordinates = Float[Any, "*phases 5"]
+CoordinateMatrix = Float[Any, "*phases 5 5"]
+# Flap angles of arm and hand.
+FlapAngles = Float[Any, "2 *phases"]
+
+# Vectors (x, y, z) in the world: of strips, and of the corners of each.
+StripVectors = Float[Any, "*phases strips 3"]
+Corners = Float[Any, "*phases strips 4 3"]
+# Points of a wing at one instant, and of the two mass points of each strip; their derivatives have axes more.
+StripPoints = Float[Any, "strips 3 ..."]
+MassPoints = Float[Any, "2 strips 3 ..."]
+# Series along a flight: of the body, of each strip, and vectors (x, z) and (x'', z'', psi'').
+PhasesStrips = Float[Any, "*phases strips"]
+PhasesPair = Float[Any, "*phases 2"]
+PhasesAcceleration = Float[Any, "*phases 3"]
+
+# Along one flown period: a series, and (body_pitch, u, w, pitch_rate) at each sample; states of the integrator.
+Samples = Float[Any, "samples"]
+Path = Float[Any, "samples 4"]
+StateVector = Float[Any, "6"]
+StartState = Float[Any, "state"]
+StatePath = Float[Any, "samples state"]
+StepTimes = Float[Any, "steps"]
+StepStates = Float[Any, "steps state"]
+Integrated = tuple[StatePath, StepTimes, StepStates]
+# A beat and its derivatives, whose first axis is directions.
+Series = Float[Any, "... samples"]
+StripSeries = Float[Any, "... samples strips"]
+Number = Float[Any, "..."]
+PitchTangents = Float[Any, "directions 4 samples"]
+# Peaks of series in each quarter of the beat, and what they are interpolated from.
+SampledSeries = Float[Any, "samples *columns"]
+Quarters = Float[Any, "4 *columns"]
+Columns = Float[Any, "*columns"]
+
+# A flight in fixed steps: tables of the wing's motion in rows, all stages of all steps, and tangents.
+TableRows = Float[Any, "entries *times"]
+TableTangents = Float[Any, "free entries times"]
+Stages = Float[Any, "4 4 steps"]
+StateTangents = Float[Any, "4 4 4 steps"]
+FreeTangents = Float[Any, "free 4 4 steps"]
+LinearMap = Float[Any, "4 components *rest"]
+Tangents = Float[Any, "directions 4 *rest"]
+MappedTangents = Float[Any, "directions components *rest"]
+FlownPath = Float[Any, "samples components"]
+EndJacobian = Float[Any, "6 unknowns"]
+PathJacobian = Float[Any, "samples components unknowns"]
+# Distances of the stroke from its limits.
+StrokeSeries = Float[Any, "series samples"]
+StrokeRows = Float[Any, "rows"]
+StrokeIndices = Int[Any, "rows"]
+StrokeJacobian = Float[Any, "rows free"]
+# Stretches of a path that are flown at once, and the linear maps of the pitch state over them.
+Stretches = Float[Any, "stretches"]
+StretchStates = Float[Any, "stretches 4"]
+StretchMaps = Float[Any, "stretches 4 4"]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
-from wingbeat.aero.blends import Jet, Blend, even_blend, jet_of, odd_blend
+from wingbeat.aero.blends import Blend, Jet, even_blend, jet_of, odd_blend
 
 RIGHT = math.pi / 2
 WIDTH = math.radians(1.0)

@@ -261,8 +261,8 @@ def solve_orbit(
 ) -> Orbit:
     """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
-    A failure raises nothing: `Orbit.status` says how the solver ended, and `Orbit.message` what fails and what to do.
-    The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that fly.
+    A failure raises nothing: `Orbit.status` says how the solver ended, and `Orbit.message` what fails and what to
+    do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that fly.
 
     Parameters
     ----------

@@ -261,15 +261,15 @@ def solve_orbit(
 ) -> Orbit:
     """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
-    A failure raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
-    the beat is then the one that comes closest, and `Orbit.relaxations` are changes that were found to fly.
+    A failure raises nothing: `Orbit.status` says how the solver ended, and `Orbit.message` what fails and what to
+    do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that fly.
 
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of starts; more may find better optima. The default is 6, or 12 where the
-        objective or a limit is an output of the wingbeat, or 24 where the wingbeat's bounds are other than the
-        species' or the largest value of a series is minimised.
+    starts : number of starts; more may find better optima. Default: 6; 12 if the objective or a limit is a quantity
+        of the flown wingbeat; 24 if the wingbeat's bounds differ from the species' or the largest value of a series
+        is minimised.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.

@@ -1,4 +1,4 @@
-"""Make a page in Markdown from the results of `objectives.py`: bettered optima first, then doubtful ones, then the others."""
+"""Make a Markdown page from results of `objectives.py`: bettered optima, then doubtful ones, then the others."""
 
 from __future__ import annotations
 

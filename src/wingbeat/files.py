@@ -68,7 +68,7 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
         raise FileError(f"cannot read {label!r}: it is nested too deeply; is it the right file?") from None
     except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold
         reason = " ".join(str(error).split())[:200]
-        raise FileError(f"cannot read {label!r} as TOML: {reason}; mend the file there") from None
+        raise FileError(f"cannot read {label!r} as TOML: {reason}; correct the file there") from None
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:

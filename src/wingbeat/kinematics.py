@@ -37,15 +37,15 @@ class Wingbeat:
     frequency : [Hz].
     flap_mean, flap_amplitude : flap angle, wing up positive [rad].
     pitch_mean, pitch_amplitude : wing pitch at the root, leading edge up positive [rad].
-    span_retraction : share of the span drawn in at mid-upstroke, 0 to below 1.
+    span_retraction : share of the span retracted at mid-upstroke, 0 to below 1.
     twist_ratio : wing pitch at the tip over that at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
-    pitch_phase : by how much of a turn pitch runs ahead of flap [rad].
-    downstroke_fraction : share of the beat that the downstroke takes; all laws are stretched alike.
+    pitch_phase : phase lead of pitch over flap [rad].
+    downstroke_fraction : share of the wingbeat taken by the downstroke; all laws are stretched equally.
     sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
         without phase it is largest at mid-downstroke (protraction).
-    stroke_plane_tilt : is added to the wing's stroke-plane angle [rad].
+    stroke_plane_tilt : added to the wing's stroke-plane angle [rad].
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
 

@@ -49,7 +49,7 @@ class Wing:
     chord : chord [m], one number or a tuple at equally spaced stations from root to tip.
     mass : mass of one wing [kg].
     mass_exponent : exponent p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
-    shoulder : place of the shoulder in body axes (forward, left, up) [m].
+    shoulder : position of the shoulder in body axes (forward, left, up) [m].
     stroke_plane_angle : angle of the stroke plane from the body axis [rad]; pi/2 is a vertical plane.
 
     Raises

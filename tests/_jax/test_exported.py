@@ -8,13 +8,13 @@ import sys
 import numpy as np
 import pytest
 
-from wingbeat._jax import exported
+from wingbeat._jax import exported as exporting
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat._jax.program_cache import kept_program, program_folder
 
 
-@stored(static=("power",))
+@exported(static=("power",))
 def weighted(numbers, weight, *, power):
     """Return a sum of powers, and the numbers themselves, weighted."""
     return {"total": weight * jnp.sum(numbers["a"] ** power + numbers["b"]), "rows": weight * numbers["a"]}
@@ -63,7 +63,7 @@ def test_a_spoilt_file_is_traced_anew(monkeypatch, tmp_path):
     def twice(x):
         return 2.0 * x
 
-    assert float(stored(twice)(4.0)) == 8.0
+    assert float(exported(twice)(4.0)) == 8.0
     folder = program_folder()
     assert folder is not None
     assert folder.parent == tmp_path
@@ -71,24 +71,24 @@ def test_a_spoilt_file_is_traced_anew(monkeypatch, tmp_path):
     whole = file.read_bytes()
     for spoilt in (b"", whole[: len(whole) // 2], b"nonsense"):
         file.write_bytes(spoilt)
-        assert float(stored(twice)(4.0)) == 8.0
+        assert float(exported(twice)(4.0)) == 8.0
         kept = kept_program(file.name)
         assert kept is not None
         assert len(pickle.loads(kept)) == 3
     read = []
-    monkeypatch.setattr(exported.jax.export, "export", lambda *_: read.append("traced"))
-    assert float(stored(twice)(4.0)) == 8.0
+    monkeypatch.setattr(exporting.jax.export, "export", lambda *_: read.append("traced"))
+    assert float(exported(twice)(4.0)) == 8.0
     assert read == []
 
 
 def test_an_option_that_xla_does_not_know_changes_nothing(monkeypatch, tmp_path):
     monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
-    monkeypatch.setattr(exported, "_SOON_ON_CPU", {"xla_cpu_no_such_option": True})
+    monkeypatch.setattr(exporting, "_SOON_ON_CPU", {"xla_cpu_no_such_option": True})
 
     def thrice(x):
         return 3.0 * x
 
-    assert float(stored(thrice)(4.0)) == 12.0
+    assert float(exported(thrice)(4.0)) == 12.0
 
 
 @pytest.mark.parametrize(

@@ -184,7 +184,7 @@ def test_a_function_goes_to_other_processes_if_it_has_a_place_in_a_module():
 def test_a_pickle_of_another_function_under_the_name_is_refused(monkeypatch):
     kept = pickle.dumps(wb.aero.coefficients_of(plate))
     monkeypatch.setattr(sys.modules[__name__], "plate", draggy)
-    with pytest.raises(wb.InvalidInputError, match="computes something other than the function that was pickled"):
+    with pytest.raises(wb.InvalidInputError, match="differs from the function that was pickled"):
         pickle.loads(kept)
 
 
@@ -193,16 +193,16 @@ def jumpy(alpha):
 
 
 REFUSED = {
-    "numpy in it": (lambda a: (np.sin(a), 1.0), "cannot be traced by JAX .*in place of numpy"),
-    "math in it": (lambda a: (math.sin(a), 1.0), "cannot be traced by JAX"),
-    "an if": (jumpy, r"'jumpy': cannot be traced by JAX .*jnp\.where"),
-    "an error of its own": (lambda a: a.nothing, "cannot be traced by JAX .AttributeError"),
-    "two angles": (lambda a, b: (a, b), "cannot be traced by JAX .TypeError"),
+    "numpy in it": (lambda a: (np.sin(a), 1.0), "is not a function that JAX can trace .*in place of numpy"),
+    "math in it": (lambda a: (math.sin(a), 1.0), "is not a function that JAX can trace"),
+    "an if": (jumpy, r"'jumpy': is not a function that JAX can trace .*jnp\.where"),
+    "an error of its own": (lambda a: a.nothing, "is not a function that JAX can trace .AttributeError"),
+    "two angles": (lambda a, b: (a, b), "is not a function that JAX can trace .TypeError"),
     "one number": (jnp.sin, r"does not return two real numbers.*return \(C_L, C_D\)"),
     "three numbers": (lambda a: (a, a, a), "does not return two real numbers"),
     "arrays": (lambda a: (a * jnp.ones(3), a), "does not return two real numbers"),
     "complex": (lambda a: (a * 1j, a), "does not return two real numbers"),
-    "texts": (lambda a: ("lift", "drag"), "cannot be traced by JAX|does not return"),
+    "texts": (lambda a: ("lift", "drag"), "is not a function that JAX can trace|does not return"),
     "not finite": (lambda a: (jnp.log(a), 1.0), "has C_L of nan at -180 degrees"),
     "infinite drag": (lambda a: (a, 1 / jnp.cos(a) ** 2 / (jnp.abs(a) > 0)), "has C_D of inf at 0 degrees"),
     "a kink without slope": (lambda a: (jnp.sqrt(jnp.abs(a)), 1.0), "a slope of C_L of"),
@@ -210,7 +210,10 @@ REFUSED = {
         lambda a: (jax.pure_callback(np.sin, jax.ShapeDtypeStruct((), jnp.float64), a), 1.0),
         "has no derivative in JAX",
     ),
-    "a model not called": (wb.aero.SuFan, r"'SuFan': makes coefficient models, but is not one; call it: SuFan\(\)"),
+    "a model not called": (
+        wb.aero.SuFan,
+        r"'SuFan': is a class of coefficient models, not a model; call it: SuFan\(\)",
+    ),
     "a number": (3, "is not a coefficient model; give SuFan"),
     "an unknown name": ("sufan", r"'sufan': is not a known coefficient model; did you mean su-fan\?"),
 }

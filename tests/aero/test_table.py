@@ -161,7 +161,7 @@ FAULTS = [
         "alpha_deg,c_l,c_d,cm\n0,0,0.1,0\n",
         "row 1, column 4 = 'cm': is not a known column; the columns are alpha_deg, c_l, c_d, x_cp",
     ),
-    ("alpha_deg,c_l,c_d,c_d\n0,0,0.1,0\n", "row 1, column 4 = 'c_d': is given twice"),
+    ("alpha_deg,c_l,c_d,c_d\n0,0,0.1,0\n", "row 1, column 4 = 'c_d': appears twice"),
     (HEADER + "0,0,0.1\n30,1\n", "bad.csv row 3 = '30,1': must have 3 cells"),
     (HEADER + GOOD.replace("0.5", "half"), "row 3, column c_d = 'half': is not a number"),
     (HEADER + GOOD.replace("0.5", " "), "row 3, column c_d = '': is empty"),

@@ -38,7 +38,7 @@ def test_a_page_of_another_origin_cannot_drive_the_explorer(program, origin):
     with pytest.raises(InvalidStatus) as refused, program.connect(client, origin=origin):
         pass
     assert refused.value.response.status_code == 403
-    assert "The explorer takes nothing from pages of another origin" in program.log.read_text()
+    assert "The explorer accepts nothing from pages of another origin" in program.log.read_text()
 
 
 def test_the_pages_own_origin_is_taken(program):

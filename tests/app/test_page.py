@@ -125,11 +125,11 @@ def test_what_is_typed_and_chosen_stays_while_answers_come(visit):
 def test_a_curve_fills_in_and_can_be_cancelled(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:11:1")
     solved(page, "pigeon")
-    page.get_by_role("button", name="Fill in the curve").click()
+    page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve .note", has_text="3 speeds certified").wait_for()
     page.wait_for_function("document.querySelectorAll('.curve circle').length === 6")
     enter(page, "step [m/s]", "0.05")
-    page.get_by_role("button", name="Fill in the curve").click()
+    page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve tbody tr").nth(1).wait_for()
     page.get_by_role("button", name="Cancel the curve").click()
     page.locator(".curve .note", has_text="Cancelled after").wait_for()
@@ -141,9 +141,9 @@ def test_answers_are_pinned_and_fly_as_ghosts(visit):
     page.get_by_role("button", name="Pin", exact=True).click()
     page.get_by_label("Model", exact=True).select_option("dickinson")
     solved(page, "dickinson")
-    page.get_by_role("button", name=re.compile("Fly as ghost")).click()
+    page.get_by_role("button", name=re.compile("Show as ghost")).click()
     page.wait_for_function("wingbeatFlying.handle.flights.length === 2")
-    page.get_by_role("button", name=re.compile("Bring back")).click()
+    page.get_by_role("button", name=re.compile("Restore")).click()
     solved(page, "su-fan")
 
 
@@ -157,9 +157,9 @@ def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, mo
     }"""
     monkeypatch.setattr("wingbeat.app.session._CALM", 1e6)  # the whole search waits until the page was read
     page.evaluate(slide, 10.3)
-    page.locator(".message", has_text="Continued from the answer before, one search.").wait_for()
+    page.locator(".message", has_text="Continued from the previous result, with one start.").wait_for()
     assert "pigeon at 10.3 m/s" in page.locator(".what").inner_text()
-    assert "now searching from every start" in page.locator(".state").inner_text()
+    assert "now solving from every start" in page.locator(".state").inner_text()
     monkeypatch.undo()
     page.evaluate(slide, 10.4)
     solved(page, "pigeon at 10.4 m/s")
@@ -171,7 +171,7 @@ DIM = """(place) => {
     const sheer = (element) => element ? getComputedStyle(element).opacity * sheer(element.parentElement) : 1;
     return sheer(document.querySelector(place));
 }"""
-EARLIER = "This is the answer to an earlier question."
+EARLIER = "This result belongs to an earlier request."
 
 
 def dims(page, place=".badge"):
@@ -185,7 +185,7 @@ def is_bright(page, place=".badge"):
 def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:10:1")
     solved(page, "pigeon")
-    page.get_by_role("button", name="Fill in the curve").click()
+    page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve .note", has_text="2 speeds certified").wait_for()
     for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
         is_bright(page, place)
@@ -198,7 +198,7 @@ def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
         for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
             dims(page, place)
         page.get_by_text(EARLIER).wait_for()
-        page.get_by_text("These are the answers to an earlier question.").wait_for()
+        page.get_by_text("These results belong to an earlier request.").wait_for()
         assert "su-fan" in page.locator(".what").inner_text()
     finally:
         for worker in held:
@@ -256,7 +256,7 @@ def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     assert len(served.house.pages) >= 8
     before = set(served.house.pool.workers)
     patient = visit("species=pigeon&speed=9&minimise=peak_power&starts=100")  # takes long
-    patient.locator(".state", has_text="searches").wait_for()
+    patient.locator(".state", has_text="starts").wait_for()
     for pid in before:
         os.kill(pid, signal.SIGKILL)
     patient.locator(".trouble", has_text="The solver process ended").wait_for()

@@ -46,7 +46,7 @@ def test_a_whole_turn_in_fine_steps_is_exact():
     ("text", "message"),
     [
         ("", "--alpha = '': is not a number; write start:stop:step"),
-        ("0:10", "has 2 numbers where 1 or 3 are wanted"),
+        ("0:10", "has 2 numbers instead of 1 or 3"),
         ("0:1:2:3", "has 4 numbers"),
         ("0:ten:1", "'ten': is not a number"),
         ("a:b:c", "'a': is not a number"),

@@ -175,7 +175,7 @@ from wingbeat.cli.endings import end_on_signals
 
 if __name__ == "__main__":
     end_on_signals()
-    from wingbeat.orbits.many.batch import in_processes
+    from wingbeat.workers.process_map import in_processes
 
     list(in_processes(time.sleep, [60.0, 60.0], 2))
 """
@@ -270,7 +270,10 @@ def test_running_out_of_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, caps
 
     monkeypatch.setattr("wingbeat.cli.app._run", run)
     assert main(["orbit"]) == 1
-    assert capsys.readouterr().err == "error: there is not enough memory; close other programs or ask for less\n"
+    assert (
+        capsys.readouterr().err
+        == "error: there is not enough memory; close other programs or choose a smaller problem\n"
+    )
 
 
 # --- arguments ---

@@ -215,7 +215,7 @@ def test_plot_writes_the_page(files, tmp_path, capsys, name, suffix):
 def test_plot_refuses_the_output(files, tmp_path, capsys, output):
     assert main(["plot", str(files / "orbit.nc"), "-o", str(tmp_path / output)]) == 2
     assert re.match(
-        r"error: (--output = .*: is no kind of figure; end it in|cannot write ')", capsys.readouterr().err
+        r"error: (--output = .*: is not a figure format; end it in|cannot write ')", capsys.readouterr().err
     )
     assert not list(tmp_path.iterdir())
 

@@ -169,11 +169,11 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
         ("reduce run.csv -o nowhere/c.csv", "cannot write 'nowhere/c.csv'"),
         ("fit absent.csv", "cannot read 'absent.csv': no such file"),
         ("fit c.csv --form cubic", "form = 'cubic': is not a known choice; use one of su-fan"),
-        ("fit c.csv -o m.csv", "--output = 'm.csv': is no model file; end it in .toml"),
-        ("fit c.csv --plot m.gif", "--plot = 'm.gif': is no kind of figure"),
+        ("fit c.csv -o m.csv", "--output = 'm.csv': is not a model file; end it in .toml"),
+        ("fit c.csv --plot m.gif", "--plot = 'm.gif': is not a figure format"),
         ("fit c.csv --alpha-min nan", "--alpha-min = nan: must be finite"),
         ("fit c.csv --alpha-min 50 --alpha-max 10", "is above --alpha-max 10"),
-        ("fit c.csv --alpha-min 101", "holds no row, for the angles run from 0 to 90"),
+        ("fit c.csv --alpha-min 101", "holds no row: the angles run from 0 to 90"),
     ],
 )
 def test_bad_options_are_refused(words, part, here, capsys):

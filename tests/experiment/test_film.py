@@ -187,7 +187,10 @@ def test_radians_are_suspected(tmp_path):
         ("phase,flap_deg\n" + "\n".join(f"{t},{f}" for t, f in rows(6)), ["at least 8"]),
         ("phase,flap_deg\n" + "\n".join(f"{t / 2},{f}" for t, f in rows()), ["no frame from phase 0.47 to 0.00"]),
         ("phase,flap_deg\n" + "\n".join(f"{t},{9 * f}" for t, f in rows()), ["-180 to 180"]),
-        ("phase,span_fraction\n" + "\n".join(f"{t},{90 + f / 10}" for t, f in rows()), ["share of the semi-span"]),
+        (
+            "phase,span_fraction\n" + "\n".join(f"{t},{90 + f / 10}" for t, f in rows()),
+            ["not a fraction of the semi-span"],
+        ),
     ],
 )
 def test_faults_of_a_file_are_told_all_at_once(tmp_path, text, faults):

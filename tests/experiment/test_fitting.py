@@ -205,7 +205,7 @@ def test_arguments_are_checked(fit):
         fit.lift.covers({"a": 1.0})
     with pytest.raises(InvalidInputError, match="does not take the parameters of start"):
         CurveForm("f", lambda a, m: m * a, {"k": 1.0})
-    with pytest.raises(InvalidInputError, match="gives no finite numbers at the start of the fit"):
+    with pytest.raises(InvalidInputError, match="gives no finite numbers at its starting values"):
         fit_curve(ALPHA, ALPHA, CurveForm("m/0", lambda a, m: np.full_like(a, np.inf), {"m": 1.0}))
 
 

@@ -143,7 +143,7 @@ def test_hover_has_no_cost_of_transport_but_null():
     for name in ("cost_of_transport", "strouhal", "reduced_frequency", "reynolds"):
         assert record[name] is None
     assert json.loads(json.dumps(record, allow_nan=False)) == record
-    assert any("power is understated" in warning for warning in record["warnings"])
+    assert any("understates power" in warning for warning in record["warnings"])
 
 
 def test_finite_or_none_and_mean():

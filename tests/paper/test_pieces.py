@@ -105,7 +105,7 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
 
 def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert main([*SAMPLE, "--only", "2", "-o", str(tmp_path)]) == 0
-    assert "1 of 2 pieces are done; the page is of these" in " ".join(capsys.readouterr().err.split())
+    assert "1 of 2 pieces are done; the page covers these" in " ".join(capsys.readouterr().err.split())
     page = (tmp_path / "assumptions.md").read_text()
     assert "--piece 2`, of which 1 of 2 pieces are done (numerical" in page
     assert "Here we use 1 sets of assumptions" in page
@@ -135,11 +135,11 @@ def test_another_sample_in_the_folder_is_refused(whole, tmp_path, monkeypatch, c
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        (lambda text: text[: len(text) // 2], "remove it, and it will be run again"),
-        (lambda text: "", "remove it, and it will be run again"),
+        (lambda text: text[: len(text) // 2], "remove it to run it again"),
+        (lambda text: "", "remove it to run it again"),
         (lambda text: text.replace('"seed": 4', '"seed": 5'), "is of another sample"),
         (lambda text: text.replace('"number": 1', '"number": 2'), "another piece"),
-        (lambda text: text.replace("wing_mass_share", "share"), "its columns are not ours"),
+        (lambda text: text.replace("wing_mass_share", "share"), "its columns do not match"),
     ],
 )
 def test_a_spoilt_or_foreign_piece_is_refused(whole, tmp_path, capsys, spoil, said):

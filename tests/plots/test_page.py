@@ -248,7 +248,7 @@ def test_the_users_own_style_is_left_alone(tmp_path, orbit):
 
 @pytest.mark.parametrize("name", ["page.jpg", "page", ".png", "page.png ", "page.svgz"])
 def test_another_suffix_is_refused(tmp_path, name):
-    with pytest.raises(wb.InvalidInputError, match=r"is no kind of figure; end it in \.png, \.pdf, \.svg"):
+    with pytest.raises(wb.InvalidInputError, match=r"is not a figure format; end it in \.png, \.pdf, \.svg"):
         save_figure(Figure(), tmp_path / name)
     assert not list(tmp_path.iterdir())
 

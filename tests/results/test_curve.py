@@ -174,7 +174,7 @@ def test_the_command_line_draws_saves_and_prints(tmp_path, capsys):
     assert main(["show", str(saved)]) == 0
     printed = capsys.readouterr().out
     assert "3 of 3 speeds certified" in printed
-    assert "least power: 9 m/s" in printed
+    assert "minimum power: 9 m/s" in printed
     assert main(["plot", str(saved), "-o", str(tmp_path / "again.svg")]) == 0
     assert (tmp_path / "again.svg").read_bytes() == page.read_bytes()
 

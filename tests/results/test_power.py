@@ -46,7 +46,7 @@ def test_the_commands_tell_and_draw_it(orbit, tmp_path, capsys, monkeypatch):
     assert main(["show", str(kept), "--power"]) == 0
     printed = capsys.readouterr().out
     assert f"{account['best_spring']['stiffness']:.4g} N m/rad" in printed
-    assert "if braking costs as much as driving" in printed
+    assert "if negative work costs as much as positive" in printed
     assert main(["orbit", "--from", str(kept), "--power", "--json"]) == 0
     again = json.loads(capsys.readouterr().out)["power_account"]
     assert again["mean_power"] == pytest.approx(account["mean_power"], rel=1e-6)
@@ -59,7 +59,9 @@ def test_the_figure_shows_the_account(orbit):
     shares, loop, costs = page.axes
     lines = {line.get_label(): line.get_ydata() for axes in (shares, loop) for line in axes.get_lines()}
     np.testing.assert_array_equal(lines["inertial share"], orbit.dataset["inertial_power"])
-    np.testing.assert_allclose(lines["best spring"] + lines["left to actuators"], lines["flap torque"], rtol=1e-12)
+    np.testing.assert_allclose(
+        lines["best spring"] + lines["remaining for actuators"], lines["flap torque"], rtol=1e-12
+    )
     left = account["best_spring"]["mean_positive_power"]
     assert left in [pytest.approx(bar.get_width()) for bar in costs.patches]
     infeasible = orbit.dataset.assign_attrs(status="infeasible")
@@ -93,6 +95,6 @@ def test_what_has_no_account_is_refused(orbit, tmp_path, capsys):
     flight.save(tmp_path / "flight.nc")
     for words in ("show {} --power", "plot {} --power -o page.png"):
         assert main([word.format(tmp_path / "flight.nc") for word in words.split()]) == 2
-        assert "is no orbit: only a closed beat has a power account" in capsys.readouterr().err
+        assert "is not an orbit: only a closed wingbeat has a power account" in capsys.readouterr().err
     with pytest.raises(wb.InvalidInputError, match="solve the orbit again"):
         wb.power_account(orbit.dataset.drop_vars("body_power"))

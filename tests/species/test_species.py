@@ -141,7 +141,7 @@ def test_a_minimal_file(load: Any) -> None:
     assert own.vehicle.wing.stroke_plane_angle == math.pi / 2
     assert own.numbers["air.density"].source == "not given: the default"
     assert own.path_bounds == dict.fromkeys(("body_pitch", "flap"), (-math.pi / 2, math.pi / 2))
-    assert [line for line in own.warnings if "there is nothing to solve for" in line] == list(own.warnings)
+    assert [line for line in own.warnings if "no orbit can be found" in line] == list(own.warnings)
 
 
 def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> None:
@@ -185,7 +185,7 @@ def test_each_station_is_held_against_the_range(load: Any) -> None:
 def test_a_first_guess_outside_its_bounds_warns(load: Any) -> None:
     own = load(MINIMAL + "[free]\nflap_amplitude_deg = [50, 70]")
     assert own.warnings == (
-        "wingbeat.flap_amplitude = 40 deg is outside its own bounds; a search starts from the nearer bound",
+        "wingbeat.flap_amplitude = 40 deg is outside its bounds; the solver starts from the nearer one",
     )
 
 

@@ -77,12 +77,12 @@ def test_a_damaged_answer_is_named_and_salvage_loses_nothing_else(cheap, monkeyp
     ):
         code, out, err = study.run(*words)
         assert (code, out) == (2, "")
-        assert f"is damaged (1 of 13 answers do not match their digests, key {key[:8]})" in err
+        assert f"is damaged (1 of 13 results do not match their digests, key {key[:8]})" in err
         assert "run `wingbeat study salvage`, which keeps the 12 answers that are whole" in err
     assert study.store.read_bytes() == damaged
     code, out, err = study.run("salvage", study.file)
     aside = study.folder / "cheap.study.sqlite.damaged"
-    assert (code, err) == (0, f"12 answers kept; the damaged store is now {str(aside)!r}")
+    assert (code, err) == (0, f"12 results kept; the damaged store is now {str(aside)!r}")
     assert "waiting 1" in out
     assert aside.read_bytes() == damaged
     monkeypatch.setenv("STANDIN_LOG", str(study.folder / "log"))
@@ -90,7 +90,7 @@ def test_a_damaged_answer_is_named_and_salvage_loses_nothing_else(cheap, monkeyp
     assert (study.folder / "log").read_text().split() == [key]
     assert table(study) == before
     code, out, err = study.run("salvage", study.file)
-    assert (code, "is not damaged; it is left as it is" in err) == (0, True)
+    assert (code, "is not damaged; nothing was changed" in err) == (0, True)
     assert sorted(p.name for p in study.folder.glob("*.sqlite*")) == [study.store.name, aside.name]
     # What was put aside before stays.
     shutil.copy(aside, study.store)
@@ -183,10 +183,10 @@ def spoil(path, how):
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ("cut short", ("is damaged or no store", "nothing was deleted; restore a copy")),
-        ("no database", ("is damaged or no store", "nothing was deleted")),
-        ("overwritten", ("is damaged or no store", "nothing was deleted")),
-        ("foreign", ("is a database, but no store of a study",)),
+        ("cut short", ("is damaged or not a store", "nothing was deleted; restore a copy")),
+        ("no database", ("is damaged or not a store", "nothing was deleted")),
+        ("overwritten", ("is damaged or not a store", "nothing was deleted")),
+        ("foreign", ("is a database, but not a store of a study",)),
         ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
     ],
 )
@@ -209,7 +209,7 @@ def test_what_holds_no_answer_is_not_salvaged(cheap):
     held = study.store.read_bytes()
     for words in (("run", study.file), ("salvage", study.file)):
         code, _, err = study.run(*words)
-        assert (code, "no answer can be read from it" in err) == (2, True)
+        assert (code, "no result can be read from it" in err) == (2, True)
     assert study.store.read_bytes() == held
 
 

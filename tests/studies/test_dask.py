@@ -59,7 +59,7 @@ class Cluster:
         found = []
         for process in self.study.processes():
             with open(f"/proc/{process}/cmdline", "rb") as file:
-                if b"wingbeat.studies.worker" in file.read():
+                if b"wingbeat.workers.main" in file.read():
                     found.append(process)
         return found
 
@@ -117,7 +117,7 @@ def test_killed_workers_and_a_killed_driver_lose_nothing(cheap, cluster, tmp_pat
     driver.kill()
     _, err = driver.communicate()
     assert "jax 0.0.1, not " in err
-    assert "answers agree to their certificates, not to the last digit" in err
+    assert "results agree to their certificates, not to the last digit" in err
     time.sleep(0.3)  # what was in flight is given up
     kept, before = study.points(), log.read_text().split()
     assert len(kept) < len(GRID)
@@ -157,7 +157,7 @@ def test_a_scheduler_that_dies_is_told_and_the_study_goes_on_elsewhere(cheap, cl
     _, err = driver.communicate(timeout=60)
     assert driver.returncode == 2, err
     assert f"the Dask scheduler at {machines.address} is gone" in err
-    assert "what was stored stays: start it again and run the study again" in err
+    assert "stored results remain: start it again and run the study again" in err
     assert "Traceback" not in err
     assert 5 < len(study.points()) < len(GRID)
     assert study.run()[0] == 0
@@ -173,7 +173,7 @@ def test_dask_of_this_machine_through_the_program(cheap):
     assert "with 2 processes" in err
     assert "Traceback" not in err
     assert "converged 40 error 1 crashed 1 timeout 1" in " ".join(out.split())
-    assert "crashed: speed = 90: its process was ended by SIGKILL" in out
+    assert "crashed: speed = 90: its process ended with SIGKILL" in out
     assert "timeout: speed = 91: no answer within 1 s" in out
     study.wait_gone()
     kept = study.points()
@@ -226,7 +226,7 @@ def test_what_cannot_be_used_is_explained(cheap, monkeypatch):
         code, _, err = study.run("run", study.file, "--dask", wrong)
         assert (code, "names no Dask cluster; give tcp://HOST:PORT" in err) == (2, True), err
     code, _, err = study.run("run", study.file, "--dask", "local:1", "-j", 1)
-    assert (code, "is given beside a Dask cluster" in err) == (2, True), err
+    assert (code, "cannot be combined with a Dask cluster" in err) == (2, True), err
     monkeypatch.setitem(sys.modules, "distributed", None)
     code, _, err = study.run("run", study.file, "--dask", "local:1")
     assert (code, "pip install '.[cluster]'" in err) == (2, True), err

@@ -162,7 +162,7 @@ VARY_FAULTS = [
     ({"speed": {"grid": [9.0, -1.0]}}, "vary.speed.grid[1] = -1.0: must be >= 0 and <= 100 m/s"),
     ({"speed": {"grid": [9.0, 9]}}, "vary.speed.grid = [9.0, 9]: names a value twice"),
     ({"speed": {"grid": ["fast"]}}, "vary.speed.grid[0] = 'fast': must be a number"),
-    ({"speed": {"relative": [1.0]}}, "vary.speed.relative = [1.0]: has nothing to be relative to"),
+    ({"speed": {"relative": [1.0]}}, "vary.speed.relative = [1.0]: has no value to be relative to"),
     ({"speed": {"range": [9.0, 6.0]}}, "vary.speed.range = [9.0, 6.0]: must be [lowest, highest]"),
     ({"speed": {"range": [6.0, 9.0]}}, "sample = nothing: must be given, since speed has a range"),
     ({"wing.mass": {"grid": [-1.0]}}, 'vary."wing.mass".grid[0] = -1.0: must be > 0 kg'),
@@ -207,7 +207,7 @@ def test_all_faults_come_at_once(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("form", "words"),
     [
-        ({"vary": {"wingbeat.flap_amplitude": {"grid": [0.3, 0.6]}}}, "is free: the search would overwrite it"),
+        ({"vary": {"wingbeat.flap_amplitude": {"grid": [0.3, 0.6]}}}, "is free: the solver would overwrite it"),
         ({"vary": {"wingbeat.frequency": {"grid": [7, 8]}}}, "vary bounds.frequency.lower or .upper"),
         ({"vary": {"wingbeat.pitch_mean_deg": {"grid": [3, 6]}}, "free": ["pitch_mean", "frequency"]}, "is free"),
         ({"bounds": {"frequency_deg": [60, 500]}}, "is not the name of an angle; give bounds.frequency"),
@@ -215,7 +215,7 @@ def test_all_faults_come_at_once(tmp_path, capsys):
             {"bounds": {"flap_amplitude_deg": [5, 40], "flap_amplitude": [0.1, 1.2]}},
             "is given as flap_amplitude too",
         ),
-        ({"vary": {"body.drag_area": {"relative": [1, 2]}}}, "has nothing to be relative to"),
+        ({"vary": {"body.drag_area": {"relative": [1, 2]}}}, "has no value to be relative to"),
         ({"vary": {"climb": {"grid": [0.0, -0.0]}}}, "names a value twice"),
         (
             {"vary": {n: {"grid": [0.02, 0.021]} for n in ("wing.mass", "vehicle.wing.mass")}},
@@ -225,7 +225,7 @@ def test_all_faults_come_at_once(tmp_path, capsys):
             {"vary": {f"wing.stroke_plane_angle{d}": {"grid": [0.1, 0.2]} for d in ("", "_deg")}},
             "is varied as wing.stroke_plane_angle too",
         ),
-        ({"strips": [5, 8], "vary": {"aero.strips": {"grid": [5, 8]}}}, "is varied, too"),
+        ({"strips": [5, 8], "vary": {"aero.strips": {"grid": [5, 8]}}}, "is also varied"),
     ],
 )
 def test_what_could_be_misread_is_refused(form, words):

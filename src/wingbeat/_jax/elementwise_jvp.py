@@ -17,17 +17,17 @@ from wingbeat._jax.config import jax, jnp
 T = TypeVar("T")
 
 
-def settled(tree: T) -> T:
+def fusion_barrier(tree: T) -> T:
     """Return the arrays of `tree` as outcomes of a division by one, in a guise that XLA cannot see through."""
     return jax.tree_util.tree_map(lambda value: value / jnp.where(jnp.isnan(value), 2.0, 1.0), tree)
 
 
-def by_slopes(function: Callable[..., T]) -> Callable[..., T]:
+def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
     """Give an elementwise function of (parameters, arrays of one shape...) a derivative by its slopes.
 
     The parameters may be a pytree, the result too.
 
-    >>> line = by_slopes(lambda slope, x: slope * x)
+    >>> line = elementwise_jvp(lambda slope, x: slope * x)
     >>> float(jax.jvp(lambda x: line(3.0, x), (2.0,), (1.0,))[1])
     3.0
     """
@@ -35,7 +35,7 @@ def by_slopes(function: Callable[..., T]) -> Callable[..., T]:
     @jax.custom_jvp
     @functools.wraps(function)
     def sloped(parameters: Any, *arrays: Any) -> T:
-        return settled(function(parameters, *arrays))
+        return fusion_barrier(function(parameters, *arrays))
 
     def jvp(primals: Any, tangents: Any) -> tuple[T, T]:
         parameters, *arrays = primals
@@ -46,11 +46,11 @@ def by_slopes(function: Callable[..., T]) -> Callable[..., T]:
             for i, tangent in enumerate(tangents[1:]):
                 if not isinstance(tangent, SymbolicZero):
                     ones = [jnp.ones_like(a) if i == j else jnp.zeros_like(a) for j, a in enumerate(arrays)]
-                    slope = settled(along(*ones))
+                    slope = fusion_barrier(along(*ones))
                     change = jax.tree_util.tree_map(lambda c, s, t=tangent: c + s * t, change, slope)
         if not _all_zero(tangents[0]):
             along = _filled(tangents[0])
-            more = settled(jax.jvp(lambda p: function(p, *arrays), (parameters,), (along,))[1])
+            more = fusion_barrier(jax.jvp(lambda p: function(p, *arrays), (parameters,), (along,))[1])
             change = jax.tree_util.tree_map(jnp.add, change, more)
         return value, change
 

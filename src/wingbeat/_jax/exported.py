@@ -184,8 +184,8 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
 
 def _refuse_fork() -> None:
     raise ForkError(
-        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them for "
-        "ever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
+        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them "
+        "forever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
         "wb.solve_orbits(problems, processes=N)"
     )
 
@@ -219,15 +219,15 @@ def _source_digest() -> str:
     return digest.hexdigest()
 
 
-def stored(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
+def exported(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
     """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a hot one may take longer to compile.
 
-    >>> @stored
+    >>> @exported
     ... def double(values):
     ...     return 2 * values
     >>> float(double(1.5))
     3.0
     """
     if function is None:
-        return functools.partial(stored, static=static, hot=hot)
+        return functools.partial(exported, static=static, hot=hot)
     return StoredFunction(function, static, hot)

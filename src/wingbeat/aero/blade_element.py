@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
-from wingbeat._jax.elementwise_jvp import by_slopes
+from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.errors import FaultList, InvalidInputError
 
@@ -31,7 +31,7 @@ AIRSPEEDS = ("planar", "full")
 
 @dataclass(frozen=True)
 class BladeElement:
-    """How air loads are found: coefficients, number of strips, where the force acts, and which airspeed makes it.
+    """Model of the air loads: coefficients, number of strips, point where the force acts, and airspeed.
 
     Parameters
     ----------
@@ -39,13 +39,13 @@ class BladeElement:
         of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
     force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
-    airspeed : the speed V whose square makes lift and drag: "planar", that across the span, or "full", that of the
-        whole velocity of the strip, as the paper words it. Reynolds numbers of strips are of the same speed.
+    airspeed : the speed V whose square determines lift and drag: "planar", that across the span, or "full", that
+        of the whole velocity of the strip, as in the paper's words. Reynolds numbers of strips use the same speed.
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point or airspeed, or a centre of
-        pressure asked of a model that has none; what `coefficients_of` refuses.
+        pressure with a model that has none; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -132,12 +132,12 @@ def strip_forces(
     )
 
 
-@by_slopes
+@elementwise_jvp
 def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
     return kernel.lift_drag(alpha)
 
 
-@by_slopes
+@elementwise_jvp
 def _unit_forces(
     kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
 ) -> StripForces:

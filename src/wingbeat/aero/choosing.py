@@ -15,7 +15,7 @@ from wingbeat.errors import FaultList, suggest
 
 
 def coefficients_of(given: Any) -> CoefficientModel:
-    """Return the coefficient model that is meant wherever ``aero`` is asked for.
+    """Return the coefficient model for any value that ``aero`` accepts.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
     faults = FaultList()
     if isinstance(given, type) or any(given is maker for maker in LIBRARY.values()):
         name = getattr(given, "__name__", "?")
-        faults.add("aero.coefficients", name, "makes coefficient models, but is not one", f"call it: {name}()")
+        faults.add("aero.coefficients", name, "is a class of coefficient models, not a model", f"call it: {name}()")
     elif hasattr(given, "kernel"):
         return given
     elif callable(given):

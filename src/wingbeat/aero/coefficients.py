@@ -95,7 +95,7 @@ class CoefficientModel:
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts."""
+        """Whether the model has a centre of pressure."""
         raise NotImplementedError
 
     def kernel(self) -> Kernel:

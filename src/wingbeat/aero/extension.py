@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, Function, Jet, even_blend, jet_of, odd_blend
 from wingbeat.errors import FaultList
 
@@ -171,7 +171,7 @@ def _patch(piece: Function, behind: Jet, width: Scalar, extension: str, name: st
     return None
 
 
-@stored(static=("extension", "signed"))
+@exported(static=("extension", "signed"))
 def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     def ends(name: str) -> Ends:
         piece = getattr(pieces, name)

@@ -244,7 +244,7 @@ class FormulaCoefficients(CoefficientModel):
         _check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
-            rule = "evaluates the drag formula at negative angles, where its exponential term grows without bound"
+            rule = "evaluates the drag formula at negative angles, where its exponential term diverges"
             faults.add("extension", self.extension, rule, "use mirrored")
         faults.raise_if_any()
 
@@ -254,7 +254,7 @@ class FormulaCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts."""
+        """Whether the model has a centre of pressure."""
         return self.centre_terms is not None
 
     def kernel(self) -> ExtendedKernel:

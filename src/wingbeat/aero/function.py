@@ -73,8 +73,8 @@ def _unpickled(function: Callable[[Any], Any], name: str, digest: str) -> Progra
     """Return the program of a pickle, whose function pickle knows by its name alone."""
     again = _checked(function, name)
     if again.digest != digest:
-        rule = "computes something other than the function that was pickled under this name"
-        raise InvalidInputError([Fault(_WHERE, name, rule, "restore the module that it was pickled with")])
+        rule = "differs from the function that was pickled under this name"
+        raise InvalidInputError([Fault(_WHERE, name, rule, "bring back the module it was pickled with")])
     return again
 
 
@@ -100,7 +100,7 @@ class FunctionKernel:
 class FunctionCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a function of the angle of attack.
 
-    The function is traced once, here: what it reads from elsewhere is taken as it is now. It is used as it is at
+    The function is traced once, now; later changes of what it reads have no effect. It is used directly at
     every angle from -pi to pi, without extension or blend.
 
     Parameters
@@ -143,7 +143,7 @@ class FunctionCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the model tells where along the chord the force acts: a function does not."""
+        """Whether the model has a centre of pressure: a function does not."""
         return False
 
     def kernel(self) -> FunctionKernel:
@@ -166,7 +166,9 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
         traced, shapes = jax.make_jaxpr(function, return_shape=True)(jax.ShapeDtypeStruct((), jnp.float64))
     except Exception as error:  # whatever the function raises
         reason = str(error).strip().split("\n")[0][:120]
-        faults.add(_WHERE, name, f"cannot be traced by JAX ({type(error).__name__}: {reason})", _TRACEABLE)
+        faults.add(
+            _WHERE, name, f"is not a function that JAX can trace ({type(error).__name__}: {reason})", _TRACEABLE
+        )
         faults.raise_if_any()
         raise
     pair = list(shapes) if isinstance(shapes, tuple | list) else []

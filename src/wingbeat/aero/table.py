@@ -138,7 +138,7 @@ class TableCoefficients(CoefficientModel):
 
     @property
     def has_centre_of_pressure(self) -> bool:
-        """Whether the table tells where along the chord the force acts."""
+        """Whether the table has a centre of pressure."""
         return self.x_cp is not None
 
     def kernel(self) -> Kernel:
@@ -179,7 +179,7 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
         if column not in known:
             faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
         elif column in header[:i]:
-            faults.add(where, column, "is given twice", "keep one")
+            faults.add(where, column, "appears twice", "keep one")
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:

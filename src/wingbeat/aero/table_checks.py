@@ -45,7 +45,7 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
     for i, drag in enumerate(columns["c_d"]):
         if drag < 0:
             faults.add(
-                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "change its sign"
+                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "reverse its sign"
             )
     if len(angles) < MIN_ROWS:
         rule = f"has fewer than {MIN_ROWS} rows, which is too few for a cubic spline"

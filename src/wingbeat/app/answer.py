@@ -17,7 +17,7 @@ class Headline:
     """Status and the few numbers that everybody looks at first."""
 
     def __init__(self) -> None:
-        self._place = tag("section", classes="headline", aria_label="Answer in short")
+        self._place = tag("section", classes="headline", aria_label="Result in brief")
         self._tiles: dict[str, tuple[Any, Any]] = {}
         with self._place:
             with tag("div", classes="verdict"):
@@ -25,7 +25,7 @@ class Headline:
                 self._plausible = tag("p", "", "badge hidden")
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
-                tag("p", "This is the answer to an earlier question.", "earlier")
+                tag("p", "This result belongs to an earlier request.", "earlier")
             self._strip = tag("dl", classes="tiles")
 
     def show(self, answer: dict[str, Any]) -> None:
@@ -64,10 +64,10 @@ def _message(answer: dict[str, Any]) -> str:
     if answer.get("from_file"):
         parts.append(f"As the file {answer['from_file']} says; not solved here.")
     elif answer.get("continued"):
-        parts.append("Continued from the answer before, one search.")
+        parts.append("Continued from the previous result, with one start.")
     if answer.get("continued_better") is not None:
         better = number(answer["continued_better"])
-        parts.append(f"Continued from its neighbour a better one is known: {better}. More starts may meet it.")
+        parts.append(f"Continuation from a neighbour found a better one: {better}. More starts may find it.")
     text = ". ".join(part.rstrip(".") for part in parts if part)
     return f"{text[:1].upper()}{text[1:]}." if text else ""
 
@@ -81,7 +81,7 @@ class Answer:
     """
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
-        with box("section", "The answer", "answer"):
+        with box("section", "The result", "answer"):
             with tag("div", classes="acts"):
                 self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
             self._warnings = tag("ul", classes="warnings hidden", aria_label="Warnings")
@@ -107,10 +107,10 @@ class Influence:
     """What the answer depends on: a ranking of the numbers, and what bounds cost."""
 
     def __init__(self, ask: Callable[[], Any]) -> None:
-        with box("section", "What it hangs on", "influence"):
-            tag("p", "Exact derivatives of the certified optimum by every number it hangs on.", "note")
+        with box("section", "Sensitivities", "influence"):
+            tag("p", "Exact derivatives of the certified optimum by every number it depends on.", "note")
             with tag("div", classes="acts"):
-                button("Differentiate this answer", ask)
+                button("Compute sensitivities", ask)
             self._state = tag("p", "", "note", role="status")
             self._place = tag("div")
 
@@ -137,7 +137,7 @@ class Influence:
             ):
                 tag(
                     "caption",
-                    "Change to the low and the high end of each plausible range, by a straight line: a ranking",
+                    "Linear change to the low and the high end of each plausible range: a ranking",
                 )
                 with tag("thead"), tag("tr"):
                     tag("th", "Number", scope="col")
@@ -147,7 +147,7 @@ class Influence:
                 with tag("tbody"):
                     for one in found["ranked"]:
                         _ranked(one, names)
-            tag("h3", "What the active bounds cost")
+            tag("h3", "Prices of the active bounds")
             with tag("ul", classes="plain"):
                 for price in found["prices"]:
                     tag("li", _price(price, found["units"]))

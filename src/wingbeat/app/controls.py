@@ -48,7 +48,7 @@ class Controls:
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
-            self._fields["minimise"] = choice_field("Make least", quantities, now.minimise, self._word("minimise"))
+            self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
 
     def _build_animal(self, names: list[tuple[str, str]]) -> None:
         own = [self._own] if self._own else []
@@ -73,9 +73,9 @@ class Controls:
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
             )
             self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
-        with box("section", "Search"):
+        with box("section", "Solver"):
             starts = "" if now.starts is None else str(now.starts)
-            hint = "empty: as many as is usual"
+            hint = "empty: the default number"
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
             self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
             hint = "such as peak_power<=30, body_pitch_range<=10 deg; commas between"

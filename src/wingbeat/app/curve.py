@@ -9,11 +9,11 @@ from nicegui import ui
 
 from wingbeat.app.curve_chart import chart
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Event, Job
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session
 from wingbeat.app.widgets import Field, box, button, number_field, tag
 from wingbeat.app.words import from_shown, number
+from wingbeat.workers.fair_pool import Event, Job
 
 __all__ = ["CurvePanel"]
 
@@ -46,9 +46,9 @@ class CurvePanel:
                 for i, (name, value) in enumerate(zip(_SWEEP, sweep, strict=True))
             ]
         with tag("div", classes="acts"):
-            button("Fill in the curve", self.start)
+            button("Compute the curve", self.start)
             self._stop = button("Cancel the curve", self.cancel, disabled=True)
-        self._state = tag("p", "Each speed is searched from every start and from its neighbour's answer.", "note")
+        self._state = tag("p", "Each speed is solved from every start and from its neighbour's result.", "note")
         self._state.props["role"] = "status"
         self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Points of the curve")
         self._found = tag("div", classes="found")
@@ -56,7 +56,7 @@ class CurvePanel:
             self._build_found()
 
     def _build_found(self) -> None:
-        tag("p", "These are the answers to an earlier question.", "earlier")
+        tag("p", "These results belong to an earlier request.", "earlier")
         self._drawing = ui.html("", sanitize=False)  # holds numbers and words of our own alone
         self._table = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Points of the curve")
 
@@ -88,7 +88,7 @@ class CurvePanel:
         """Ask for every point, the slowest first."""
         self.cancel()
         if self._session.scenario.faults().faults:
-            self._state.set_text("Not started: a choice cannot be, see the mark beside it.")
+            self._state.set_text("Not started: a choice is invalid; see the mark beside it.")
             return
         self._asked, self._points = self._session.scenario, []
         self.show_sweep(self._asked)
@@ -149,7 +149,7 @@ class CurvePanel:
         if known:
             least = min(known, key=lambda point: point["mean_positive_power"])
             power = number(least["mean_positive_power"], 3)
-            text += f". Least power of these: {power} W at {least['speed']:g} m/s"
+            text += f". Lowest power of these: {power} W at {least['speed']:g} m/s"
         return text + "."
 
     def mark(self, speed: float) -> None:
@@ -163,7 +163,7 @@ class CurvePanel:
         self._table.clear()
         with self._table, tag("table"):
             assert self._asked is not None
-            what = f"{self._asked.species}, {self._asked.aero}, least {self._asked.minimise.replace('_', ' ')}"
+            what = f"{self._asked.species}, {self._asked.aero}, minimum {self._asked.minimise.replace('_', ' ')}"
             tag("caption", what)
             with tag("thead"), tag("tr"):
                 for head in ("Speed [m/s]", "Frequency [Hz]", "Power [W]", "Status", "Look at it"):

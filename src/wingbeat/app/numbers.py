@@ -15,7 +15,7 @@ from wingbeat.species import Number, Species
 
 __all__ = ["Numbers"]
 
-_GROUPS = {"vehicle.body": "Body", "vehicle.wing": "Wing", "wingbeat": "Held in the wingbeat", "air": "Air"}
+_GROUPS = {"vehicle.body": "Body", "vehicle.wing": "Wing", "wingbeat": "Fixed parameters", "air": "Air"}
 
 
 class Numbers:
@@ -34,10 +34,10 @@ class Numbers:
         self._values: dict[str, Field] = {}
         self._bounds: dict[tuple[str, int], Field] = {}
         self._resets: list[Any] = []
-        with _folded("Bounds of what is free"):
+        with _folded("Bounds of free parameters"):
             for name in (*species.bounds, *species.path_bounds):
                 self._build_bound(name)
-            self._resets.append(button("As the animal's file has them", lambda: change(bounds={}), "quiet"))
+            self._resets.append(button("As in the species file", lambda: change(bounds={}), "quiet"))
         for group, title in _GROUPS.items():
             held = [path for path in species.numbers if self._is_shown(path) and path.startswith(f"{group}.")]
             with _folded(title):

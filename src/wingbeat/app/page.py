@@ -16,13 +16,13 @@ from wingbeat.app.curve import CurvePanel
 from wingbeat.app.flying import Flying
 from wingbeat.app.links import from_plain, from_query, to_json, to_query
 from wingbeat.app.pins import Pins
-from wingbeat.app.pool import Event, Pool
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session, known
 from wingbeat.app.shelf import Shelf, Thing
 from wingbeat.app.widgets import button, choice_field, run_script, tag
 from wingbeat.app.words import sentence
 from wingbeat.errors import InvalidInputError
+from wingbeat.workers.fair_pool import Event, FairPool
 
 __all__ = ["Page"]
 
@@ -42,7 +42,7 @@ class Page:
     query : of the address, which may hold a scenario.
     """
 
-    def __init__(self, name: str, pool: Pool, shelf: Shelf, query: str) -> None:
+    def __init__(self, name: str, pool: FairPool, shelf: Shelf, query: str) -> None:
         self.name, self._shelf = name, shelf
         self._client: Client = ui.context.client
         self._refusals, scenario = [], Scenario()
@@ -82,7 +82,7 @@ class Page:
 
     def _build(self, scenario: Scenario) -> None:
         self._controls = Controls(scenario, self._session.change)
-        tag("a", "Skip to the answer", "skip", href="#answer")
+        tag("a", "Skip to the result", "skip", href="#answer")
         with tag("header", classes="top"):
             self._build_header()
         with tag("div", classes="status"):
@@ -116,7 +116,7 @@ class Page:
 
     def _build_status(self) -> None:
         self._state = tag("p", "", "state", role="status", aria_live="polite")
-        self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Searches done")
+        self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
         button("Solve", lambda: self._session.ask(whole=True), "primary")
         self._stop = button("Cancel", self._session.stop, disabled=True)
         self._trouble = tag("div", classes="trouble hidden", role="alert")
@@ -211,10 +211,10 @@ class Page:
     def _differentiate(self) -> None:
         answer = self._session.answer
         if answer is None or answer["record"]["status"] != "converged":
-            self._influence.say("Only a certified answer can be differentiated.")
+            self._influence.say("Sensitivities need a certified orbit.")
             return
         self._influence.clear()
-        self._influence.say("Differentiating; the first time takes some twenty seconds.")
+        self._influence.say("Computing sensitivities; the first time takes some twenty seconds.")
 
         def show(found: dict[str, Any]) -> None:
             if self._session.answer is answer:
@@ -283,7 +283,9 @@ class Page:
                 scenario = from_plain(found["scenario"]) if found["scenario"] is not None else None
                 self._session.take_file(found["answer"] | {"from_file": label}, scenario)
                 if scenario is None:
-                    self.show_trouble(f"{label} is shown as it is; the form cannot ask for it: {found['why_not']}.")
+                    self.show_trouble(
+                        f"{label} is shown as it is; the form cannot represent it: {found['why_not']}."
+                    )
             elif "text" in found:
                 self._session.change(species=found["species"], species_file=found["text"], values={}, bounds={})
             else:

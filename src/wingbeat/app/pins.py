@@ -26,20 +26,20 @@ class Pins:
         self._fly_beside, self._bring_back = fly_beside, bring_back
         self._answers: list[dict[str, Any]] = []
         self._ghost: dict[str, Any] | None = None
-        with box("section", "Pinned answers", "pins"):
-            self._note = tag("p", "Pin an answer to compare it with the next one, or to fly it as a ghost.", "note")
-            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned answers")
+        with box("section", "Pinned results", "pins"):
+            self._note = tag("p", "Pin a result to compare it with the next one, or to show it as a ghost.", "note")
+            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
         """Keep an answer; the oldest leaves where there are too many."""
         if any(each is answer for each in self._answers):
-            self._note.set_text("This answer is pinned already.")
+            self._note.set_text("This result is already pinned.")
             return
         self._answers.append(answer)
         text = "Pinned."
         if len(self._answers) > MOST_PINS:
             gone = self._answers.pop(0)
-            text = f"Pinned; the oldest of more than {MOST_PINS} was let go."
+            text = f"Pinned; the oldest of more than {MOST_PINS} was removed."
             if gone is self._ghost:
                 self._fly(None)
         self._note.set_text(text)
@@ -61,12 +61,12 @@ class Pins:
         if not self._answers:
             return
         with self._place, tag("table"):
-            tag("caption", "Pinned answers", "unseen")
+            tag("caption", "Pinned results", "unseen")
             heads = [
                 f"{label} [{unit}]" if unit else label for label, _, unit, _ in tiles(self._answers[0]["record"])
             ]
             with tag("thead"), tag("tr"):
-                for head in ("What", *heads, "Stable", "Do"):
+                for head in ("What", *heads, "Stable", "Action"):
                     tag("th", head, scope="col")
             with tag("tbody"):
                 for answer in self._answers:
@@ -74,8 +74,8 @@ class Pins:
 
     def _row(self, answer: dict[str, Any]) -> None:
         record = answer["record"]
-        aero, least = record["aero"]["coefficients"], record["objective"].replace("_", " ")
-        name = f"{record['species']} at {number(record['speed'])} m/s, {aero}, least {least}"
+        aero, minimised = record["aero"]["coefficients"], record["objective"].replace("_", " ")
+        name = f"{record['species']} at {number(record['speed'])} m/s, {aero}, minimum {minimised}"
         flies = answer is self._ghost
         with tag("tr"):
             with tag("th", scope="row"):
@@ -91,11 +91,9 @@ class Pins:
                     "Ghost",
                     lambda: self._fly(None if flies else answer),
                     "small",
-                    aria_label=f"Fly as ghost: {name}",
+                    aria_label=f"Show as ghost: {name}",
                 )
                 ghost.props["aria-pressed"] = "true" if flies else "false"
                 if answer.get("scenario"):
-                    button(
-                        "Bring back", lambda: self._bring_back(answer), "small", aria_label=f"Bring back: {name}"
-                    )
+                    button("Restore", lambda: self._bring_back(answer), "small", aria_label=f"Restore: {name}")
                 button("Remove", lambda: self._drop(answer), "small", aria_label=f"Remove: {name}")

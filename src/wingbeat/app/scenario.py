@@ -29,11 +29,11 @@ class Scenario:
 
     Parameters
     ----------
-    species : name of a species in the box, or the one in `species_file`.
-    species_file : TOML text of a species of the visitor's own, empty if it is one in the box.
+    species : name of a built-in species, or of the one in `species_file`.
+    species_file : TOML text of the visitor's own species, empty for a built-in one.
     speed, climb : mean velocity [m/s].
     aero, extension, blend_width_deg, strips, force_point, airspeed : the air loads, as on the command line.
-    minimise : name of the quantity made least.
+    minimise : name of the quantity to minimise.
     limits : what is kept within limits, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own.
     values : numbers of the species that were changed, by their paths.

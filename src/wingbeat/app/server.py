@@ -23,10 +23,10 @@ from starlette.requests import ClientDisconnect
 from wingbeat.app.door import Door, guard_events, is_loopback
 from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
 from wingbeat.app.page import Page
-from wingbeat.app.pool import Pool
 from wingbeat.app.shelf import Shelf
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.workers.fair_pool import FairPool
 from wingbeat.workers.leftovers import Leftover
 
 __all__ = ["serve"]
@@ -56,7 +56,7 @@ class House:
     """What all visitors share: the pool, what lies ready to be fetched, who is here."""
 
     def __init__(self, processes: int) -> None:
-        self.pool = Pool(_WORK, processes)
+        self.pool = FairPool(_WORK, processes)
         self.shelf = Shelf()
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
@@ -103,14 +103,14 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
 
     Raises
     ------
-    InvalidInputError : the address cannot be listened at.
+    InvalidInputError : the address cannot be opened.
     """
     host = host.strip() or _LOOPBACK  # for the system an empty one would be every address there is
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         listening = socket.create_server((host, port), family=family)
     except (OSError, TypeError, UnicodeError, ValueError) as error:  # the latter three of names that none can have
-        rule = f"cannot be listened at: {(getattr(error, 'strerror', None) or str(error)).lower()}"
+        rule = f"cannot be opened: {(getattr(error, 'strerror', None) or str(error)).lower()}"
         raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
     house = House(processes)
     with Leftover(house.close):  # the server ends by raising the signal again that stopped it
@@ -135,8 +135,8 @@ def _announce(host: str, listening: socket.socket) -> str:
     if not is_loopback(bound):
         where = "every address of this machine" if shown != host else f"{host}, a public address"
         print(
-            f"warning: the explorer listens at {where}. Whoever reaches it can use it and this machine's "
-            "processors: there are no passwords. Leave --host out to keep it to this machine.",
+            f"warning: the explorer listens at {where}. Anyone who reaches it can use this machine's processors: "
+            "there are no passwords. Leave --host out to keep it to this machine.",
             file=sys.stderr,
             flush=True,
         )
@@ -213,7 +213,7 @@ def _add_files(app: FastAPI, house: House) -> None:
     def shelf(name: str) -> Response:
         thing = house.shelf.get(name)
         if thing is None:
-            return Response("This is kept no longer; ask for it again.", 404, media_type="text/plain")
+            return Response("This is no longer available; request it again.", 404, media_type="text/plain")
         headers = {"cache-control": "no-store"}
         if thing.name:
             headers["content-disposition"] = f'attachment; filename="{thing.name}"'
@@ -243,7 +243,7 @@ async def _take(house: House, session: str, request: Request) -> Response:
                 file.write(piece)
     except (ClientDisconnect, OSError):
         path.unlink(missing_ok=True)
-        return Response("The file did not arrive whole; send it again.", 400, media_type="text/plain")
+        return Response("The file did not arrive completely; send it again.", 400, media_type="text/plain")
     page.read_file(str(path), label, lambda: _remove(path))
     return Response(status_code=204)
 

@@ -9,8 +9,8 @@ from contextlib import AbstractContextManager, suppress
 from typing import Any, Protocol
 
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Event, Job, Pool
 from wingbeat.app.scenario import Scenario
+from wingbeat.workers.fair_pool import Event, FairPool, Job
 
 __all__ = ["Session", "View"]
 
@@ -22,7 +22,7 @@ _BRIEF = 0.4
 _BETTER = 1e-4
 _ENDINGS = {
     "lost": "The solver process ended ({}). It was started again; solve again.",
-    "late": "No answer within {:g} s, so the search was ended; ask for fewer starts, or solve again.",
+    "late": "No result within {:g} s, so the solver was stopped; choose fewer starts, or solve again.",
     "failed": "The solver failed ({}); this is a fault of wingbeat, please report it with the link of this page.",
     "busy": "Too many of your jobs are waiting already; wait for them, or cancel some.",
 }
@@ -64,7 +64,7 @@ class Session:
     scenario : what is asked at first.
     """
 
-    def __init__(self, name: str, pool: Pool, scenario: Scenario, view: View) -> None:
+    def __init__(self, name: str, pool: FairPool, scenario: Scenario, view: View) -> None:
         self.name, self.scenario = name, scenario
         self.answer: dict[str, Any] | None = None
         self._answered = scenario
@@ -105,7 +105,7 @@ class Session:
         self._continued = None
         self._tell_scenario()
         if self._tell_faults():
-            self.stop("Not solved: a choice cannot be, see the mark beside it.")
+            self.stop("Not solved: a choice is invalid; see the mark beside it.")
             return False
         near = None if whole or self.answer is None else self.answer.get("near")
         if self._brief_since is not None and self._loop.time() - self._brief_since < _BRIEF and not whole:
@@ -172,7 +172,7 @@ class Session:
         elif event.kind == "progress":
             total = event.value[1]
             done = min(event.value[0], total)
-            self._view.show_state(f"Solving: {done} of {total} searches.", busy=True, done=done / max(total, 1))
+            self._view.show_state(f"Solving: {done} of {total} starts.", busy=True, done=done / max(total, 1))
         elif event.ends:
             self._end(scenario, event)
 
@@ -182,7 +182,7 @@ class Session:
             self._take(scenario, event.value)
         elif event.kind == "done":
             self._view.show_refusals(event.value["refused"])
-            self._view.show_state("Not solved: a choice cannot be, see the mark beside it.", busy=False)
+            self._view.show_state("Not solved: a choice is invalid; see the mark beside it.", busy=False)
         else:
             self.tell_ending(event)
         if self._again:
@@ -206,7 +206,7 @@ class Session:
             answer["continued_better"] = self._continued if better else None
         self._show(answer, scenario)
         if answer.get("continued") and not self._again:
-            self._view.show_state("Continued from the answer before; now searching from every start.", busy=True)
+            self._view.show_state("Continued from the previous result; now solving from every start.", busy=True)
             self._calm = self._loop.call_later(_CALM, self._inside, self._submit, None)
         elif not self._again:
             self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)

@@ -24,24 +24,24 @@ EXIT_BROKEN_PIPE = 141  # 128 + SIGPIPE: the reader, say `head`, had seen enough
 
 HELP = """How an animal or a flapping robot must beat its wings to fly.
 
-Exit codes: 0 good, 2 bad input, 3 nothing certified (infeasible or not converged)."""
+Exit codes: 0 success, 2 bad input, 3 no certified orbit (infeasible or not converged)."""
 
 # Import strings and help texts side by side: `--help` must not import a command to describe it.
 COMMANDS = {
-    "orbit": "Find the wingbeat that flies at a given speed, and certify it.",
-    "uncertainty": "Say how sure an orbit's frequency and power are.",
+    "orbit": "Find and certify the wingbeat that flies at a given speed.",
+    "uncertainty": "Compute the uncertainty of an orbit's frequency and power.",
     "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
-    "curve": "Find power and frequency along speed, and the characteristic speeds.",
-    "study": "Solve many problems, a grid or a cloud of them: in pieces that survive, nothing lost.",
+    "curve": "Compute power and frequency against speed, and the characteristic speeds.",
+    "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
-    "species": "Show the animals in the box, or a file of your own, with the source of every number.",
+    "species": "Show the built-in animals, or your own species file, with the source of every number.",
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
     "reduce": "Turn load-cell records into lift, drag, moment and centre-of-pressure coefficients.",
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
-    "app": "Open the explorer in a browser: choose, slide, and see it fly.",
+    "app": "Open the explorer in a browser: choose a problem, move sliders, and see it fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }
@@ -109,7 +109,9 @@ def _outcome(argv: list[str], app: App | None) -> int:
     try:
         return _run(argv, app)
     except MemoryError:
-        return _complain(["there is not enough memory; close other programs or ask for less"], EXIT_SYSTEM)
+        return _complain(
+            ["there is not enough memory; close other programs or choose a smaller problem"], EXIT_SYSTEM
+        )
     except KeyboardInterrupt:
         return _complain(["interrupted"], EXIT_INTERRUPTED)
     except WingbeatError as error:

@@ -45,7 +45,7 @@ def _print(found: dict[str, Any]) -> None:
     for animal in found["solve_ms"]:
         rows += [
             (f"one orbit, {animal}", f"{found[f'{animal}_ms']:.1f} ms"),
-            ("  search and correction", f"{found['solve_ms'][animal]:.1f} ms"),
+            ("  solver and correction", f"{found['solve_ms'][animal]:.1f} ms"),
             ("  certificate", f"{found['certify_ms'][animal]:.1f} ms"),
         ]
     rows += [

@@ -51,16 +51,16 @@ def curve(
     airspeed: Airspeed = "planar",
     strips: Strips = 10,
     minimise: Annotated[
-        str, Parameter(help="What to make least at each speed: frequency, positive-power, power, peak-power, ...")
+        str, Parameter(help="Quantity to minimise at each speed: frequency, positive-power, power, peak-power, ...")
     ] = "frequency",
     subject_to: Annotated[
         list[str] | None,
-        Parameter(consume_multiple=True, negative=(), help="Limits to keep: 'peak_power<=30' 'frequency=6' ..."),
+        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
     power_limit: Annotated[
-        float | None, Parameter(help="Power that can be sustained [W]: the speeds within it are told.")
+        float | None, Parameter(help="Sustainable power [W]: prints the speeds within it.")
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Searches at either end; a third as many at each speed between.")] = 6,
+    starts: Annotated[Whole, Parameter(help="Starts at both ends; a third as many at each speed in between.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,

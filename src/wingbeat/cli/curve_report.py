@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from wingbeat.results.curve import Curve
 
 _LABELS = {
-    "minimum_power": "least power",
+    "minimum_power": "minimum power",
     "maximum_range": "greatest range",
     "fastest_sustained": "fastest within the power limit",
     "slowest_sustained": "slowest within the power limit",
@@ -44,11 +44,11 @@ def print_curve(curve: Curve) -> None:
     climb = f", climbing {record['climb']:.4g} m/s" if record["climb"] else ""
     certified = len(points) - len(record["gaps"])
     console.print(
-        f"{record['species']}{climb}, least {record['objective'].replace('_', ' ')}: "
+        f"{record['species']}{climb}, minimum {record['objective'].replace('_', ' ')}: "
         f"{certified} of {len(points)} speeds certified"
     )
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "on the bound of"):
+    for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "at the bound of"):
         table.add_column(Text(heading), justify="left" if heading.startswith("on") else "right")
     for point in points:
         table.add_row(*map(Text, _row(point)))
@@ -61,7 +61,7 @@ def print_curve(curve: Curve) -> None:
             Text(f"  {mark['kind']}, {where}: {mark['what']}", style="" if mark["kind"] == "bounds" else "yellow")
         )
     if not record["marks"]:
-        console.print("  one branch, always on the same bounds")
+        console.print("  one branch, always at the same bounds")
     console.print(Text(f"characteristic speeds, of the {_power(record)}", style="bold"))
     for name, found in record["characteristic_speeds"].items():
         console.print(f"  {_LABELS[name]}: {_told(found)}")
@@ -72,7 +72,7 @@ def print_curve(curve: Curve) -> None:
 
 
 def _power(record: dict[str, Any]) -> str:
-    if record["power"] == "what was made least":
+    if record["power"] == "minimised quantity":
         return record["objective"].replace("_", " ")
     return record["power"]
 
@@ -101,7 +101,7 @@ def _told(found: dict[str, Any] | None) -> str:
         low, high = found["within_2_percent"]
         text += f"; within 2 % from {low:.3g} to {high:.3g} m/s"
     if found["at_edge"]:
-        text += "; at the edge of the range or of a gap, it may lie beyond"
+        text += "; at the end of the range or beside a gap; the true one may be outside"
     if found["jump_beside"]:
         text += "; the curve changes branch there"
     return text

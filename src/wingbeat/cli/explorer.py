@@ -19,9 +19,9 @@ _LONGEST_HOST = 253  # of a name in the domain name system
 def app(
     *,
     host: Annotated[str, Parameter(help="Address to listen at; there are no passwords.")] = "127.0.0.1",
-    port: Annotated[Whole, Parameter(help="Port to listen at; 0 is any that is free.")] = 8080,
+    port: Annotated[Whole, Parameter(help="Port to listen at; 0 takes any free one.")] = 8080,
     processes: Annotated[
-        Whole | None, Parameter(help="Solver processes; if not given as many as there are cores, at most 4.")
+        Whole | None, Parameter(help="Solver processes; default: as many as cores, at most 4.")
     ] = None,
     open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
 ) -> int:

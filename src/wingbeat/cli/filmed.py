@@ -44,8 +44,8 @@ def film_lines(beat: FilmedBeat) -> list[str]:
     for name, law in beat.laws.items():
         unit = "deg" if name.endswith("_deg") else "of the semi-span"
         lines.append(
-            f"{beat.film.name}, {name}: {law.frames} frames, {law.residual_sd:.2g} {unit} about the spline, which "
-            f"spends {law.degrees:.3g} numbers"
+            f"{beat.film.name}, {name}: {law.frames} frames, residual {law.residual_sd:.2g} {unit}, spline "
+            f"with {law.degrees:.3g} degrees of freedom"
         )
     return [*lines, *(f"note: {note}" for note in beat.film.notes)]
 
@@ -70,9 +70,9 @@ def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
         factor, unit = for_people(NOMENCLATURE[name].unit)
         shown = plus_minus(factor * value, None if error is None else factor * error)
         lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
-    edge = "; the others do not, so the beat is near the edge of what flies and errors may be larger"
+    edge = "; the others do not: the wingbeat is close to the limit of what flies, and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
-    return [*lines, f"one standard error; {spread.certified} of {spread.asked} draws of the film fly{ending}"]
+    return [*lines, f"one standard error; {spread.certified} of {spread.asked} samples of the film fly{ending}"]
 
 
 def plus_minus(value: float, error: float | None) -> str:

@@ -38,11 +38,11 @@ def fit(
     """
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".toml":
-        faults.add("--output", str(output), "is no model file", "end it in .toml")
+        faults.add("--output", str(output), "is not a model file", "end it in .toml")
     check_files(faults, output, plot=plot)
     bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
     if all(bounds) and alpha_min > alpha_max:
-        faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "turn them round")
+        faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "exchange them")
     faults.raise_if_any()
     check_outputs(output, plot)
     table = load_measurements(coefficients)

@@ -52,7 +52,7 @@ def glide(
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
         str,
-        Parameter(help="What is turned until the pitching moment vanishes: body-pitch, flap, or tail (nothing)."),
+        Parameter(help="What turns until the pitching moment is zero: body-pitch, flap, or tail (nothing)."),
     ] = "body-pitch",
     aero: AeroName = "su-fan",
     extension: Extension = "mirrored",
@@ -68,7 +68,7 @@ def glide(
 ) -> int:
     """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
 
-    Where no angle trims the pitching moment, the table says what a tail would have to give.
+    Where no angle trims the pitching moment, the table says what a tail would need to supply.
     Exit code 3: no steady glide at any of the angles.
 
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
@@ -113,8 +113,8 @@ def _print(polar: GlidePolar) -> None:
         table.add_row(*_cells(one))
     console.print(table)
     for label, best in (("slowest sink", polar.least_sink), ("flattest glide", polar.best_ratio)):
-        console.print(f"{label}: {'not between the angles given' if best is None else _told(best)}")
-    console.print("path: below the horizontal; tail: moment asked of one; hold: flap torque of both wings")
+        console.print(f"{label}: {'not within the given angles' if best is None else _told(best)}")
+    console.print("path: angle below the horizontal; tail: moment needed from one; hold: flap torque of both wings")
     for warning in polar.record()["warnings"]:
         console.print(f"- {warning}", style="yellow")
 

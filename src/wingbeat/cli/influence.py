@@ -17,15 +17,15 @@ _NAMED = 3
 
 
 def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console) -> None:
-    """Print what each quantity depends on most, the parameters, and what the active bounds cost."""
+    """Print what each quantity depends on most, the parameters, and prices of the active bounds."""
     from rich.table import Table
     from rich.text import Text
 
     console.print()
-    console.print(Text("what matters most: a ranking to first order, no error bar", style="bold"))
+    console.print(Text("sensitivities: a first-order ranking, not an error bar", style="bold"))
     for bar in bars:
         console.print(Text(f"  {ranked_in_words(bar)}"))
-    console.print(Text("  `wingbeat uncertainty` draws the numbers anew, which an error bar needs"))
+    console.print(Text("  for error bars run `wingbeat uncertainty`"))
     names = list(found.values)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column("  parameter", no_wrap=True)
@@ -38,11 +38,11 @@ def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console
         swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
         table.add_row(Text(f"  {parameter.path}"), plausible, *swings)
     console.print()
-    heading = "change to the low and to the high end of each range, by a straight line: a ranking"
+    heading = "linear change to the low and the high end of each range: a ranking"
     console.print(Text(heading, style="bold"))
     console.print(table)
     console.print()
-    console.print(Text("what the active bounds cost", style="bold"))
+    console.print(Text("prices of the active bounds", style="bold"))
     for price in found.prices:
         console.print(Text(f"  {price_in_words(price, found)}"))
     if not found.prices:

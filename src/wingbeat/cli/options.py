@@ -45,21 +45,22 @@ AeroName = Annotated[
 ]
 Extension = Annotated[
     str,
-    Parameter(help=f"How angles beyond the fit are reached: {', '.join(EXTENSIONS)}."),
+    Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}."),
 ]
 BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
 WithinPlausible = Annotated[
     bool,
-    Parameter(negative="", help="Search inside the plausible ranges of the species file: bounds, powers, forces."),
+    Parameter(negative="", help="Stay within the plausible ranges of the species file: bounds, powers, forces."),
 ]
 Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
 WingsMayCross = Annotated[
     bool,
-    Parameter(negative="", help="Let the wings pass through the plane of symmetry, through each other."),
+    Parameter(negative="", help="Let the wings pass through the plane of symmetry and each other."),
 ]
 ForcePoint = Annotated[str, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}.")]
 Airspeed = Annotated[
-    str, Parameter(help="Speed of a strip that makes its loads: planar (across the span) or full (along it, too).")
+    str,
+    Parameter(help="Airspeed that determines a strip's loads: planar (across the span) or full (also along it)."),
 ]
 
 

@@ -78,9 +78,9 @@ def orbit(
     minimise: Annotated[
         str | None,
         Parameter(
-            help="What to make least: frequency, power, positive-power, peak-power, cost-of-transport, "
-            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ...; frequency if not given, or "
-            "positive-power where a film gives the frequency"
+            help="Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
+            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ...; default frequency, or "
+            "positive-power if a film gives the frequency"
         ),
     ] = None,
     subject_to: Annotated[
@@ -88,14 +88,12 @@ def orbit(
         Parameter(
             consume_multiple=True,
             negative=(),
-            help="Limits to keep: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
+            help="Limits: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
         ),
     ] = None,
     starts: Annotated[
         Whole | None,
-        Parameter(
-            help="Number of searches; if not given 6, 12 for powers and limits, 24 for peaks and own bounds."
-        ),
+        Parameter(help="Number of starts; default 6, 12 for powers and limits, 24 for peaks and own bounds."),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     wings_may_cross: WingsMayCross = False,
@@ -103,22 +101,23 @@ def orbit(
     payload: Payload = 0.0,
     kinematics: Kinematics = None,
     from_: Annotated[
-        Path | None, Parameter(name="--from", help="Solve again what this file holds, from its inputs alone.")
+        Path | None, Parameter(name="--from", help="Solve the problem in this file again, from its inputs alone.")
     ] = None,
     power: Annotated[
-        bool, Parameter(negative="", help="Say what the power is made of, what braking costs, what a spring saves.")
+        bool,
+        Parameter(negative="", help="Print the parts of the power, the cost of braking, and what a spring saves."),
     ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
     output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
     sensitivities: Annotated[
-        bool, Parameter(negative="", help="Say what the answer depends on most, and what bounds cost.")
+        bool, Parameter(negative="", help="Print what the result depends on most, and the prices of bounds.")
     ] = False,
     tornado: Annotated[
-        Path | None, Parameter(help="Draw what every plausible range can change: .png, .pdf or .svg.")
+        Path | None, Parameter(help="Draw the effect of every plausible range: .png, .pdf or .svg.")
     ] = None,
 ) -> int:
-    """Find the wingbeat of least frequency, or power, that flies at a speed, and certify it.
+    """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
     With --kinematics what was filmed is held and the rest found, with the errors that the film's noise leaves.
     Exit code 0: certified. 3: nothing certified, the message says what to change.
@@ -136,7 +135,9 @@ def orbit(
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if within_plausible and kinematics is not None:
         fix = "leave out one of the two"
-        faults.add("--within-plausible", str(kinematics), "meets a film, which holds the wingbeat", fix)
+        faults.add(
+            "--within-plausible", str(kinematics), "cannot be combined with a film, which gives the wingbeat", fix
+        )
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
     if from_ is None and speed is None:
@@ -198,13 +199,13 @@ def orbit(
 
 
 def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tuple[float, float]]:
-    """Return the bounds that ``--flap-amplitude-max`` asks for."""
+    """Return the bounds set by ``--flap-amplitude-max``."""
     if most_deg is None:
         return {}
     least = animal.bounds.get("flap_amplitude", (0.0, 0.0))[0]
     lowest = math.degrees(least)
     faults = FaultList()
-    fix = f"the flap amplitude of {animal.name} is searched from {lowest:g} degrees up"
+    fix = f"the lower bound of the flap amplitude of {animal.name} is {lowest:g} degrees"
     faults.number("--flap-amplitude-max", most_deg, above=lowest, below=180, unit="degrees", fix=fix)
     faults.raise_if_any()
     return {"flap_amplitude": (least, math.radians(most_deg))}

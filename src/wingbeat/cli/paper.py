@@ -27,28 +27,24 @@ _PIECE = 5000
 def paper(
     part: Annotated[
         Literal["claims", "assumptions"],
-        Parameter(help="Figures and claims, or how the claims fare over many sets of assumptions."),
+        Parameter(help="Figures and claims, or the claims under many sets of assumptions."),
     ] = "claims",
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="Folder to write to.")] = Path("paper"),
-    figures: Annotated[str | None, Parameter(help="Which figures to draw: 1-8, or 3,5 and the like.")] = None,
+    figures: Annotated[str | None, Parameter(help="Figures to draw, such as 1-8 or 3,5.")] = None,
     quick: Annotated[
         bool,
-        Parameter(negative="", help="Figures of fewer speeds and searches; no claims about flights."),
+        Parameter(negative="", help="Fewer speeds and starts for the figures; no claims about flights."),
     ] = False,
     before: Annotated[
         Path | None,
-        Parameter(help="claims.json of an earlier run: the page tells what changed, and why."),
+        Parameter(help="claims.json of an earlier run: the page says what changed and why."),
     ] = None,
-    sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; {_SETS} if not given.")] = None,
-    seed: Annotated[int | None, Parameter(help="Of the sample of assumptions; 0 if not given.")] = None,
-    piece: Annotated[
-        int | None, Parameter(help=f"Sets that are finished and kept together; {_PIECE} if not given.")
-    ] = None,
-    only: Annotated[
-        str | None, Parameter(help="Which pieces to run here: 1-10, or 3,5 and the like; all if not given.")
-    ] = None,
-    processes: Annotated[int | None, Parameter(help="Python processes; as many as cores if not given.")] = None,
+    sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; default {_SETS}.")] = None,
+    seed: Annotated[int | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
+    piece: Annotated[int | None, Parameter(help=f"Sets per piece, saved together; default {_PIECE}.")] = None,
+    only: Annotated[str | None, Parameter(help="Pieces to run here, such as 1-10 or 3,5; default all.")] = None,
+    processes: Annotated[int | None, Parameter(help="Worker processes; default: as many as cores.")] = None,
 ) -> int:
     """Put Su et al. (arXiv 2302.09602) to the test: figures 1 to 8, every claim with a verdict, the orbits behind.
 
@@ -75,7 +71,7 @@ def paper(
         other = (("--sets", sets), ("--seed", seed), ("--piece", piece), ("--only", only))
     for name, value in other:
         if value is not None:
-            faults.add(name, str(value), f"has no part in 'paper {part}'")
+            faults.add(name, str(value), f"does not apply to 'paper {part}'")
     faults.raise_if_any()
     make_folder(output)  # or the orbits of an hour have no place to go
     if part == "claims":
@@ -148,7 +144,7 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
         f"{seconds / len(judged.sets):.2f} s per set."
     )
     if so_far:
-        say(f"{done} of {len(pieces)} pieces are done; the page is of these")
+        say(f"{done} of {len(pieces)} pieces are done; the page covers these")
     for path in write_study(judged, folder, heading):
         say(f"wrote {path}")
     return EXIT_GOOD

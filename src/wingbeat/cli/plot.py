@@ -20,7 +20,7 @@ def plot(
     file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page: .png, .pdf or .svg.")],
-    power: Annotated[bool, Parameter(negative="", help="Draw what the power of an orbit is made of.")] = False,
+    power: Annotated[bool, Parameter(negative="", help="Draw the parts of an orbit's power.")] = False,
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 

@@ -29,7 +29,7 @@ def polar(
     about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
         str,
-        Parameter(help="How angles beyond the fit are reached: mirrored, signed-drag, signed, clipped-drag."),
+        Parameter(help="Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag."),
     ] = "mirrored",
     blend_width_deg: Annotated[
         float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg], above 0, at most 3.")

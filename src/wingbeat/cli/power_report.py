@@ -20,12 +20,12 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
         saved = 1.0 - spring["mean_positive_power"] / account["mean_positive_power"]
         springs = [
             ("best stiffness, both together", f"{spring['stiffness']:.4g} N m/rad"),
-            ("slack at a flap angle of", f"{math.degrees(spring['rest_angle']):.4g} deg"),
-            ("mean positive power left", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
+            ("rest at a flap angle of", f"{math.degrees(spring['rest_angle']):.4g} deg"),
+            ("remaining mean positive power", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
         ]
     return {
-        "mean power, by what becomes of negative work": [("braked", _watts(account["braking"])), *costs],
-        "shares of the hinge power: mean, least, most": [
+        "mean power, by the use of negative work": [("braked", _watts(account["braking"])), *costs],
+        "parts of the hinge power: mean, minimum, maximum": [
             (name, ", ".join(_watts(share[key]) for key in ("mean", "least", "most")))
             for name, share in account["shares"].items()
         ],
@@ -34,7 +34,7 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
 
 
 def _fate(returned: float) -> str:
-    named = {-1.0: "if braking costs as much as driving", 0.0: "if it is lost"}
+    named = {-1.0: "if negative work costs as much as positive", 0.0: "if it is lost"}
     return named.get(returned, f"if {returned:.0%} of it is returned")
 
 

@@ -83,7 +83,7 @@ def say(words: str) -> None:
 
 def say_stopping(level: int) -> None:
     """Say that a study was asked to stop."""
-    say("stopping within a second; once more stops at once" if level == 1 else "stopping")
+    say("stopping within a second; press Ctrl-C again to stop at once" if level == 1 else "stopping")
 
 
 def exit_of(stop: Stop) -> int:

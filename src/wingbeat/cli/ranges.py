@@ -42,7 +42,7 @@ def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]
         return
     steps = (stop - start) / step
     if steps < 0:
-        faults.add(where, text, "the step leads away from the stop", "turn the sign of the step")
+        faults.add(where, text, "the step leads away from the stop", "reverse the sign of the step")
     elif steps >= MAX_VALUES:
         faults.add(where, text, f"gives more than {MAX_VALUES} values", "take a larger step")
     elif steps.denominator != 1:
@@ -71,7 +71,7 @@ def parse_range(text: str, where: str) -> NDArray[np.float64]:
     faults = FaultList()
     pieces = str(text).split(":")
     if len(pieces) not in (1, 3):
-        faults.add(where, text, f"has {len(pieces)} numbers where 1 or 3 are wanted", _SYNTAX)
+        faults.add(where, text, f"has {len(pieces)} numbers instead of 1 or 3", _SYNTAX)
         faults.raise_if_any()
     parts = [part for piece in pieces if (part := _exact(faults, where, piece)) is not None]
     faults.raise_if_any()

@@ -20,7 +20,7 @@ def reduce(
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
-    last: Annotated[float, Parameter(help="Seconds at the end of each record that are steady.")] = 20.0,
+    last: Annotated[float, Parameter(help="Steady seconds at the end of each record.")] = 20.0,
 ) -> None:
     """Turn load-cell records into coefficients with their errors, repeats of a point pooled.
 
@@ -33,7 +33,7 @@ def reduce(
     """
     faults = FaultList()
     if output.suffix.lower() != ".csv":
-        faults.add("--output", str(output), "is no table", "end it in .csv")
+        faults.add("--output", str(output), "is not a table", "end it in .csv")
     faults.number("--last", last, above=0, unit="s")
     if not runs:
         faults.add("RUNS", "none", "there is nothing to reduce", "name the CSV files of the runs")
@@ -46,7 +46,7 @@ def reduce(
     for note in table.notes[:MAX_NOTES]:
         print(f"note: {note}", file=sys.stderr)
     if len(table.notes) > MAX_NOTES:
-        print(f"note: {len(table.notes) - MAX_NOTES} more notes stand in {output}", file=sys.stderr)
+        print(f"note: {len(table.notes) - MAX_NOTES} more notes are in {output}", file=sys.stderr)
     print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)
 
 

@@ -19,7 +19,7 @@ from wingbeat.results.storage import parse_attributes
 def show(
     file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
-    power: Annotated[bool, Parameter(negative="", help="Say what the power of an orbit is made of.")] = False,
+    power: Annotated[bool, Parameter(negative="", help="Print the parts of an orbit's power.")] = False,
     json: Annotated[bool, Parameter(negative="", help="Print JSON alone: SI units and radians.")] = False,
 ) -> None:
     """Print a saved orbit's record, a flight's summary, or a curve.

@@ -49,11 +49,13 @@ def simulate(
     species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
     *,
     beats: Annotated[Whole, Parameter(help="Number of wingbeats.")] = 5,
-    samples: Annotated[Whole, Parameter(help="Samples a beat.")] = 128,
-    u: Annotated[float | None, Parameter(help="Forward velocity at the start [m/s]; 10 or that of --from.")] = None,
-    w: Annotated[float | None, Parameter(help="Upward velocity at the start [m/s].")] = None,
-    body_pitch_deg: Annotated[float | None, Parameter(help="Body pitch at the start, nose up [deg].")] = None,
-    pitch_rate: Annotated[float | None, Parameter(help="Pitch rate at the start [rad/s].")] = None,
+    samples: Annotated[Whole, Parameter(help="Samples per wingbeat.")] = 128,
+    u: Annotated[
+        float | None, Parameter(help="Initial forward velocity [m/s]; default 10 or that of --from.")
+    ] = None,
+    w: Annotated[float | None, Parameter(help="Initial upward velocity [m/s].")] = None,
+    body_pitch_deg: Annotated[float | None, Parameter(help="Initial body pitch, nose up [deg].")] = None,
+    pitch_rate: Annotated[float | None, Parameter(help="Initial pitch rate [rad/s].")] = None,
     aero: AeroName = "su-fan",
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
@@ -67,7 +69,7 @@ def simulate(
     ] = None,
     from_: Annotated[
         Path | None,
-        Parameter(name="--from", help="Take wingbeat, vehicle, air loads and start from this orbit."),
+        Parameter(name="--from", help="Take wingbeat, vehicle, air loads and initial state from this orbit."),
     ] = None,
     json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
     output: Output = None,

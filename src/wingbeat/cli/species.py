@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from wingbeat.species import Species
 
-species = App(name="species", help="Show the animals in the box, or a file of your own.")
+species = App(name="species", help="Show the built-in animals or your own species file.")
 
 _SPEED = 10.0  # m/s, of the Reynolds numbers in the list
 
@@ -73,10 +73,10 @@ def new(
         Literal["bird", "bat", "robot"] | None,
         Parameter(help="Derive it by scaling laws from --mass, --wing-span and --wing-area."),
     ] = None,
-    mass: Annotated[float | None, Parameter(help="Of the whole animal [kg].")] = None,
-    wing_span: Annotated[float | None, Parameter(help="Tip to tip [m].")] = None,
-    wing_area: Annotated[float | None, Parameter(help="Of both wings and the body between [m2].")] = None,
-    force: Annotated[bool, Parameter(negative="", help="Replace a file that is there.")] = False,
+    mass: Annotated[float | None, Parameter(help="Mass of the whole animal [kg].")] = None,
+    wing_span: Annotated[float | None, Parameter(help="Wing span, tip to tip [m].")] = None,
+    wing_area: Annotated[float | None, Parameter(help="Area of both wings and the body between them [m2].")] = None,
+    force: Annotated[bool, Parameter(negative="", help="Overwrite an existing file.")] = False,
 ) -> None:
     """Write a commented template for a species of your own, or a bird, bat or robot by scaling laws."""
     from wingbeat.files import write_atomically
@@ -98,7 +98,9 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
     for key, value in size.items():
         option = f"--{key.replace('_', '-')}"
         if kind is None and value is not None:
-            faults.add(option, value, "needs to know whose laws to take", "add --kind bird, bat or robot")
+            faults.add(
+                option, value, "needs the kind of animal for its scaling laws", "add --kind bird, bat or robot"
+            )
         elif kind is not None and value is None:
             faults.add(option, None, "must be given", f"the laws of a {kind} need mass, span and area")
     faults.raise_if_any()
@@ -231,7 +233,7 @@ def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
     """Return a table of what is plausible of a beat; the ranges of the wingbeat stand with its numbers."""
     from wingbeat.nomenclature import cf, for_people
 
-    table = _table("plausible of a beat", "quantity", "least>r", "most>r", "unit", "at [m/s]>r", "source>r")
+    table = _table("plausible ranges", "quantity", "minimum>r", "maximum>r", "unit", "at [m/s]>r", "source>r")
     for name, known in animal.plausible.items():
         factor, unit = for_people(cf(known.unit))
         ends = ["" if end is None else f"{factor * end:g}" for end in known[:2]]
@@ -245,7 +247,7 @@ def _free_table(animal: Species) -> Table:
     from wingbeat.nomenclature import plain_unit
     from wingbeat.species_schema import Number, display
 
-    table = _table("free in an orbit, and the limits of its path", "quantity", "bounds>r", "unit", "reason")
+    table = _table("free parameters, and limits along the path", "quantity", "bounds>r", "unit", "reason")
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
     for path, limits in (bounds | animal.path_bounds).items():
         name, shown = display(path, Number(0.0, plain_unit(path), range=limits))

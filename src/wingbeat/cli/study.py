@@ -19,9 +19,7 @@ if TYPE_CHECKING:
     from wingbeat.studies.driver import Tally
     from wingbeat.studies.study import Study, Summary
 
-study = App(
-    name="study", help="Solve many problems, a grid or a cloud of them: in pieces that survive, nothing lost."
-)
+study = App(name="study", help="Solve a grid or sample of problems; an interrupted study resumes.")
 
 # Failures that are listed by name.
 _LISTED = 10
@@ -40,7 +38,7 @@ def _file(kind: Any, tokens: Sequence[Token]) -> Path:
     return Path(word)
 
 
-File = Annotated[Path, Parameter(help="The study file, .toml; its store lies beside it.")]
+File = Annotated[Path, Parameter(help="The study file, .toml; its store is beside it.")]
 Output = Annotated[Path | None, Parameter(name=["--output", "-o"], help="The file to write.")]
 
 
@@ -50,18 +48,18 @@ def run(
     file: Annotated[File, Parameter(converter=_file)],
     *,
     processes: Annotated[
-        Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; as many as there are cores.")
+        Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; default: as many as cores.")
     ] = None,
     timeout: Annotated[float, Parameter(help="Longest time for one point [s].")] = 600.0,
     dask: Annotated[
         str | None,
-        Parameter(help="In place of processes, a Dask cluster: tcp://HOST:PORT, or local:N.", show_default=False),
+        Parameter(help="A Dask cluster instead of processes: tcp://HOST:PORT, or local:N.", show_default=False),
     ] = None,
     retry_failed: Annotated[
-        bool, Parameter(negative="", help="Try points again that failed: errors, crashes, time-outs.")
+        bool, Parameter(negative="", help="Retry failed points: errors, crashes, time-outs.")
     ] = False,
     allow_failures: Annotated[
-        bool, Parameter(negative="", help="Exit with 0 though points are not certified.")
+        bool, Parameter(negative="", help="Exit with 0 even if points are not certified.")
     ] = False,
 ) -> int:
     """Solve what has no answer yet, and keep every answer in the store beside the file.
@@ -115,7 +113,8 @@ def plot(
     *,
     output: Output = None,
     quantity: Annotated[
-        str | None, Parameter(help="Column of the table to draw, such as mean_power; what was made least.")
+        str | None,
+        Parameter(help="Column of the table to draw, such as mean_power; default: the minimised quantity."),
     ] = None,
 ) -> None:
     """Draw what was found over what was varied: lines over one parameter, maps over two, strands over more."""
@@ -134,9 +133,9 @@ def salvage(file: File) -> None:
     asked = _read(file)
     kept, aside = asked.salvage()
     if aside is None:
-        print(f"the store {str(asked.store)!r} is not damaged; it is left as it is", file=sys.stderr)
+        print(f"the store {str(asked.store)!r} is not damaged; nothing was changed", file=sys.stderr)
     else:
-        print(f"{kept} answers kept; the damaged store is now {str(aside)!r}", file=sys.stderr)
+        print(f"{kept} results kept; the damaged store is now {str(aside)!r}", file=sys.stderr)
     _print_summary(asked, asked.status())
 
 
@@ -171,7 +170,7 @@ def _announcement(asked: Study, total: int, left: int, processes: int) -> str:
 
 
 def _told(tally: Tally) -> str:
-    return f"{tally.here} points solved, {tally.rate:.1f} a second" if tally.here else "nothing left to solve"
+    return f"{tally.here} points solved, {tally.rate:.1f} per second" if tally.here else "nothing left to solve"
 
 
 def _print_summary(asked: Study, summary: Summary) -> None:
@@ -183,9 +182,9 @@ def _print_summary(asked: Study, summary: Summary) -> None:
         if count := summary.count(name):
             print(f"  {name:<14}{count:>9}")
     if summary.kept:
-        print(f"  {summary.kept} answers of points that the study no longer asks for are kept")
+        print(f"  {summary.kept} results of points that are no longer in the study are kept")
     if summary.changed:
-        print("  the study has changed since it was run: these are the points as they were")
+        print("  the study has changed since it was run: these are the previous points")
     troubled = summary.count(*STATUSES[1:])
     for row in asked.uncertified(_LISTED) if troubled else []:
         where = ", ".join(
@@ -195,4 +194,4 @@ def _print_summary(asked: Study, summary: Summary) -> None:
         )
         print(": ".join(part for part in (row["status"], where, row["reason"]) if part))
     if troubled > _LISTED:
-        print(f"... and {troubled - _LISTED} more, all of them in the table of `wingbeat study export`")
+        print(f"... and {troubled - _LISTED} more; `wingbeat study export` lists all")

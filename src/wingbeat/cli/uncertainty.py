@@ -27,10 +27,10 @@ def uncertainty(
     aero: AeroName = "su-fan",
     extension: Extension = "mirrored",
     blend_width_deg: BlendWidth = 1.0,
-    minimise: Annotated[str, Parameter(help="What to make least, as in `wingbeat orbit`.")] = "frequency",
-    samples: Annotated[Whole, Parameter(help="Number of orbits solved for drawn parameters.")] = 2000,
-    share: Annotated[float, Parameter(help="Share of every plausible range to draw from, about the value.")] = 1.0,
-    seed: Annotated[Whole, Parameter(help="Seed of the draws.")] = 0,
+    minimise: Annotated[str, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = "frequency",
+    samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
+    share: Annotated[float, Parameter(help="Share of every plausible range to sample, around the value.")] = 1.0,
+    seed: Annotated[Whole, Parameter(help="Seed of the samples.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
@@ -90,15 +90,15 @@ def _print(one: Comparison, console: Console) -> None:
     name = bar.quantity.replace("_", " ")
     if one.first_order_holds:
         line = ((f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),)
-        line += (("  mean of the spreads", f"{bar.value + bar.shift:.4g}{unit}"),)
+        line += (("  mean over the ranges", f"{bar.value + bar.shift:.4g}{unit}"),)
     else:
         ranking = ranked_in_words(bar).removeprefix(f"{name} ")
         line = ((f"{name}, first order is a ranking only", ranking),)
     rows = (
         *line,
-        (f"{name}, {one.certified} of {one.drawn} draws fly", f"{one.mean:.4g} +- {one.deviation:.2g}{unit}"),
+        (f"{name}, {one.certified} of {one.drawn} samples fly", f"{one.mean:.4g} +- {one.deviation:.2g}{unit}"),
         ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
-        ("  variance that the first order foretells", f"{max(one.explained, 0.0):.1%}"),
+        ("  variance predicted to first order", f"{max(one.explained, 0.0):.1%}"),
     )
     for label, value in rows:
         console.print(f"{label:48s}{value}", markup=False, highlight=False, soft_wrap=True)

@@ -19,7 +19,7 @@ _SUFFIXES = (".html", ".gif")
 
 def view(
     file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
-    other: Annotated[Path | None, Parameter(help="A second one, to be compared.")] = None,
+    other: Annotated[Path | None, Parameter(help="A second file to compare with.")] = None,
     *,
     output: Annotated[
         Path, Parameter(name=["--output", "-o"], help="The page, .html, or the animated picture, .gif.")
@@ -35,7 +35,12 @@ def view(
     faults = FaultList()
     suffix = output.suffix.lower()
     if suffix not in _SUFFIXES:
-        faults.add("--output", str(output), "is no page or animated picture", f"end it in {' or '.join(_SUFFIXES)}")
+        faults.add(
+            "--output",
+            str(output),
+            "is neither a page nor an animated picture",
+            f"end it in {' or '.join(_SUFFIXES)}",
+        )
     faults.raise_if_any()
     check_outputs(output)
     flights = [(path.stem, read_result(path)) for path in (file, other) if path is not None]

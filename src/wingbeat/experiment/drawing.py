@@ -31,7 +31,8 @@ def draw(
     """Return models whose terms are drawn from the normal distribution of a fit's parameters.
 
     The parameters of lift, drag and centre of pressure are drawn each with their covariance, and independently of
-    one another. A draw that is no formula (a decay that grows) is drawn again. The same seed gives the same models.
+    one another. A sample that is not a valid formula (a decay that grows) is drawn again. The same seed gives the
+    same models.
 
     Parameters
     ----------
@@ -44,7 +45,7 @@ def draw(
     ------
     FileError : the file is missing or cannot be read.
     InvalidInputError : a count or seed that is no whole number, what `read_model` refuses, a file without
-        covariance, or a covariance so wide that hardly a draw is a formula.
+        covariance, or a covariance so wide that few samples give a valid formula.
     """
     faults = FaultList()
     for name, value, lowest, highest in (("count", count, 1, MAX_COUNT), ("seed", seed, 0, 2**63)):
@@ -83,7 +84,7 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
         if len(found) >= count:
             return found[:count]
     faults = FaultList()
-    rule = "is so wide that hardly any draw is a valid formula: the data do not determine this form"
+    rule = "is so wide that few samples give a valid formula: the data do not determine this form"
     faults.add(label, "covariance", rule, "choose a form with fewer parameters")
     raise InvalidInputError(faults.faults)
 

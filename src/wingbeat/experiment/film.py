@@ -63,7 +63,7 @@ class Film:
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
         if not self.columns or set(self.columns) - set(FILMED):
             shown = ", ".join(self.columns) or "nothing"
-            faults.add(f"{self.name}, columns", shown, "is not a column of a film", f"any of {', '.join(FILMED)}")
+            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(FILMED)}")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
@@ -177,7 +177,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "is given twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         else:
             check_unit(faults, where, unit, units[name])
         names.append(name)
@@ -186,7 +186,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         faults.add(where, ",".join(sheet.header), "must have one of phase and time", "phase in beats, time in s")
     if not set(names) & set(FILMED):
         fix = f"any of {', '.join(FILMED)}"
-        faults.add(where, ",".join(sheet.header), "has no column of a film", fix)
+        faults.add(where, ",".join(sheet.header), "has no filmed column", fix)
     return names
 
 

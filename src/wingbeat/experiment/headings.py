@@ -71,7 +71,7 @@ def read_sheet(path: str | Path) -> Sheet:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : it is empty, or a constant is given twice.
+    InvalidInputError : it is empty, or a constant appears twice.
     """
     path = Path(path)
     faults = FaultList()
@@ -83,7 +83,7 @@ def read_sheet(path: str | Path) -> Sheet:
             key, equals, value = text.lstrip("# ").partition("=")
             name = key.strip()
             if equals and name in constants:
-                faults.add(f"{path.name} row {row}", name, "is given twice", "keep one")
+                faults.add(f"{path.name} row {row}", name, "appears twice", "keep one")
             elif equals:
                 constants[name] = (row, value.strip())
         elif text:

@@ -180,7 +180,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
             faults.add(where, cell, rule, fix)
             place["alpha_deg"] = k
         elif name in place:
-            faults.add(where, cell, "is given twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         elif name in COLUMN_UNITS:
             check_unit(faults, f"{where}, {name}", unit, COLUMN_UNITS[name])
             place[name] = k

@@ -37,7 +37,7 @@ class CurveFit:
     form : the curve.
     parameters : fitted values by name.
     covariance : of the parameters, in that order, shape (p, p).
-    condition : condition number of the scaled Jacobian; large where parameters cannot be told apart.
+    condition : condition number of the scaled Jacobian; large if parameters cannot be separated.
     alpha_deg, values : the measurements, shape (n,) [deg].
     sigma : their standard errors, shape (n,); all one where none were given.
     weighted : whether errors were given.
@@ -280,7 +280,7 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
         x = np.clip([start[name] for name in names], *bounds)
         if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
             faults = FaultList()
-            faults.add(label, form.formula, "gives no finite numbers at the start of the fit", "change its start")
+            faults.add(label, form.formula, "gives no finite numbers at its starting values", "change its start")
             faults.raise_if_any()
         tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
         found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
@@ -306,7 +306,7 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
     for name, value in fit.parameters.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
-            notes.append(f"{fit.label}: {name} reached the limit of its search, {value:g}; the form does not fit")
+            notes.append(f"{fit.label}: {name} reached the limit of its fit, {value:g}; the form does not fit")
     limits = fit.interval()
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
@@ -314,7 +314,7 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
         notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
-            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be told apart; "
+            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be separated; "
             "measure over more angles or choose a form with fewer"
         )
     return tuple(notes)

@@ -99,7 +99,7 @@ class CoefficientTable:
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():
             faults = FaultList()
-            rule = f"holds no row, for the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
+            rule = f"holds no row: the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
             faults.add("alpha range", f"{lowest_deg:g} to {highest_deg:g}", rule, "widen it")
             faults.raise_if_any()
 
@@ -135,7 +135,7 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     """Read a table of measured coefficients from CSV.
 
     The columns alpha_deg, C_L and C_D are needed; reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
-    read where they stand; others are refused, since a misspelt error would be lost without a word.
+    read if present; others are refused, because a misspelt error column would be lost silently.
 
     Parameters
     ----------
@@ -175,7 +175,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             fix = "radians times 57.29578 are alpha_deg" if "alpha" in name else f"known are {', '.join(_KNOWN)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
-            faults.add(where, cell, "is given twice", "keep one")
+            faults.add(where, cell, "appears twice", "keep one")
         check_unit(faults, where, unit, "deg" if name == "alpha_deg" else "")
         names.append(name)
     for name in REQUIRED:

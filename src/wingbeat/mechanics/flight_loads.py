@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.equations_of_motion import air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
@@ -88,7 +88,7 @@ class Loads(NamedTuple):
     potential_energy: Phases
 
 
-@stored
+@exported
 def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
-from wingbeat._jax.elementwise_jvp import by_slopes
+from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
@@ -120,7 +120,7 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: 
     return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed)
 
 
-@by_slopes
+@elementwise_jvp
 def air_loads(
     model_and_motion: tuple[FlightModel, WingMotion], forward: Phases, up: Phases, pitch_rate: Phases
 ) -> BodyLoads:

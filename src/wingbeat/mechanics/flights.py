@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
@@ -104,7 +104,7 @@ class Steps(NamedTuple):
     states: np.ndarray
 
 
-@stored
+@exported
 def _fly(model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Samples, rtol: Scalar) -> Integrated:
     def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat]) -> Any:
         flown, beat = args

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel
@@ -42,7 +42,7 @@ class Posture(NamedTuple):
     glide_angle : of the path below the horizontal [rad].
     body_above_path : angle of the body above the path [rad].
     flap : flap angle [rad].
-    angle_of_attack : that of the root chord if the wing were not flapped [rad].
+    angle_of_attack : that of the root chord, without flap [rad].
     """
 
     speed: Scalar
@@ -57,12 +57,12 @@ class Glide(NamedTuple):
 
     Attributes
     ----------
-    angle_of_attack : that of the root chord if the wing were not flapped [rad].
+    angle_of_attack : that of the root chord, without flap [rad].
     speed, sink : along the path, and downwards [m/s].
     glide_angle : of the path below the horizontal [rad].
     glide_ratio : distance over height lost.
     body_pitch, wing_pitch, flap : [rad].
-    tail_moment : the moment that a tail would have to give, nose-up positive [N m]; 0 where the glide is trimmed.
+    tail_moment : the moment that a tail would need to supply, nose-up positive [N m]; 0 where the glide is trimmed.
     flap_torque, pitch_torque : that hold the wings [N m].
     trimmed : whether the pitching moment vanishes.
     """
@@ -98,7 +98,7 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
     return body_pitch, above_body - stroke_pitch(model.vehicle.wing.stroke_plane_angle)
 
 
-@stored
+@exported
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
     """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]."""
     posture = Posture(*numbers)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import stored
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch, to_world
@@ -93,7 +93,7 @@ def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
     return jnp.stack([leading - out, leading + out, trailing + out, trailing - out], axis=1)
 
 
-@stored
+@exported
 def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Corners:
     """Return `corners_of` the strips along a flight, shape (K, N, 4, 3).
 

@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
-    "Ours: certified orbits of least frequency; filled, thick line: coefficients mirrored at negative angles of "
-    "attack; open, thin line: formulas as they stand at negative angles. Neighbouring points may be of different "
-    "families of orbits; the flap amplitude rests on its bound in {leaning} of {all}. Crosses at the foot: no "
-    "certified orbit at that speed. Stars: what the paper prints of the bat (of the pigeon it prints no number). "
+    "Ours: certified orbits of minimum frequency; filled, thick line: coefficients mirrored at negative angles of "
+    "attack; open, thin line: formulas as printed at negative angles. Neighbouring points may be of different "
+    "families of orbits; the flap amplitude is at its bound in {leaning} of {all}. Crosses at the foot: no "
+    "certified orbit at that speed. Stars: what the paper prints for the bat (it prints no number for the pigeon). "
     "Green: measured on animals, or a law "
     "of such measurements for a vehicle of "
     "this mass and span; A: as in the source, D: computed by us from it; full sources stand in the table beside "

@@ -18,7 +18,7 @@ _PENNYCUICK = (
 MEASURED_POWERS = (
     Measured(
         "pigeon",
-        "most that is sustained, 0.4 kg, Pennycuick 1968",
+        "highest sustained, 0.4 kg, Pennycuick 1968",
         (3, 16),
         lambda vehicle, air, speed: 10.5,
         0.0,
@@ -49,7 +49,7 @@ MEASURED_POWERS = (
 )
 # Speeds of least power [m/s].
 MEASURED_MINIMUM_POWER_SPEEDS = {
-    "pigeon": ("speed of least power, Pennycuick 1968", (8.0, 9.0), _PENNYCUICK),
+    "pigeon": ("speed of minimum power, Pennycuick 1968", (8.0, 9.0), _PENNYCUICK),
 }
 _POINTS = 33
 

@@ -167,9 +167,9 @@ class Pieces:
             own = about.pop("number")
             judged = _judged(rest)
             if own != number or len(judged.sets) != len(self.sample.range(number)):
-                raise ValueError("it is not whole, or another piece")
+                raise ValueError("it is incomplete, or another piece")
         except (KeyError, TypeError, ValueError, AttributeError) as error:
-            fix = "remove it, and it will be run again"
+            fix = "remove it to run it again"
             raise FileError(f"cannot read {str(path)!r} as a piece of a sample: {error}; {fix}") from None
         _check_same(about, self.sample, path)
         return judged, seconds
@@ -201,8 +201,8 @@ def _check_same(about: object, sample: Sample, path: Path) -> None:
         f"{of.get('numerical_version')}, claims and ranges {of.get('asked')}"
         for of in (told, sample.about())
     )
-    fix = "give another folder, or ask for the same"
-    raise FileError(f"{str(path)!r} is of another sample ({theirs}) than is asked for ({ours}); {fix}")
+    fix = "give another folder, or the same sample"
+    raise FileError(f"{str(path)!r} is of another sample ({theirs}), not of this one ({ours}); {fix}")
 
 
 def table(parts: Iterable[Judged]) -> str:
@@ -234,7 +234,7 @@ def _judged(text: str) -> Judged:
     """Return what `table` wrote of."""
     names, *rows = csv.reader(io.StringIO(text))
     if names != _columns():
-        raise ValueError("its columns are not ours")
+        raise ValueError("its columns do not match")
     count = len(ASSUMPTIONS)
     sets = tuple(
         {a.name: cell if a.choices else float(cell) for a, cell in zip(ASSUMPTIONS, row[:count], strict=True)}

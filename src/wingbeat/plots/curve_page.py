@@ -22,13 +22,13 @@ _HEIGHT = 150.0  # mm
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (6, 1.5, 1, 1.5)))
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
-_NAMES = {"minimum_power": ("least power", "v"), "maximum_range": ("greatest range", "s")}
+_NAMES = {"minimum_power": ("minimum power", "v"), "maximum_range": ("maximum range", "s")}
 _NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
 
 
 @dataclass(frozen=True)
 class Published:
-    """What others found, to stand beside a curve.
+    """Published values to draw beside a curve.
 
     Parameters
     ----------
@@ -93,8 +93,8 @@ def _title(dataset: xr.Dataset) -> str:
     aero = json.loads(about["aero"])
     climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
     limits = "".join(f", {text}" for text in json.loads(about["constraints"]))
-    least = about["objective"].replace("_", " ")
-    return f"{about['species']}{climb}: least {least}{limits}; {aero['coefficients']}, {aero['extension']}"
+    minimised = about["objective"].replace("_", " ")
+    return f"{about['species']}{climb}: minimum {minimised}{limits}; {aero['coefficients']}, {aero['extension']}"
 
 
 def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str) -> None:
@@ -103,7 +103,7 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     low = np.where(good, values, np.inf).min(axis=1)
     high = np.where(good, values, -np.inf).max(axis=1)
     some = good.any(axis=1)
-    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "all distinct optima met"}
+    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "all distinct optima found"}
     axes.fill_between(speed, np.where(some, low, np.nan), np.where(some, high, np.nan), **band)
     label = "another optimum, continued"
     for i, below, above in np.argwhere(dataset["continued"].values > 0):
@@ -114,7 +114,7 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     for rank in range(1, values.shape[1]):
         axes.plot(speed, values[:, rank], ".", color=_OTHER, markersize=2)
     torn = {m["lower_speed"] for m in marks if m["kind"] == "branch"}
-    line, label = [values[:, 0], speed], f"best of least {dataset.attrs['objective'].replace('_', ' ')}"
+    line, label = [values[:, 0], speed], f"best, minimum {dataset.attrs['objective'].replace('_', ' ')}"
     for part in np.split(np.arange(len(speed)), [i + 1 for i, u in enumerate(speed) if u in torn]):
         axes.plot(line[1][part], line[0][part], "-o", color=_BEST, markersize=3, label=label, zorder=3)
         label = "_"

@@ -51,7 +51,7 @@ def glide_page(dataset: xr.Dataset) -> Figure:
         angles.plot(speed, pitch, label="body pitch ψ", **SECOND)
         angles.set(ylabel="angle [deg]", xlabel="speed [m/s]")
         torques.plot(speed, dataset["flap_torque"].values, label="flap torque that holds both wings", **_LINE)
-        torques.plot(speed, dataset["tail_moment"].values, label="moment asked of a tail", **SECOND)
+        torques.plot(speed, dataset["tail_moment"].values, label="moment needed from a tail", **SECOND)
         torques.set(ylabel="torque, moment [N m]", xlabel="speed [m/s]")
         for axes in (sink, angles, torques):
             axes.legend()

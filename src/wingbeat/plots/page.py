@@ -92,7 +92,7 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     aero, bounds = json.loads(about["aero"]), json.loads(about["active_bounds"])
     climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
     first = f"{about['species']} at {about['speed']:.4g} m/s{climb}, {frequency}"
-    loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips a wing"
+    loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips per wing"
     second = f"{loads}; minimised: {about['objective']}; at the bound of {', '.join(bounds) or 'nothing'}"
     if about["status"] == "converged":
         said = statements({name: _read(about, name) for name in ("status", "closure", "plausibility")})

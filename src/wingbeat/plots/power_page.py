@@ -77,7 +77,7 @@ def _draw_torque(axes: Axes, dataset: xr.Dataset, spring: dict[str, Any]) -> Non
     if spring["rest_angle"] is not None:
         given = -spring["stiffness"] * (flap - spring["rest_angle"])
         axes.plot(np.degrees(flap), given, label="best spring", **_LOOKS["inertial"])
-        axes.plot(np.degrees(flap), torque - given, label="left to actuators", **_LOOKS["aerodynamic"])
+        axes.plot(np.degrees(flap), torque - given, label="remaining for actuators", **_LOOKS["aerodynamic"])
     axes.set(xlabel="flap angle φ [deg]", ylabel="torque [N m]")
     legend_above(axes, columns=2)
 

@@ -28,7 +28,7 @@ def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) 
     path : of the figure.
     """
     if os.path.splitext(path)[1].lower() not in FIGURE_SUFFIXES:
-        faults.add(where, os.fspath(path), "is no kind of figure", f"end it in {', '.join(FIGURE_SUFFIXES)}")
+        faults.add(where, os.fspath(path), "is not a figure format", f"end it in {', '.join(FIGURE_SUFFIXES)}")
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:

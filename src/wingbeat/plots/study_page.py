@@ -51,10 +51,10 @@ def study_page(
     """
     faults = FaultList()
     if not varied:
-        faults.add("varied", list(varied), "holds no number to draw over", "vary one, or take the table")
+        faults.add("varied", list(varied), "has no varied number to draw against", "vary one, or take the table")
     for name in (*varied, quantity):
         if name not in frame or frame[name].dtype.kind not in "fiu":
-            faults.add("quantity" if name == quantity else "varied", name, "is no column of numbers in the table")
+            faults.add("quantity" if name == quantity else "varied", name, "is not a numeric column of the table")
     faults.raise_if_any()
     asked, waiting = len(frame), frame["status"].to_numpy() == "waiting"
     frame = frame.loc[~waiting]

@@ -35,8 +35,8 @@ def tornado_page(found: Sensitivities) -> Figure:
         figure = new_figure(PAGE, _HEAD + _ROW * count)
         problem = found.problem
         figure.suptitle(
-            f"{problem.species.name} at {problem.speed:g} m/s, least {problem.minimise.name.replace('_', ' ')}: "
-            "which plausible range matters most, a ranking to first order (largest change: 1)",
+            f"{problem.species.name} at {problem.speed:g} m/s, minimum {problem.minimise.name.replace('_', ' ')}: "
+            "effect of each plausible range, a first-order ranking (largest change: 1)",
             fontsize=8,
         )
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]

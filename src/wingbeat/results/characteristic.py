@@ -1,4 +1,4 @@
-"""Characteristic speeds of a power curve: least power, greatest range, the fastest that a power sustains."""
+"""Characteristic speeds of a power curve: minimum power, maximum range, and the fastest within a power limit."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-# Powers this near to the least are as good as it, for the width of a minimum.
+# Powers this close to the minimum count as its width.
 _FLAT = 0.02
 
 
 def characteristic_speeds(
     speed: np.ndarray, power: np.ndarray, joined: np.ndarray, power_limit: float | None = None
 ) -> dict[str, Any]:
-    """Return the speeds of least power and of greatest range, and those between which a power limit suffices.
+    """Return the speeds of minimum power and of maximum range, and those between which a power limit suffices.
 
     Parameters
     ----------
@@ -25,10 +25,10 @@ def characteristic_speeds(
 
     Returns
     -------
-    ``minimum_power``, ``maximum_range`` (least power over speed, the tangent from the origin) and, with a limit,
+    ``minimum_power``, ``maximum_range`` (minimum power over speed, the tangent from the origin) and, with a limit,
     ``fastest_sustained`` and ``slowest_sustained``; each None where there is none. ``speed`` [m/s], ``power`` [W],
     ``at_edge``: the range of speeds or a gap cuts it off, so that the true one may lie beyond; ``jump_beside``: the
-    curve changes branch there; ``within_2_percent``: the speeds between which what is least is within that.
+    curve changes branch there; ``within_2_percent``: the speeds between which the minimised value is within 2 %.
 
     >>> u = np.arange(4.0, 13.0)
     >>> found = characteristic_speeds(u, 60 / u + 0.01 * u**3, np.ones(8, bool))
@@ -60,7 +60,7 @@ def _least(
     power: np.ndarray,
     lowest: Callable[[float, float, float], float],
 ) -> dict[str, Any] | None:
-    """Return where a value is least.
+    """Return where a value is smallest.
 
     `lowest` gives that speed from the parabola ``square U^2 + slope U + level`` that the power makes at the least
     point and those beside it, where these are of one branch.

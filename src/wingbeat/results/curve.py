@@ -37,15 +37,15 @@ MOST_SPEEDS = 1000
 
 
 class Curve:
-    """Certified orbits of least objective along speed; made by `solve_curve`, or by `load_curve`.
+    """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`.
 
     Attributes
     ----------
     dataset : every certified optimum over (speed, optimum), labelled.
-    marks : what happens between neighbouring speeds.
+    marks : changes between neighbouring speeds.
     gaps : speeds at which nothing is certified [m/s].
     warnings : what a reader should know.
-    characteristic_speeds : speeds of least power and greatest range [m/s].
+    characteristic_speeds : speeds of minimum power and maximum range [m/s].
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
@@ -54,7 +54,7 @@ class Curve:
 
     def __repr__(self) -> str:
         data = self._dataset
-        what = f"least {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
+        what = f"minimum {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
         return f"<Curve {data.attrs['species']}: {what}>"
 
     @property
@@ -64,7 +64,7 @@ class Curve:
 
     @property
     def marks(self) -> list[dict[str, Any]]:
-        """What happens between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
+        """Changes between neighbouring speeds: ``gap``, change of ``branch``, change of active ``bounds``."""
         return self._about["marks"]
 
     @property
@@ -80,10 +80,9 @@ class Curve:
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of least power and of greatest range, and those that a power limit sustains.
+        """Speeds of minimum power and of maximum range, and those within a power limit.
 
-        They are read off the power that was minimised, or off the mean positive power if the objective was
-        something else.
+        They use the minimised power, or the mean positive power if the objective is not a power.
         """
         data = self._dataset
         torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
@@ -145,17 +144,17 @@ def solve_curve(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Curve:
-    """Find the certified orbits of least objective along speed, and every other optimum found on the way.
+    """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
-    Every optimum that searches find is continued to the neighbouring speeds, both ways, until nothing is new, in
+    Every optimum that is found is continued to the neighbouring speeds, both ways, until nothing is new, in
     steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
     curve carries a mark.
 
     Parameters
     ----------
-    problem : what is asked at each speed; its own speed does not count.
+    problem : the problem at each speed; its own speed is ignored.
     speeds : at least two, increasing [m/s]; 0 is hover.
-    starts : searches at either end of the range, and a third as many at each speed between.
+    starts : starts at both ends of the range, and a third as many at each speed in between.
     seed : of the random starts.
     power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
     progress : called with (tasks done, tasks known of).
@@ -180,7 +179,7 @@ def solve_curve(
     elif good and not all(low < high for low, high in itertools.pairwise(values)):
         faults.add("speeds", values, "must increase", "give each speed once, the slowest first")
     if power_limit is not None:
-        faults.number("power_limit", power_limit, above=0, unit="W", fix="what can be sustained")
+        faults.number("power_limit", power_limit, above=0, unit="W", fix="the sustainable power")
     faults.raise_if_any()
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
@@ -221,11 +220,11 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":
-        raise FileError(f"cannot read {shown} as a curve: it is none; give a file of `wingbeat curve -o`")
+        raise FileError(f"cannot read {shown} as a curve: it is not one; give a file of `wingbeat curve -o`")
     try:
         curve = Curve(dataset)
         if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
-            raise ValueError("the inputs are not those it was solved from")
+            raise ValueError("the inputs are not those of its solution")
         curve.record()
     except (LookupError, ValueError, TypeError, AttributeError) as error:
         raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve it again") from None

@@ -146,7 +146,7 @@ def _largest_multiplier(record: dict[str, Any]) -> float | None:
 
 
 def power_name(objective: str) -> str:
-    """Return which power a curve is a curve of: what was made least, if that is a mean power."""
+    """Return which power a curve is a curve of: minimised quantity, if that is a mean power."""
     known = QUANTITIES.get(objective)
     is_mean = objective.startswith(("mean_", "power_cost")) and (known is None or known.unit == "W")
     return "objective_value" if is_mean else "mean_positive_power"

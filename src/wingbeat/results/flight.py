@@ -84,7 +84,7 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     wingbeat : the prescribed wingbeat.
     state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
     beats : number of wingbeats.
-    samples : samples a beat.
+    samples : samples per wingbeat.
 
     Raises
     ------

@@ -111,16 +111,16 @@ def glide_polar(
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
     Lift, drag, weight and, where it can be, the pitching moment balance, with the same air loads as in flapping
-    flight. Where no angle trims the moment, the body is kept along the path and `Glide.tail_moment` says what is
+    flight. If no angle trims the moment, the body stays along the path and `Glide.tail_moment` is what is
     lacking.
 
     Parameters
     ----------
     species : gives vehicle, twist, air, and the range of body pitch.
     aero : as in `OrbitProblem`, `SuFan()` if not given.
-    angles_of_attack : of the chord at the root, were the wing not flapped [rad]; 1 to 30 degrees if not given.
+    angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
-    trim : what is turned until the moment vanishes: ``"body-pitch"`` under wings that keep their angle of attack,
+    trim : what turns until the moment is zero: ``"body-pitch"`` under wings that keep their angle of attack,
         ``"flap"`` with the body along the path, or ``"tail"``, nothing.
 
     Raises
@@ -176,13 +176,13 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     notes = list(polar.species.warnings)
     found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
     if len(found) < len(polar.glides):
-        notes.append(f"{len(polar.glides) - len(found)} angles of attack without a steady forward glide")
+        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady forward glide")
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]
         notes.append(
-            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would have to give "
-            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body is kept along the path"
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would need to supply "
+            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body stays along the path"
         )
     coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
     low, high = coefficients.reynolds_range or (0.0, math.inf)
@@ -193,5 +193,5 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
             f"Reynolds number outside the fitted {low:g} to {high:g} in {outside} of {len(found)} glides "
             f"(it runs from {min(reynolds):.0f} to {max(reynolds):.0f})"
         )
-    notes.append("no induced drag is added to what the coefficients hold")
+    notes.append("the model adds no induced drag to the coefficients")
     return notes

@@ -82,29 +82,29 @@ class Orbit:
 
     What can be done with it::
 
-        orbit.status, orbit.message   how the search ended, and what that means
+        orbit.status, orbit.message   how the solver ended, and what that means
         orbit.record()                all results as a dictionary of numbers, SI units and radians
         orbit.dataset                 time series of one beat, an xarray Dataset
         orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
         orbit.view()                  the flight in motion, in a notebook
-        orbit.problem                 the problem it answers, to change and solve again
+        orbit.problem                 the problem it solves, to change and solve again
         orbit.relaxations             where there is no orbit: the changes that make one
 
-        wb.power_account(orbit.dataset)        where its power goes, and which spring helps
-        wb.sensitivities(orbit)                what its numbers depend on, and how sure they are
+        wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
+        wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
         wb.plots.wingbeat_page(orbit.dataset)  a figure
 
     It can be pickled, and copied to another process.
 
     Attributes
     ----------
-    status : how the search ended.
+    status : how the solver ended.
     message : what that means, in terms of flight.
     wingbeat : the wingbeat found.
     initial_state : the body's state at phase 0.
-    unknowns : pitch state at phase 0 and free parameters, as a search starts from them.
+    unknowns : pitch state at phase 0 and free parameters, as the initial guess of a start.
     relaxations : where there is no orbit, single changes that make one, the smallest first.
-    problem : the problem it answers.
+    problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.
     """
@@ -125,12 +125,12 @@ class Orbit:
 
     @classmethod
     def of(cls, solution: Solution, starts: int, seed: int = 0) -> Orbit:
-        """Return the orbit of a solution; record and time series are made when asked for.
+        """Return the orbit of a solution; record and time series are computed on demand.
 
         Parameters
         ----------
-        solution : what a search found.
-        starts, seed : what the search was asked for.
+        solution : result of the solver.
+        starts, seed : settings of the solver.
         """
         inputs = inputs_of(solution.problem, starts, seed, solution.options)
         start = State(*solution.certificate.states[0].tolist())
@@ -141,13 +141,13 @@ class Orbit:
 
     @classmethod
     def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
-        """Return the orbit that a record tells of; its time series are flown when asked for.
+        """Return the orbit of a record; its time series are flown on demand.
 
         Parameters
         ----------
         record : an orbit record.
-        problem : the problem that it answers.
-        starts, seed : what the search was asked for.
+        problem : the problem that it solves.
+        starts, seed : settings of the solver.
         """
         inputs, summary = inputs_of(problem, starts, seed), _summary(record)
         pitch_state = np.array(summary.initial_state)[2:]
@@ -168,7 +168,7 @@ class Orbit:
 
     @property
     def status(self) -> Status:
-        """How the search ended."""
+        """How the solver ended."""
         return self._summary.status
 
     @property
@@ -196,12 +196,12 @@ class Orbit:
 
     @property
     def unknowns(self) -> np.ndarray:
-        """Pitch state at phase 0 and free parameters, as a search starts from them."""
+        """Pitch state at phase 0 and free parameters, as the initial guess of a start."""
         return self.problem.unknowns_of(np.array(self.initial_state), self.wingbeat)
 
     @property
     def problem(self) -> OrbitProblem:
-        """The problem this orbit answers, set up again from its inputs unless they hold a user's function."""
+        """The problem this orbit solves, set up again from its inputs unless they hold a user's function."""
         if self._problem is not None and own_functions(self._inputs):
             return self._problem
         return problem_from(self._inputs)
@@ -259,19 +259,19 @@ def solve_orbit(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Orbit:
-    """Find the periodic orbit of least objective at the prescribed mean velocity and certify it.
+    """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
-    A failed search raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
+    A failure raises nothing: `Orbit.status` says how it ended and `Orbit.message` what fails and what to do;
     the beat is then the one that comes closest, and `Orbit.relaxations` are changes that were found to fly.
 
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches from different starts; more find better optima. If not given 6, or 12 where the
+    starts : number of starts; more may find better optima. The default is 6, or 12 where the
         objective or a limit is an output of the wingbeat, or 24 where the wingbeat's bounds are other than the
         species' or the largest value of a series is minimised.
     seed : of the random starts; the same seed gives the same orbit.
-    progress : called with (searches done, searches in all).
+    progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.
 
     Raises
@@ -313,35 +313,35 @@ def solve_orbits(
     in_order: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Orbit]:
-    """Find and certify an orbit for each problem, in their order; problems that are alike help one another.
+    """Find and certify an orbit for each problem, in their order; similar problems help one another.
 
-    Of problems that differ in numbers only, the first are searched as `solve_orbit` does. The first search of a
+    Of problems that differ in numbers only, the first are solved as by `solve_orbit`. The first start of a
     later one starts from what their answers predict, and counts if it ends in a certified orbit. Where a problem
-    has several optima, that may be another than a search by itself would find. The answers do not depend on
+    has several optima, that may differ from the one found alone. The results do not depend on
     `processes`.
 
-    Records and time series are made when asked for, so that thousands of orbits can be held and few looked at.
+    Records and time series are computed on demand, so you can hold thousands of orbits and look at a few.
 
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
     starts, seed : as in `solve_orbit`, for each problem.
-    processes : how many Python processes share the work. With more than one, a script must keep its calls under
-        ``if __name__ == "__main__":``, as always with Python's processes.
+    processes : how many Python processes share the work. A script whose own functions or classes are in the
+        problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
-    most_starts : searches for a problem that yields no orbit before it is given up, 50 if not given; fewer answer
-        sooner.
-    advise : for each problem without an orbit find the single changes that make one, as `solve_orbit` does; it
+    most_starts : starts for a problem without an orbit before the solver gives up, default 50; fewer end sooner.
+    advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does; it
         takes seconds each.
     in_order : the problems are a series, such as speeds in order, with the same free parameters. After its own
-        searches each is searched from its neighbours' answers, up and down the series until nothing gets better. So
-        the best family of orbits found anywhere reaches wherever it leads.
+        starts, each also starts from its neighbours' results, up and down the series until nothing improves. The
+        best family of orbits found anywhere thus spreads as far as it exists.
     options : of the solvers.
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range, or problems in
-        order that differ in what is free.
+    WorkerError : processes die over the same problem twice, or cannot be started.
+    InvalidInputError : something that is not a problem, starts, seed, most_starts or processes out of range, or
+        problems in order with different free parameters.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")

@@ -24,19 +24,19 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
 
     Parameters
     ----------
-    dataset : `Orbit.dataset`, or what was saved of it.
+    dataset : `Orbit.dataset`, also one read from a file.
 
     Returns
     -------
-    A JSON-able dictionary: ``mean_power``, ``mean_positive_power``; ``braking``, the mean of the negative work;
-    ``cost_by_returned``, pairs of the share of it that is returned (-1: it costs as much as driving) and the cost;
-    ``shares``, aerodynamic, inertial and body, each with mean, least and most; ``best_spring`` of both flap hinges
-    together with ``stiffness`` [N m/rad], ``rest_angle`` [rad], None where no spring helps, and the
-    ``mean_positive_power`` that it leaves. All None where the flight ran off.
+    A dictionary for JSON: ``mean_power``, ``mean_positive_power``; ``braking``, the mean negative work;
+    ``cost_by_returned``, pairs of the share of negative work that is returned (-1: it costs as much as positive
+    work) and the cost; ``shares``, aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum
+    (``most``); ``best_spring`` of both flap hinges together with ``stiffness`` [N m/rad], ``rest_angle`` [rad],
+    None if no spring helps, and the remaining ``mean_positive_power``. All values are None if the flight diverged.
 
     Raises
     ------
-    InvalidInputError : the dataset is no orbit, or one of a version that had no shares.
+    InvalidInputError : the dataset is not an orbit, or it is of a version without shares.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
@@ -68,7 +68,9 @@ def check_orbit(dataset: xr.Dataset) -> None:
     """Raise `InvalidInputError` unless the dataset is that of an orbit with its shares of power."""
     faults = FaultList()
     if dataset.attrs.get(KIND) != "orbit":
-        faults.add("dataset", dataset.attrs.get(KIND), "is no orbit: only a closed beat has a power account")
+        faults.add(
+            "dataset", dataset.attrs.get(KIND), "is not an orbit: only a closed wingbeat has a power account"
+        )
     elif missing := [name for name in SHARES.values() if name not in dataset]:
         faults.add("dataset", missing, "is missing from it", "solve the orbit again")
     faults.raise_if_any()

@@ -133,7 +133,7 @@ def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: floa
 
 
 def alpha_range(beat: Beat, station: float) -> list[float]:
-    """Return least and largest effective angle of attack [rad] at a span fraction, between strips linearly."""
+    """Return the smallest and largest effective alpha [rad] at a span fraction, interpolated between strips."""
     alpha = at_station(beat.alpha, station)
     return [float(alpha.min()), float(alpha.max())]
 

@@ -56,7 +56,7 @@ def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) 
     """Note a fault unless a name ends like a file that a result can be written to."""
     if _suffix(path) not in SUFFIXES:
         fix = "end it in .nc (NetCDF, which wingbeat reads again), .csv or .mat"
-        faults.add(where, os.fspath(path), "is not a file type that results can be written to", fix)
+        faults.add(where, os.fspath(path), "is not a format for results", fix)
 
 
 def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:

@@ -103,7 +103,7 @@ class Sensitivities:
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
     def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
-        """Return the uncertainty of the inputs: plausible ranges, each uniform, and a fit's covariance.
+        """Return the uncertainty of the inputs: uniform over their plausible ranges, and a fit's covariance.
 
         Parameters
         ----------
@@ -219,7 +219,7 @@ class Comparison(NamedTuple):
 
     Attributes
     ----------
-    first_order : the first order.
+    first_order : the first-order estimate.
     mean, deviation : mean and standard deviation of the samples.
     standard_error : of that deviation.
     explained : share of the samples' variance that the first order predicts draw by draw.
@@ -256,8 +256,8 @@ def uncertainty_by_samples(
     ----------
     found : the sensitivities of the orbit.
     quantities : names of those that were differentiated.
-    samples : how many draws.
-    seed : of the draws.
+    samples : number of random samples.
+    seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.
     processes, progress : as in `solve_orbits`.
 

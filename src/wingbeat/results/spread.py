@@ -52,12 +52,12 @@ class Spread(NamedTuple):
 def orbit_spread(
     orbit: Orbit, wingbeats: Sequence[Wingbeat], progress: Callable[[int, int], None] | None = None
 ) -> Spread:
-    """Trim and certify each of the wingbeats as the orbit was, starting from it, and return how its numbers spread.
+    """Trim and certify each wingbeat, starting from the orbit, and return the spread of the orbit's numbers.
 
     Parameters
     ----------
     orbit : a certified orbit.
-    wingbeats : in place of the problem's stock wingbeat; what is free in the problem is found anew.
+    wingbeats : each replaces the problem's stock wingbeat; the problem's free parameters are solved for again.
     progress : called with (wingbeats done, wingbeats in all).
 
     Returns

@@ -83,7 +83,7 @@ def parse_attributes(
         record = {name: _decode(name, value) for name, value in attributes.items() if name in _KINDS}
         inputs = record.pop("inputs")
         if attributes["inputs_hash"] != inputs_hash(inputs):
-            raise ValueError("the inputs are not those it was solved from")
+            raise ValueError("the inputs are not those of its solution")
         return record, inputs
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         raise FileError(

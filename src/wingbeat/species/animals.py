@@ -49,8 +49,8 @@ def bird(
     mass : of the whole bird [kg].
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
-    name, common_name, scientific_name : what it is called.
-    measured : any number of a species file by its own name, in place of what the laws give: ``wing_mass``,
+    name, common_name, scientific_name : its names.
+    measured : any number of a species file by its name, which replaces that of the laws: ``wing_mass``,
         ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density`` and so on.
 
     Raises
@@ -87,7 +87,7 @@ def bat(
     mass : of the whole bat [kg].
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
-    name, common_name, scientific_name : what it is called.
+    name, common_name, scientific_name : its names.
     measured : as in `bird`.
 
     Raises
@@ -121,8 +121,8 @@ def robot(
     Parameters
     ----------
     mass, wing_span, wing_area, name, common_name, scientific_name, measured : as in `bird`.
-    frequency_range : lowest and highest wingbeat frequency that its motor gives [Hz]; if not given a wide guess,
-        and an orbit at it says so.
+    frequency_range : lowest and highest wingbeat frequency of its motor [Hz]; by default a wide guess,
+        and a warning names it if an orbit is at it.
 
     Raises
     ------

@@ -217,7 +217,7 @@ def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:
     found = {"body-drag": Alternative("the drag of the body, which Su et al. leave out; the law of birds", drag)}
     if kind is BIRD:
         rigid["wingbeat.span_retraction"] = Number(0.0, "1", "guess: the lower end of its range")
-        found["rigid-span"] = Alternative("a wing that keeps its span: how much hangs on the guess", rigid)
+        found["rigid-span"] = Alternative("a wing that keeps its span, to see how much depends on the guess", rigid)
     return found
 
 

@@ -34,7 +34,7 @@ _LARGEST = 1 << 18  # bytes; ours have 12 000
 
 
 def load_species(name_or_path: str | os.PathLike[str]) -> Species:
-    """Return a species in the box by its name, or one of your own from a TOML file.
+    """Return a built-in species by its name, or your own from a TOML file.
 
     Parameters
     ----------

@@ -39,17 +39,18 @@ class Species:
 
     Parameters
     ----------
-    name, common_name, scientific_name : what it is called.
+    name, common_name, scientific_name : its names.
     vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
-    free : the wingbeat parameters that an orbit may choose.
+    free : the free parameters of the wingbeat.
     bounds : lowest and highest value of each free parameter, in SI units and radians.
     guessed_bounds : those of `free` and of `path_bounds` whose bounds are a guess.
     path_bounds : limits along the whole path: ``body_pitch``, and ``flap`` of arm and hand [rad].
-    reasons : why each bound stands where it stands.
+    reasons : the reason for each bound.
     numbers : every number by its path, with unit, source and plausible range.
     alternatives : named sets of other numbers.
-    plausible : what is plausible of numbers read off a beat, by their names in the record; `plausible_range` asks.
-    warnings : what looks odd, such as a number outside its plausible range.
+    plausible : plausible ranges of numbers of the flown wingbeat, by their names in the record; see
+        `plausible_range`.
+    warnings : what looks wrong, such as a number outside its plausible range.
 
     >>> from wingbeat.species import load_species
     >>> pigeon = load_species("pigeon")
@@ -77,7 +78,7 @@ class Species:
     warnings: tuple[str, ...]
 
     def plausible_range(self, name: str, speed: float) -> Range:
-        """Return what is plausible of a number of the beat at a flight speed, both ends None if nothing is known.
+        """Return the plausible range of a number at a flight speed; both ends are None if nothing is known.
 
         Parameters
         ----------
@@ -104,7 +105,7 @@ class Species:
     def with_values(self, values: Mapping[str, Any]) -> Species:
         """Return this species with some numbers set.
 
-        Nothing else moves, so a new wing mass changes the whole mass.
+        Nothing else changes, so a new wing mass changes the whole mass.
 
         Parameters
         ----------
@@ -155,7 +156,7 @@ class Species:
         return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
 
     def with_payload(self, payload: float) -> Species:
-        """Return this species carrying a load at its body's centre of mass: a heavier body, and nothing else.
+        """Return this species carrying a load at its body's centre of mass: a heavier body; nothing else changes.
 
         Parameters
         ----------
@@ -242,7 +243,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         if not low <= value <= high:
             path = f"wingbeat.{name}"
             guess = words(path, Number(value, plain_unit(name)))
-            found.append(f"{path} = {guess} is outside its own bounds; a search starts from the nearer bound")
+            found.append(f"{path} = {guess} is outside its bounds; the solver starts from the nearer one")
     derived = [
         path.removeprefix("vehicle.")
         for path, number in species.numbers.items()
@@ -252,7 +253,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
     found += _outside_data(species)
     if not species.free:
-        found.append("free: no wingbeat parameter is free, so there is nothing to solve for; add the table [free]")
+        found.append("free: no wingbeat parameter is free, so no orbit can be found; add the table [free]")
     return tuple(found)
 
 
@@ -265,7 +266,7 @@ def _outside_data(species: Species) -> list[str]:
     ]
     if not told:
         return []
-    return [f"scaling laws used outside the data they were fitted to, so less reliable: {'; '.join(told)}"]
+    return [f"scaling laws used outside the data they were fitted to, so unreliable: {'; '.join(told)}"]
 
 
 def _jsonable(value: Any) -> Any:

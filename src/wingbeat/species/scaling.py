@@ -85,7 +85,7 @@ MEAN_CHORD = Law(
 
 # Span over mean chord, whole table or guess.
 BIRD_ASPECT_RATIO = (3.6, 16.6), "all of 613 bird species in BirdWingData_tidy_ver2.1"
-BAT_ASPECT_RATIO = (4.0, 12.0), "a guess around the 6 of the bat in the box and the 7 to 9 of 24 noctules"
+BAT_ASPECT_RATIO = (4.0, 12.0), "a guess around the 6 of the built-in bat and the 7 to 9 of 24 noctules"
 ROBOT_ASPECT_RATIO = (2.5, 10.0), "a guess around the 3.4 to 7.0 of four robots"
 
 # --- masses and moments of inertia ---

@@ -30,14 +30,14 @@ def species_text(species: Species) -> str:
     lines += _tables(species.numbers, "", BODY)
     lines += [
         "",
-        "# What an orbit may choose. A bound that is a guess is reported when an orbit is at it.",
+        "# Free parameters of an orbit. A warning names a bound that is a guess if an orbit is at it.",
         "[free]",
     ]
     lines += [_bound(species, name) for name in species.free]
     lines += ["", "# Limits along the whole path, not only at its start.", "[path]"]
     lines += [_bound(species, name) for name in species.path_bounds]
     if species.plausible:
-        lines += ["", "# What is plausible of a beat, judged beside the certificate of every orbit."]
+        lines += ["", "# Plausible ranges, with which every orbit is compared."]
     for name, known in species.plausible.items():
         lines += _plausible(name, known)
     for name, other in species.alternatives.items():

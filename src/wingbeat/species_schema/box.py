@@ -24,7 +24,7 @@ def template() -> str:
 
 
 def species_names() -> tuple[str, ...]:
-    """Return the names of the species in the box.
+    """Return the names of the built-in species.
 
     >>> species_names()[:3]
     ('barn-swallow', 'bat', 'common-murre')

@@ -142,7 +142,7 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
             return f"must hold {size} numbers", ""
         case "model_type" | "dict_type":
             return "must be a table", ""
-    return f"is not what the schema asks for ({kind})", ""
+    return f"does not match the schema ({kind})", ""
 
 
 def _known_keys(loc: tuple[Any, ...]) -> list[str]:

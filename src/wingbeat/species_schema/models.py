@@ -59,7 +59,7 @@ class BoundTable(BaseModel):
     bounds: _Pair
     unit: str = ""
     reason: str = ""
-    guessed: bool = Field(default=False, description="true: an orbit at this bound says so")
+    guessed: bool = Field(default=False, description="true: a warning names this bound if an orbit is at it")
 
 
 class RangeTable(BaseModel):
@@ -70,7 +70,7 @@ class RangeTable(BaseModel):
     high: _Finite | None = None
     unit: str = ""
     source: str = ""
-    speeds: _Pair | None = Field(default=None, description="flight speeds that it holds at [m/s]; all if not given")
+    speeds: _Pair | None = Field(default=None, description="flight speeds at which it applies [m/s]; default all")
 
 
 def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
@@ -122,7 +122,7 @@ def _sections(complete: bool) -> dict[str, Any]:
 _Alternative = create_model(
     "Alternative",
     __config__=_STRICT,
-    reason=(str, Field(default="", description="one line: why this is worth a trial")),
+    reason=(str, Field(default="", description="one line: why to try this")),
     **_sections(complete=False),
 )
 SpeciesFile = _table(

@@ -209,7 +209,7 @@ def _numbers(raw: dict[str, Any], prefix: tuple[str, ...], faults: FaultList) ->
                 numbers.put(key, number, where, value)
     if "vehicle.mass" in numbers and "vehicle.body.mass" in numbers:
         where, value = numbers.written["vehicle.body.mass"]
-        faults.add(where, value, "is given beside vehicle.mass", "keep one: the other follows from it")
+        faults.add(where, value, "cannot be combined with vehicle.mass", "keep one: the other follows from it")
     return numbers
 
 

@@ -161,7 +161,7 @@ class DaskEngine:
     def _check(self) -> None:
         """Raise if the scheduler is gone."""
         if self._client.status != "running":
-            fix = "what was stored stays: start it again and run the study again"
+            fix = "stored results remain: start it again and run the study again"
             raise ClusterError(f"the Dask scheduler at {self._where} is gone; {fix}")
 
     def _look(self) -> None:
@@ -203,7 +203,7 @@ class DaskEngine:
                     others.setdefault(f"{package} {version}, not {ours.get(package)}", []).append(name)
         for what, who in others.items():
             whose = who[0] if len(who) == 1 else f"{who[0]} and {len(who) - 1} more Dask workers"
-            self._told(f"{whose}: {what}; answers agree to their certificates, not to the last digit")
+            self._told(f"{whose}: {what}; results agree to their certificates, not to the last digit")
         return met
 
 

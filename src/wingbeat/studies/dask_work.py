@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import NamedTuple
 
 from wingbeat._version import NUMERICAL_VERSION, __version__
-from wingbeat.errors import ClusterError, FileError
+from wingbeat.errors import ClusterError, WorkerError
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 
@@ -121,21 +121,21 @@ def solve_batch(order: bytes) -> Ended:
                 ended = _solve(asked, process)
                 if not process.false_starts:  # else no point is to blame
                     return ended._replace(worker=f"{here} {ended.worker}")
-    except FileError:
-        fix = "what it says stands in the log of that worker"
-        raise ClusterError(f"on {here} no process that solves can be started; {fix}") from None
+    except WorkerError:
+        fix = "see the log of that worker"
+        raise ClusterError(f"on {here} no solver process can be started; {fix}") from None
 
 
 def _solve(asked: Order, process: LocalProcesses) -> Ended:
     process.submit(asked.batch, asked.units)
     while True:
         if asked.driver in _crew.gone:
-            raise ClusterError("the driver has left")
+            raise ClusterError("the driver has ended")
         if (ended := process.wait(0.2)) is not None:
             return ended
 
 
 def other_numbers(who: str, theirs: int, ours: int) -> str:
     """Return why a worker of another numerical version is refused."""
-    fix = "its answers do not mix with these: install the same wingbeat there"
+    fix = "its results cannot be mixed with these: install the same wingbeat there"
     return f"{who} has a wingbeat of numerical version {theirs}, this one is of {ours}; {fix}"

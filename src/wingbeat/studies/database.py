@@ -83,12 +83,12 @@ def refusal(path: Path, reason: str) -> DamagedStoreError:
         count = len(whole_answers(path))
     if not count:
         return DamagedStoreError(
-            f"the store {str(path)!r} is damaged or no store ({reason}), and no answer can be read from it; "
+            f"the store {str(path)!r} is damaged or not a store ({reason}), and no result can be read from it; "
             "nothing was deleted; restore a copy, or move it away and run the study again"
         )
     return DamagedStoreError(
         f"the store {str(path)!r} is damaged ({reason}); nothing was deleted; run `wingbeat study salvage`, which "
-        f"keeps the {count} answers that are whole in a new store, or restore a copy"
+        f"keeps the {count} intact results in a new store, or restore a copy"
     )
 
 
@@ -108,7 +108,7 @@ def in_words(path: Path) -> Iterator[None]:
         if code == "SQLITE_IOERR_SHORT_READ":
             raise refusal(path, "it is cut short") from None
         if "full" in told or code.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
-            fix = "what was stored stays; make room and run the study again"
+            fix = "stored results remain; free some disk space and run the study again"
             raise FileError(f"cannot write the store {str(path)!r}: {told}; {fix}") from None
         if code in ("SQLITE_READONLY", "SQLITE_CANTOPEN") or "readonly" in told:
             fix = "check the path, or copy the study to a folder that you can write to"

@@ -209,12 +209,12 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         elif "range" in given[0]:
             ranged.append(path)
             if not values[0] < values[1]:
-                faults.add(f"{where}.{given[0]}", values, "must be [lowest, highest]", "turn them round")
+                faults.add(f"{where}.{given[0]}", values, "must be [lowest, highest]", "exchange them")
         if "range" not in given[0] and len({repr(number(v)) for v in values}) < len(values) and given[0] != "list":
             faults.add(f"{where}.{given[0]}", shown(values), "names a value twice", "keep one of them")
     if len(set(rows.values())) > 1:
         lengths = ", ".join(f"{path} {count}" for path, count in rows.items())
-        faults.add("vary", lengths, "lists go row by row and must be equally long", "or give grid in place of list")
+        faults.add("vary", lengths, "lists go row by row and must be equally long", "or give grid instead of list")
     if ranged and form.sample is None:
         fix = 'add [sample] with method = "sobol" and n = 256'
         faults.add("sample", NOTHING, f"must be given, since {ranged[0]} has a range", fix)
@@ -257,7 +257,7 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
     both = ("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed")
     for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
-            faults.add(name, shown(getattr(form, name)), "is varied, too", "keep one of the two")
+            faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")
     if form.speed is None and "speed" not in form.vary:
         faults.add(
             "speed", NOTHING, "must be given", "speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"

@@ -56,7 +56,7 @@ def _run(name: str, file: str, code: str) -> Quantity:
         exec(compile(code, file, "exec"), space)
     except (Exception, SystemExit) as error:  # whatever a user's file raises
         reason = f"{type(error).__name__}: {error}".split("\n")[0]
-        faults.add(where, file, f"cannot be run: {reason}", "mend the file; it may import wingbeat and jax")
+        faults.add(where, file, f"cannot be run: {reason}", "correct the file; it may import wingbeat and jax")
         faults.raise_if_any()
     found: Any = space.get(name)
     if isinstance(found, Quantity):

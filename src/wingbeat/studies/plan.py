@@ -309,7 +309,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
             known = path in MOTION or settable(path, None, FaultList()) is not None or stock is not None
             if known:
                 faults.add(
-                    where, shown(_values_of(form, path)), "has nothing to be relative to", "use grid or range"
+                    where, shown(_values_of(form, path)), "has no value to be relative to", "use grid or range"
                 )
                 continue
         values = _values_of(form, path)
@@ -339,8 +339,8 @@ def _may_vary(path: str, given: str, recipe: Recipe, names: dict[str, str], faul
         return False
     free = name.removeprefix("wingbeat.")
     if name.startswith("wingbeat.") and free in recipe.example.free:
-        fix = f"vary bounds.{free}.lower or .upper, or name in `free` what else is free"
-        faults.add(where, given, "is free: the search would overwrite it", fix)
+        fix = f"vary bounds.{free}.lower or .upper, or choose other parameters in `free`"
+        faults.add(where, given, "is free: the solver would overwrite it", fix)
         return False
     return True
 

@@ -106,20 +106,22 @@ def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
     if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION:
         if whole_answers(path):
             raise _Damaged("its header")
-        raise FileError(f"{str(path)!r} is a database, but no store of a study; move it away or rename the study")
+        raise FileError(
+            f"{str(path)!r} is a database, but not a store of a study; move it away or rename the study"
+        )
     about = dict(connection.execute("SELECT name, value FROM about"))
     theirs = f"{about.get('numerical_version')} (wingbeat {about.get('made_by')})"
     if about.get("form") == "1" and "digest" not in about:
         raise FileError(
             f"the store {str(path)!r} is of numerical version {theirs} and has no digests, so damage would not "
-            "show; move it away and run the study again, or go on with the wingbeat that made it"
+            "show; move it away and run the study again, or continue with the wingbeat that made it"
         )
     if about_digest(about) != about.get("digest"):
-        raise _Damaged("what it says about itself does not match its digest")
+        raise _Damaged("its own description does not match its digest")
     if about["form"] != FORM or about["numerical_version"] != str(NUMERICAL_VERSION):
         raise FileError(
             f"the store {str(path)!r} is of numerical version {theirs}, this wingbeat of {NUMERICAL_VERSION}; its "
-            "answers do not mix with new ones: move it away, or go on with the wingbeat that made it"
+            "results cannot be mixed with new ones: move it away, or continue with the wingbeat that made it"
         )
 
 
@@ -154,9 +156,9 @@ def _check_tables(connection: sqlite3.Connection, about: dict[str, str]) -> None
     expected = Fingerprint.of_text(about.get("points", ""))
     if damaged:
         keys = ", ".join(damaged[:3]) + (", ..." if len(damaged) > 3 else "")
-        raise _Damaged(f"{len(damaged)} of {expected.rows} answers do not match their digests, key {keys}")
+        raise _Damaged(f"{len(damaged)} of {expected.rows} results do not match their digests, key {keys}")
     if found != expected:
-        raise _Damaged(f"{found.rows} of {expected.rows} answers are left, or others than were written")
+        raise _Damaged(f"{found.rows} of {expected.rows} results are left, or they differ from those written")
     for table in PLAN_TABLES:
         if digest_of(connection, table) != about.get(table, digest_of_nothing()):
             raise _Damaged("the points of the study in it do not match their digest")

@@ -97,12 +97,12 @@ class Study:
         return len(self.plan)
 
     def estimate(self, processes: int = 1, waiting: int | None = None) -> float:
-        """Return about how long points will take [s], by those of the store that have an answer, if any.
+        """Return about how long points will take [s], from those of the store that have a result, if any.
 
         Parameters
         ----------
         processes : worker processes.
-        waiting : how many points; if not given those without an answer, all of a study not run since it changed.
+        waiting : number of points; by default those without a result, or all if the study changed since it ran.
         """
         each = None
         if Store.is_begun(self.store):
@@ -124,7 +124,7 @@ class Study:
         progress: Progress | None = None,
         dask: str | Cluster | None = None,
     ) -> Summary:
-        """Solve what has no answer yet; every answer is kept as soon as it is there.
+        """Solve all points without a result; every result is saved at once.
 
         Ctrl-C keeps the batches that end within a second, a second one stops at once; another run goes on from
         there.
@@ -135,7 +135,7 @@ class Study:
         timeout : for one point [s], after which its process is ended and tried once more.
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
-        dask : in place of processes, a Dask cluster: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or what
+        dask : a Dask cluster instead of processes: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or what
             Dask calls a cluster; see docs/clusters.md.
 
         Raises
@@ -153,7 +153,7 @@ class Study:
         return self.status()
 
     def prepare(self) -> Summary:
-        """Hold the study's points in its store, so that it knows which of them have an answer.
+        """Write the study's points to its store, which then knows which of them have a result.
 
         Raises
         ------
@@ -164,13 +164,13 @@ class Study:
         return self.status()
 
     def salvage(self) -> Salvaged:
-        """Make the store anew if it is damaged, with every answer that is whole; the damaged one is put aside.
+        """Rebuild a damaged store from every intact result; the damaged store is kept beside it.
 
-        What is lost is solved again by the next run.
+        The next run solves what was lost.
 
         Raises
         ------
-        FileError : there is no store, no answer in it is whole, it is in use or cannot be written.
+        FileError : there is no store, it has no intact result, it is in use or cannot be written.
         """
         with only_one(self.store):
             return salvage(self.store, self.plan)
@@ -208,7 +208,7 @@ class Study:
             return Summary(total, counts, kept, changed, store.spent())
 
     def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
-        """Return the first points without a certified orbit: what tells each apart, ``status`` and ``reason``.
+        """Return the first points without a certified orbit: its varied values, ``status`` and ``reason``.
 
         Parameters
         ----------
@@ -232,9 +232,9 @@ class Study:
             return frame_of(store)
 
     def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
-        """Yield what tells each point apart, and its orbit, certified or not; None without a record.
+        """Yield the varied values of each point, and its orbit, certified or not; None without a record.
 
-        Orbits come one by one in the order of the study, and fly again when their time series are asked for.
+        Orbits come one by one in the order of the study, and fly again when you use their time series.
 
         Raises
         ------
@@ -253,7 +253,7 @@ class Study:
             if store.digest != self.plan.digest:
                 raise FileError(
                     f"the store {str(self.store)!r} holds the points of another study, or of this one before it "
-                    "was changed; run the study first, what was solved before and still applies is kept"
+                    "was changed; run the study first; results that still apply are kept"
                 )
             yield store
 
@@ -279,7 +279,7 @@ class Study:
 
         Parameters
         ----------
-        quantity : a column of numbers; what was made least if not given.
+        quantity : a column of numbers; minimised quantity if not given.
         """
         frame, form = self.to_dataframe(), self.plan.form
         least, varied = form.minimise, varied_numbers(frame, self.plan.paths)
@@ -289,9 +289,9 @@ class Study:
             label = f"{quantity} [{plain_unit(quantity)}]"
         elif len(least) == 1:
             name = named(least[0])
-            label = f"least {name.replace('_', ' ')} [{plain_unit(name)}]"
+            label = f"minimum {name.replace('_', ' ')} [{plain_unit(name)}]"
         else:
-            label = "what was made least"
+            label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
 
     def _about(self) -> dict[str, Any]:
@@ -323,7 +323,7 @@ def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
     """Raise `InvalidInputError` unless a study can be run so."""
     faults = FaultList()
     if dask is not None and processes is not None:
-        faults.add("processes", processes, "is given beside a Dask cluster", "leave one of them out")
+        faults.add("processes", processes, "cannot be combined with a Dask cluster", "leave one of them out")
     if processes is not None:
         check_processes(faults, processes)
     faults.number("timeout", timeout, above=0, at_most=_LONGEST, unit="s")
@@ -336,12 +336,12 @@ def plan_study(
     store: str | PathLike[str] | None = None,
     **form: Any,
 ) -> Study:
-    """Plan a study: many orbit problems, solved once, kept for good.
+    """Plan a study: many orbit problems, solved once and stored.
 
     Parameters
     ----------
     source : a study file, or a dictionary of its keys, which may also be given by keyword.
-    store : the file that keeps the answers; beside the study file if not given.
+    store : the file for the results; by default beside the study file.
     form : keys of a study file: ``species``, ``aero``, ``vary``, ``starts``, ...
 
     Raises
@@ -361,7 +361,7 @@ def plan_study(
     if path is not None:
         found, faults = read_form(path)
         for key in form:
-            faults.add(key, form[key], "is given beside a study file", "write it into the file")
+            faults.add(key, form[key], "cannot be combined with a study file", "write it into the file")
         kept = path.with_name(path.name.removesuffix(".toml") + _SUFFIX)
     else:
         table = source if isinstance(source, Mapping) else {}

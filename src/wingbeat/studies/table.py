@@ -139,7 +139,7 @@ def _attributes(frame: pd.DataFrame, name: str, is_text: bool) -> dict[str, str]
 def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
     """Note a fault unless the name ends like a table that can be written."""
     if os.path.splitext(path)[1].lower() not in SUFFIXES:
-        faults.add(where, os.fspath(path), "is no kind of table", f"end it in {', '.join(SUFFIXES)}")
+        faults.add(where, os.fspath(path), "is not a table format", f"end it in {', '.join(SUFFIXES)}")
 
 
 def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[str]) -> None:

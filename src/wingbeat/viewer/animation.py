@@ -38,7 +38,7 @@ def animate(
     ----------
     flights : a label and the dataset of an orbit or a simulated flight, for one flight or for two.
     path : of the file.
-    progress : told how many frames are done, and of how many.
+    progress : called with (frames done, frames in all).
 
     Raises
     ------

@@ -45,12 +45,12 @@ _PAGE = """<!doctype html>
 
 
 def bundle_path() -> Path:
-    """Return where the viewer's JavaScript lies: an ES module with `mount(element, scene, options)`."""
+    """Return the path of the viewer's JavaScript: an ES module with `mount(element, scene, options)`."""
     return Path(__file__).with_name("viewer.js")
 
 
 def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[str]) -> None:
-    """Write one flight, or two to be compared, as an HTML file that holds all it needs.
+    """Write one flight, or two to compare, as a self-contained HTML file.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _PANELS: list[dict[str, Any]] = [
 
 
 def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
-    """Return what the viewer draws of one flight, or of two to be compared.
+    """Return the viewer's data of one flight, or of two to compare.
 
     Parameters
     ----------
@@ -62,7 +62,9 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
     """
     faults = FaultList()
     if len(flights) not in (1, 2):
-        faults.add("flights", len(flights), "is no number of flights to show", "give one, or two to compare")
+        faults.add(
+            "flights", len(flights), "is not a number of flights that can be shown", "give one, or two to compare"
+        )
     for label, dataset in flights:
         if dataset.sizes.get("phase", 0) > MOST_SAMPLES:
             rule = f"are more samples than the viewer's {MOST_SAMPLES}"

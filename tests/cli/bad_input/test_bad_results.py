@@ -88,7 +88,7 @@ def test_inputs_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, caps
         xr.Dataset(attrs=good | {"inputs": json.dumps(inputs | {name: value})}).to_netcdf(
             "changed.nc", engine="h5netcdf"
         )
-        refuse(capsys, f"{command} changed.nc", "damaged (the inputs are not those it was solved from)")
+        refuse(capsys, f"{command} changed.nc", "damaged (the inputs are not those of its solution)")
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
 from wingbeat.mechanics.body_dynamics import strip_loads
 from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table
@@ -157,7 +157,7 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
 
 def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair) -> Beat:
     motion = tables.motion
-    body = settled(body_rates(model, motion, path)[1:])
+    body = fusion_barrier(body_rates(model, motion, path)[1:])
     body_pitch, u, w, pitch_rate = path
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
@@ -196,7 +196,7 @@ def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity
     )
 
 
-@stored(static=("free",), hot=True)
+@exported(static=("free",), hot=True)
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -213,8 +213,8 @@ def _part(
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
-    # Tables are settled so that each direction reads them and does not make them anew.
-    tables, table_tangents = settled((tables, jax.vmap(along)(directions)))
+    # A barrier, so that each direction reads the tables and does not compute them again.
+    tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(directions)))
     found, change = jax.linearize(lambda table, a: _series(model, table, a, mean_velocity), tables, path)
     return found, jax.vmap(change)(table_tangents, tangents)
 
@@ -257,7 +257,7 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
     return Beat(*(join(name) for name in Beat._fields))
 
 
-@stored
+@exported
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
     """Return the beat of states that were flown.
 

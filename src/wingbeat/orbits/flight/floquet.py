@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.flights import Steps
@@ -31,7 +31,7 @@ _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
 _LANES = 64
 
 
-@stored
+@exported
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
@@ -45,8 +45,8 @@ def _state_maps(
     def stage(carry: Any, given: Any) -> tuple[Any, None]:
         state, rate, total = carry
         motion, along, weight = given
-        here = settled(state + along * seconds * rate)
-        rate = settled(jax.vmap(lambda at: body_rates(model, motion, at))(here))
+        here = fusion_barrier(state + along * seconds * rate)
+        rate = fusion_barrier(jax.vmap(lambda at: body_rates(model, motion, at))(here))
         return (state, rate, total + weight * rate), None
 
     def step(state: Any, index: Any) -> tuple[Any, None]:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import settled
-from wingbeat._jax.exported import stored
+from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.wing_motion import WingMotion
@@ -179,12 +179,14 @@ def _chain(
     first = jnp.broadcast_to(jnp.eye(lengthen.size, 4)[..., None], (lengthen.size, 4, STEPS))
     state_tangents, rate_tangents = [first], []
     for i, advance in enumerate((0.5, 0.5, 1.0, None)):
-        rate_tangents.append(settled(_through(by_state[:, :, i], state_tangents[i]) + by_free[:, :, i]))
+        rate_tangents.append(fusion_barrier(_through(by_state[:, :, i], state_tangents[i]) + by_free[:, :, i]))
         if advance is not None:
             state_tangents.append(first + advance * (step * rate_tangents[i] + lengthen * rates[:, i]))
-    step_map = settled(first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2)))
+    step_map = fusion_barrier(
+        first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2))
+    )
     mean_speed = _combine(states.transpose(1, 0, 2))[1:3]
-    place_map = settled(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
+    place_map = fusion_barrier(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
 
     def follow(jacobian: Any, after: Any) -> tuple[Any, Any]:
         return _through(after[:4], jacobian).at[4:].add(after[4:]), jacobian
@@ -200,7 +202,7 @@ def _chain(
     )
 
 
-@stored(static=("free", "components", "stroke"), hot=True)
+@exported(static=("free", "components", "stroke"), hot=True)
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -224,7 +226,7 @@ def fly_part(
 
     (table, step), along, like = jax.linearize(by_values, values, has_aux=True)
     tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
-    table, tangents = settled((table, tangents))
+    table, tangents = fusion_barrier((table, tangents))
     flight = _march(model, table, like, step, start)
     by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
     flown = _chain(flight, by_state, by_free, step, step_tangent, components)

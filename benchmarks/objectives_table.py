@@ -1,4 +1,4 @@
-"""Make a Markdown page from results of `objectives.py`: bettered optima, then doubtful ones, then the others."""
+"""Make a Markdown page from the results of `objectives.py`: bettered optima, then doubtful ones, then the rest."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class CoefficientModel:
     Attributes
     ----------
     name : name of the model.
-    citation : where it comes from.
+    citation : its source.
     extension : how it reaches every angle, one of `EXTENSIONS`.
     blend_width_deg : half width of the blends where pieces meet [deg].
     reynolds_range : chord Reynolds numbers of the measurements, or None.

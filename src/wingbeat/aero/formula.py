@@ -106,7 +106,7 @@ class FormulaTerms:
 
     @property
     def decays(self) -> bool:
-        """Whether there is an exponential term, which no negative angle may meet."""
+        """Whether there is an exponential term, which is invalid at negative angles."""
         return self.decay_amplitude is not None
 
     def at(self, alpha_deg: Any) -> Any:
@@ -183,7 +183,7 @@ class CentreTerms:
         return self.in_radians()(alpha_deg / _DEG)
 
     def in_radians(self) -> PowerLaw:
-        """Return the same formula of the angle in radians."""
+        """Return the same formula with the angle in radians."""
         power_amplitude = self.power_amplitude * _DEG**self.exponent
         return PowerLaw(
             self.constant, power_amplitude, self.exponent, self.decay_amplitude * _DEG, self.decay_rate * _DEG

@@ -27,7 +27,7 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
 
     ``C_L = -0.44 exp(-0.47 a) + 1.19 sin(1.74 a + 20)``, ``C_D = 1.04 + sin(1.72 a - 70)``,
     ``x_cp = 0.247 + 0.016 a^0.6 + 0.026 a exp(-0.11 a)``; measured from 0 to 110 degrees on a plate 8 mm
-    thick and 76 mm deep, whose bluntness shows in C_D(0) = 0.10. Its C_L(0) is -0.033, which the blend hides.
+    thick and 76 mm deep, whose bluntness causes C_D(0) = 0.10. Its C_L(0) is -0.033, which the blend hides.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 
@@ -209,7 +209,7 @@ LIBRARY: dict[str, Callable[..., FormulaCoefficients]] = {
 
 
 def thin_aerofoil_lift(alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return C_L of a thin aerofoil, ``2 pi alpha``: a line to compare with.
+    """Return C_L of a thin aerofoil, ``2 pi alpha``, for comparison.
 
     Parameters
     ----------

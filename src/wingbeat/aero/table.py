@@ -82,7 +82,7 @@ class TableCoefficients(CoefficientModel):
     alpha_deg : angles of attack [deg], rising, shape (n,).
     c_l, c_d : coefficients of lift and drag, shape (n,).
     x_cp : centre of pressure in chords from the leading edge, shape (n,), or None.
-    citation : where the table comes from.
+    citation : source of the table.
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     extension : how the table reaches every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].

@@ -35,14 +35,14 @@ TRUTH: dict[str, FormulaTerms | CentreTerms] = {
 
 @dataclass(frozen=True)
 class Campaign:
-    """What a synthetic campaign sweeps and how it errs; the defaults are the paper's plate, water and sweep.
+    """Points and errors of a synthetic campaign; the defaults are the paper's plate, water and sweep.
 
     Parameters
     ----------
     reynolds : chord Reynolds numbers.
     alpha_deg : angles of attack [deg].
     repeats : runs of each point.
-    duration, rate : length of a record [s] and samples a second [Hz].
+    duration, rate : length of a record [s] and samples per second [Hz].
     turbulence : standard deviation of each force coefficient within a record [-], and of C_M a quarter of it.
     memory : correlation time of that noise [s].
     cell_noise : standard deviation of white noise of the load cell, as shares of its scale (1 N, 0.1 N m).

@@ -28,7 +28,7 @@ def draw(
     extension: str = "mirrored",
     blend_width_deg: float = 1.0,
 ) -> list[FormulaCoefficients]:
-    """Return models whose terms are drawn from the normal distribution of a fit's parameters.
+    """Return models with random terms from the normal distribution of a fit's parameters.
 
     The parameters of lift, drag and centre of pressure are drawn each with their covariance, and independently of
     one another. A sample that is not a valid formula (a decay that grows) is drawn again. The same seed gives the

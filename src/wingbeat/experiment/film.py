@@ -28,11 +28,11 @@ _WIDEST_GAP = 0.35
 
 @dataclass(frozen=True)
 class Film:
-    """Angles of a wing and its span, frame by frame, of one beat or of several alike.
+    """Angles and span of a wing, frame by frame, of one wingbeat or several similar ones.
 
     Parameters
     ----------
-    name : what it is called, such as its file.
+    name : its name, such as that of its file.
     phase : beats since any moment, or since the top of the stroke where flap was not filmed, shape (n,).
     columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
         normal) and ``span_fraction`` (of the semi-span), shape (n,) each; NaN in frames where it was not seen.
@@ -41,7 +41,7 @@ class Film:
 
     Attributes
     ----------
-    notes : what a reader should know.
+    notes : notes for the reader.
 
     Raises
     ------
@@ -223,11 +223,11 @@ def synthetic_film(
 
     Parameters
     ----------
-    wingbeat : what is filmed, one beat of it at equal steps.
+    wingbeat : the wingbeat to film, one period in equal steps.
     frames : number of frames.
     noise_deg : standard deviation of the angles' noise [deg]; a hundredth of it is that of the span fraction.
     seed : of the noise.
-    columns : what is seen of it.
+    columns : the columns that the film shows.
     start : phase of the first frame, which the film calls 0 if it sees the flap.
     """
     random = np.random.default_rng(seed)

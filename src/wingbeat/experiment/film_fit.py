@@ -188,11 +188,12 @@ def fit_film(film: Film) -> FilmedBeat:
 
     Parameters
     ----------
-    film : one beat, or several alike.
+    film : one wingbeat, or several similar ones.
 
     Raises
     ------
-    InvalidInputError : a flap that does not swing, a span fraction that is on average above 1 or below one half.
+    InvalidInputError : a flap angle that does not vary, a span fraction that is on average above 1 or below one
+        half.
 
     >>> from wingbeat.experiment import synthetic_film
     >>> beat = fit_film(synthetic_film(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), frames=80, noise_deg=1.0))

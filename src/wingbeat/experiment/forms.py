@@ -54,7 +54,7 @@ def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
 
 @dataclass(frozen=True)
 class CurveForm:
-    """One curve with free parameters: of the box, or a function of your own.
+    """One curve with free parameters, built in or a function of your own.
 
     Parameters
     ----------

@@ -125,7 +125,7 @@ def read_run(path: str | Path) -> LoadCellRun:
     """Read one run from a CSV file: constants as ``# key = value`` lines, then a table of samples.
 
     The columns are time, normal_force, tangential_force, moment and alpha_deg, in any order, each with or without
-    its unit in brackets; others are left alone. The keys are speed, density, viscosity, chord, span; optional are
+    its unit in brackets; others are ignored. The keys are speed, density, viscosity, chord, span; optional are
     thickness, channel_width, and tare_normal_force, tare_tangential_force, tare_moment = before, after.
 
     Parameters

@@ -39,7 +39,7 @@ class RunMeans(NamedTuple):
         are NaN where the normal force is too small to divide by.
     normal, normal_se : C_N and its standard error.
     blockage : width of the plate across the stream over that of the channel; 0 where that is not known.
-    notes : what a reader should know.
+    notes : notes for the reader.
     """
 
     alpha_deg: float
@@ -65,7 +65,7 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
 
     Parameters
     ----------
-    last : length of the window at the end of the record [s]; what is before is transient.
+    last : length of the window at the end of the record [s]; the part before is transient.
     run : the record.
 
     Raises

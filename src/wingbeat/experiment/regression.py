@@ -33,7 +33,7 @@ class CurveFit:
 
     Attributes
     ----------
-    label : what the quantity is called.
+    label : name of the quantity.
     form : the curve.
     parameters : fitted values by name.
     covariance : of the parameters, in that order, shape (p, p).
@@ -41,7 +41,7 @@ class CurveFit:
     alpha_deg, values : the measurements, shape (n,) [deg].
     sigma : their standard errors, shape (n,); all one where none were given.
     weighted : whether errors were given.
-    notes : what a reader should know.
+    notes : notes for the reader.
     """
 
     label: str
@@ -57,12 +57,12 @@ class CurveFit:
 
     @property
     def freedom(self) -> int:
-        """Degrees of freedom, points less parameters."""
+        """Degrees of freedom: points minus parameters."""
         return len(self.values) - len(self.parameters)
 
     @property
     def residuals(self) -> Array:
-        """Measured less fitted, shape (n,)."""
+        """Measured minus fitted values, shape (n,)."""
         return self.values - self.form.value(self.alpha_deg, self.parameters)
 
     @property
@@ -72,7 +72,7 @@ class CurveFit:
 
     @property
     def r_squared(self) -> float:
-        """``R^2 = 1 - sum r^2 / sum (y - mean y)^2``, unweighted, as the paper has it; NaN for constant data."""
+        """``R^2 = 1 - sum r^2 / sum (y - mean y)^2``, unweighted, as in the paper; NaN for constant data."""
         total = float(((self.values - self.values.mean()) ** 2).sum())
         return 1.0 - float((self.residuals**2).sum()) / total if total > 0 else math.nan
 
@@ -114,7 +114,7 @@ class CurveFit:
         return {n: (v - reach * errors[n], v + reach * errors[n]) for n, v in self.parameters.items()}
 
     def covers(self, parameters: dict[str, float], confidence: float = 0.95) -> bool:
-        """Say whether parameters lie in the joint confidence region of all of them.
+        """Return whether parameters lie in the joint confidence region of all of them.
 
         The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41), which stays
         right where the parameters are so correlated that the ellipse of the covariance does not.
@@ -143,7 +143,7 @@ class CurveFit:
     def predict(self, alpha_deg: ArrayLike) -> Array:
         """Return the curve at given angles, shape (n,).
 
-        Angles outside those of the fit draw a `FitRangeWarning`.
+        Angles outside those of the fit cause a `FitRangeWarning`.
 
         Parameters
         ----------
@@ -202,7 +202,7 @@ def fit_curve(
     alpha_deg, values : angles [deg] and what was measured there, shape (n,).
     form : the curve.
     sigma : standard error of each measurement, shape (n,); None weighs all alike.
-    label : what the quantity is called in messages.
+    label : name of the quantity in messages.
 
     Raises
     ------

@@ -40,7 +40,7 @@ class CoefficientTable:
     sd, se : standard deviation of the samples, standard error of the mean, by the same names, where known.
     reynolds : chord Reynolds numbers, shape (n,), or None.
     runs : how many runs are behind each row, shape (n,), or None.
-    notes : what a reader should know.
+    notes : notes for the reader.
 
     Raises
     ------
@@ -94,7 +94,7 @@ class CoefficientTable:
 
         Raises
         ------
-        InvalidInputError : no row lies there.
+        InvalidInputError : there is no such row.
         """
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():

@@ -34,11 +34,11 @@ class WingFit:
     ----------
     name : of the model.
     form : name of the form.
-    citation : where the measurements come from.
+    citation : source of the measurements.
     lift, drag : fits of C_L and C_D.
     centre : fit of the centre of pressure; None where it was not measured or not asked for.
     table : the measurements.
-    notes : what a reader should know.
+    notes : notes for the reader.
     """
 
     name: str
@@ -188,7 +188,7 @@ def fit_wing(
     Parameters
     ----------
     form : "su-fan", "dickinson", "sine-cosine", or curves of your own.
-    name, citation : what the model is called, and where the measurements come from.
+    name, citation : name of the model, and source of the measurements.
     table : the measurements.
 
     Raises

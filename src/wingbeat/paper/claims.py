@@ -76,16 +76,17 @@ def write_claims(
 def markdown(claims: Sequence[Claim]) -> str:
     """Return the claims as a page to read."""
     counts = Counter(claim.verdict for claim in claims)
-    tally = ", ".join(f"{count} {verdict}" for verdict, count in counts.most_common())
+    tally = ", ".join(f"{verdict} {count}" for verdict, count in counts.most_common())
     lines = [
         "# The paper's claims beside ours",
         "",
-        "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. One row for each quantitative or directional "
-        "claim; our number is under our default assumptions, the first of those below. A claim *holds* if it does "
-        "under every set of assumptions tried, *holds under* those named, or *fails* under all. What holds is "
-        "consistent with the paper; it does not prove that the authors assumed the same.",
+        "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
+        "directional claim. Our number is under our default assumptions, the first of those below. A claim "
+        "*holds* if it does under every set of assumptions tried, *holds under* some of them, or *fails* under "
+        "all. A claim that holds is consistent with the paper; this does not prove that the authors assumed the "
+        "same.",
         "",
-        f"{len(claims)} claims: {tally}.",
+        f"Verdicts of the {len(claims)} claims: {tally}.",
         "",
         "Assumptions tried:",
         "",

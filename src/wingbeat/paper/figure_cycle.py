@@ -91,9 +91,9 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
     shown = sample_orbits(orbits, sample, "bat")
     strips = {orbit.dataset.sizes["station"] for orbit in shown.values()} or {"N"}
     note = (
-        f"{_about(shown, sample)} Downstroke shaded. Forces are those of one of "
-        f"{', '.join(map(str, strips))} equal strips, both wings together, over the animal's weight, forward and "
-        f"up positive; between strip centres linear. Hatched: {PAPER_SMALL_ALPHA_DEG[0]:g} to "
+        f"{_about(shown, sample)} Downstroke shaded. Forces are of one of {', '.join(map(str, strips))} equal "
+        "strips, both wings together, divided by the animal's weight; forward and up are positive. Values are "
+        f"interpolated linearly between strip centres. Hatched: {PAPER_SMALL_ALPHA_DEG[0]:g} to "
         f"{PAPER_SMALL_ALPHA_DEG[1]:g} deg, which the paper calls small."
     )
     series = {(m, name): strip_series(o, s) for m, o in shown.items() for name, s in STATIONS.items()}
@@ -139,7 +139,7 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     peaks = [f"{LOOKS[m].name} {s['hinge_power_W'].max():.3g} W" for m, s in series.items()]
     note = (
         f"{_about(shown, sample)} Power at the hinges, both wings. Downstroke shaded. "
-        f"Peaks: {', '.join(peaks) or 'none to tell'}; dotted: the peaks that the paper prints for the same two "
+        f"Peaks: {', '.join(peaks) or 'none'}; dotted: the peaks that the paper prints for the same two "
         "models. "
     ) + told(7, _printed_of_power(series))
     with drawing():
@@ -168,7 +168,7 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     printed = [f"{LOOKS[m].name} {value:g} deg" for m, value in PAPER_PITCH_RANGE_DEG.items()]
     note = (
         f"{_about(shown, sample)} Nose up is positive; downstroke shaded. "
-        f"Range over the beat: {', '.join(ranges) or 'none to tell'}; bars at the right: the ranges that the paper "
+        f"Range over the beat: {', '.join(ranges) or 'none'}; bars at the right: the ranges that the paper "
         f"prints, {', '.join(printed)}. "
     ) + told(8, _printed_of_pitch(series))
     with drawing():

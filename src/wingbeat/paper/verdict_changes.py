@@ -123,7 +123,7 @@ def changes_table(changes: Sequence[Change]) -> list[str]:
     return [
         "## What changed in the verdicts, and why",
         "",
-        f"{len(moved)} verdicts are not those of before, {len(changes) - len(moved)} are.",
+        f"{len(moved)} verdicts changed, {len(changes) - len(moved)} did not.",
         "",
         "| claim | before | now | why |",
         "| --- | --- | --- | --- |",

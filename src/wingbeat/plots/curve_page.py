@@ -32,11 +32,11 @@ class Published:
 
     Parameters
     ----------
-    quantity : ``frequency`` [Hz], ``mean_positive_power`` [W], or ``speed``, whose range is then all it says.
+    quantity : ``frequency`` [Hz], ``mean_positive_power`` [W], or ``speed`` for a range of speeds only.
     label : short, with its citation.
     speeds : shape (K,) [m/s].
     values : shape (K,); none for ``speed``.
-    spread : half width in the unit of the values; 0 where none is stated.
+    spread : half width in the unit of the values; 0 if unknown.
     """
 
     quantity: str
@@ -50,16 +50,16 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     """Draw power and wingbeat frequency of a curve's orbits against speed.
 
     The thick line is the best orbit of each speed, broken where it changes branch; thin grey lines are the other
-    certified optima met, and the grey band spans them all.
+    certified optima found, and the grey band spans them all.
 
     Parameters
     ----------
-    dataset : `Curve.dataset`, or what was saved of it.
-    published : what to draw beside it.
+    dataset : `Curve.dataset`, also one read from a file.
+    published : values to draw for comparison.
 
     Raises
     ------
-    InvalidInputError : the dataset is no curve.
+    InvalidInputError : the dataset is not a curve.
     """
     from wingbeat.results.curve import Curve
 

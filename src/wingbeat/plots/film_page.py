@@ -24,8 +24,8 @@ _LABELS = {
 def film_page(beat: FilmedBeat) -> Figure:
     """Return a figure with a panel for each column that was filmed.
 
-    Points are the frames, folded into one beat; the curve is the spline with its 95 % band, and below it stands how
-    far the frames are from it, with two standard deviations of a frame.
+    Points are the frames, folded into one wingbeat. The curve is the spline with its 95 % band. The panel below
+    shows the residuals of the frames, with two standard deviations of a frame.
 
     Parameters
     ----------

@@ -39,8 +39,8 @@ _LABELS = {
 def fit_page(fit: WingFit) -> Figure:
     """Return a figure with a panel for C_L, C_D and, where there are any, x_cp and C_M.
 
-    Points are the measurements with two standard errors either side; the curve is the fit with the 95 % band of a
-    new measurement, C_M the curve that follows from the other three.
+    Points are the measurements with two standard errors on either side. The curve is the fit with its 95 % band
+    for a new measurement; the curve of C_M follows from the other three.
 
     Parameters
     ----------

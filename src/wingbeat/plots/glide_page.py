@@ -20,15 +20,15 @@ _MARKS = {"least_sink": ("slowest sink", "o", VERMILION), "best_ratio": ("flatte
 
 
 def glide_page(dataset: xr.Dataset) -> Figure:
-    """Draw a glide polar: a sink, b glide ratio, c angles, d torques and moment, all against speed.
+    """Draw a glide polar against speed: a sink, b glide ratio, c angles, d torques and moment.
 
     Parameters
     ----------
-    dataset : `GlidePolar.dataset`, or what was saved of it.
+    dataset : `GlidePolar.dataset`, also one read from a file.
 
     Raises
     ------
-    InvalidInputError : the dataset is no glide polar.
+    InvalidInputError : the dataset is not a glide polar.
     """
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "glide":

@@ -25,14 +25,14 @@ _NEEDED += ["alpha", "strip_force", "hinge_power", "actuator_power"]
 def wingbeat_page(dataset: xr.Dataset) -> Figure:
     """Draw one page, 183 mm wide, of an orbit's or a flight's time series; downstrokes are shaded.
 
-    a wing kinematics, b body pitch, c power, d to f phase portraits, g effective angle of attack, h and i
-    horizontal and vertical force on one strip of both wings at 1/4 and 3/4 of the span, over the weight.
-    Above them stand two statements, how the orbit closes and whether it is plausible: green where both hold, and
-    what does not hold in red.
+    a: wing kinematics; b: body pitch; c: power; d to f: phase portraits; g: effective angle of attack; h and i:
+    horizontal and vertical force on one strip of both wings at 1/4 and 3/4 of the span, divided by the weight. Two
+    statements at the top say how well the orbit closes and whether it is plausible. They are green if both are
+    true; a false one is red.
 
     Parameters
     ----------
-    dataset : `Orbit.dataset`, `Flight.dataset` or what was saved of them.
+    dataset : `Orbit.dataset`, `Flight.dataset` or one read from a file.
 
     Raises
     ------

@@ -30,19 +30,18 @@ _LOOKS = {"aerodynamic": FIRST, "inertial": SECOND, "body": THIRD}
 
 
 def power_page(dataset: xr.Dataset) -> Figure:
-    """Draw what the hinge power of an orbit is made of.
+    """Draw the parts of an orbit's hinge power.
 
-    a hinge power over the beat and its aerodynamic, inertial and body shares; b flap torque over flap angle, what
-    the best spring gives of it and what is left to the actuators; c the mean power that counts, by what becomes of
-    negative work.
+    a: hinge power over the wingbeat with its aerodynamic, inertial and body parts. b: flap torque over flap angle,
+    the part taken by the best spring and the rest for the actuators. c: mean power by the use of negative work.
 
     Parameters
     ----------
-    dataset : `Orbit.dataset`, or what was saved of it.
+    dataset : `Orbit.dataset`, also one read from a file.
 
     Raises
     ------
-    InvalidInputError : the dataset is no orbit.
+    InvalidInputError : the dataset is not an orbit.
     """
     account = power_account(dataset)
     with drawing():

@@ -32,7 +32,7 @@ def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) 
 
 
 def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
-    """Write a figure as PNG (300 dots an inch), PDF or SVG, by its suffix, whole or not at all.
+    """Write a figure as PNG (300 dots per inch), PDF or SVG, by its suffix, completely or not at all.
 
     The same figure gives the same bytes: no date is written. Text in a PDF stays text.
 

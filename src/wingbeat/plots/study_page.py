@@ -30,19 +30,18 @@ _SAME = 1e-9
 def study_page(
     frame: pd.DataFrame, varied: Sequence[str], quantity: str, label: str, units: Sequence[str]
 ) -> Figure:
-    """Draw a quantity of a study's certified orbits over what was varied.
+    """Draw a quantity of a study's certified orbits against the varied parameters.
 
-    Points without an answer are left out, and counted in the title.
-    One varied parameter: a line for each combination of the top level, failures as red crosses at the foot. Two: a
-    map for each, in squares where they are a grid and in dots where not. More: parallel coordinates for each, a
-    strand a point.
+    Points without a result are left out and counted in the title. One varied parameter gives a line for each
+    combination of the top level, with failures as red crosses at the bottom. Two give a map for each, in squares
+    for a grid and in dots otherwise. More give parallel coordinates for each, with one line per point.
 
     Parameters
     ----------
     frame : the table of the study, `Study.to_dataframe`.
     varied : columns that were varied with numbers.
     quantity : column to draw.
-    label : what to call it, with its unit.
+    label : its label, with the unit.
     units : of the varied parameters.
 
     Raises

@@ -15,10 +15,10 @@ _MOST = 12
 
 
 def tornado_page(found: Sensitivities) -> Figure:
-    """Rank parameters by what their plausible ranges do to each quantity to first order, the largest on top.
+    """Rank parameters by the first-order effect of their plausible ranges on each quantity, the largest on top.
 
-    Parameters with no range are left out. A panel for each quantity; the line in the middle is the orbit as solved.
-    A straight line over whole ranges is no error bar, so bars are shares of the largest.
+    Parameters without a range are left out. Each quantity has a panel; the line in the middle is the solved orbit.
+    Bars are shares of the largest, because a linear approximation over whole ranges gives no valid error bar.
 
     Parameters
     ----------

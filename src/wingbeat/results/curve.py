@@ -44,7 +44,7 @@ class Curve:
     dataset : every certified optimum over (speed, optimum), labelled.
     marks : changes between neighbouring speeds.
     gaps : speeds at which nothing is certified [m/s].
-    warnings : what a reader should know.
+    warnings : notes for the reader.
     characteristic_speeds : speeds of minimum power and maximum range [m/s].
     """
 
@@ -75,7 +75,7 @@ class Curve:
 
     @property
     def warnings(self) -> list[str]:
-        """What a reader should know, with the speeds it holds for."""
+        """Notes for the reader, with the speeds to which they apply."""
         return self._about["warnings"]
 
     @functools.cached_property

@@ -161,7 +161,7 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
 @pytest.mark.parametrize(
     ("words", "part"),
     [
-        ("reduce run.csv -o c.txt", "--output = 'c.txt': is no table; end it in .csv"),
+        ("reduce run.csv -o c.txt", "--output = 'c.txt': is not a table; end it in .csv"),
         ("reduce run.csv -o run.csv", "is one of the runs"),
         ("reduce run.csv -o c.csv --last -1", "--last = -1.0: must be > 0 s"),
         ("reduce run.csv -o c.csv --last 60", "last = 60.0: is longer than the record of run.csv, 30 s"),

@@ -30,6 +30,7 @@ from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Ended, Engine, LocalProcesses
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Outcome, Unit
+from wingbeat.workers.main import Context
 
 # Seconds that a point takes a core, which make the batches as large as they are with real points.
 POINT = 0.0275
@@ -61,7 +62,7 @@ class Instant:
         return self.workers - len(self._ended)
 
     def submit(self, batch: int, units: list[Unit]) -> None:
-        self._ended.append(Ended(batch, [outcome for unit in units for outcome in cheap(unit)], "nobody"))
+        self._ended.append(Ended(batch, list(cheap(units)), "nobody"))
 
     def wait(self, seconds: float) -> Ended | None:
         return self._ended.popleft()
@@ -70,10 +71,17 @@ class Instant:
         self._ended.clear()
 
 
-def cheap(unit: Unit) -> Iterator[Outcome]:
-    """Yield the same record for every point: what worker processes do here."""
-    for task in unit.tasks:
-        yield Outcome(task.key, "converged", record(), 1e-8, "", POINT)
+def cheap(units: list[Unit]) -> Iterator[Outcome]:
+    """Yield the same record for every point."""
+    for unit in units:
+        for task in unit.tasks:
+            yield Outcome(task.key, "converged", record(), 1e-8, "", POINT)
+
+
+def report_cheap(units: list[Unit], context: Context) -> None:
+    """Report the same record for every point: what worker processes do here."""
+    for outcome in cheap(units):
+        context.report(outcome)
 
 
 @functools.cache
@@ -102,7 +110,7 @@ def memory(which: str) -> int:
 
 def run(count: int, through: str) -> Cost:
     """Plan, run and look at a study of cheap points."""
-    LocalProcesses.work = "driver:cheap"
+    LocalProcesses.work = "driver:report_cheap"
     with tempfile.TemporaryDirectory() as folder:
         begun = time.perf_counter()
         study = plan(folder, count)

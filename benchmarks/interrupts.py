@@ -16,7 +16,9 @@ import subprocess
 import sys
 import tempfile
 import time
+import uuid
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -68,6 +70,7 @@ def wingbeat(words: str) -> list[str]:
 def interrupt(command: list[str], folder: Path, after: float, number: int = signal.SIGINT) -> Ending:
     """Start a command in a process group of its own, signal it after so many seconds, and watch it end."""
     before = {path.name for path in folder.iterdir()}
+    mark = uuid.uuid4().hex  # in the environment of all that comes of it, also of other groups
     signal.signal(signal.SIGINT, signal.default_int_handler)  # what is ignored here would be ignored there
     with tempfile.TemporaryFile() as told:
         process = subprocess.Popen(
@@ -76,6 +79,7 @@ def interrupt(command: list[str], folder: Path, after: float, number: int = sign
             stdout=subprocess.DEVNULL,
             stderr=told,
             start_new_session=True,
+            env=os.environ | {"INTERRUPTED_MARK": mark},
         )
         try:
             code = process.wait(after)
@@ -90,7 +94,7 @@ def interrupt(command: list[str], folder: Path, after: float, number: int = sign
             os.killpg(process.pid, signal.SIGKILL)
             code = process.wait()
         seconds = time.perf_counter() - begun
-        fault = "" if _gone(process.pid) else "left processes behind"
+        fault = "" if _gone(mark) else "left processes behind"
         told.seek(0)
         text = told.read().decode(errors="replace")
     left = [path.name for path in folder.iterdir() if path.name not in before and ".part" in path.name]
@@ -101,16 +105,26 @@ def interrupt(command: list[str], folder: Path, after: float, number: int = sign
     return Ending(code, seconds, fault)
 
 
-def _gone(group: int) -> bool:
-    """Say whether all processes of a group have ended, or do so within some seconds."""
+def _gone(mark: str) -> bool:
+    """Say whether all processes with a mark have ended, or do so within some seconds; end what is left."""
     for _ in range(100):
-        try:
-            os.killpg(group, 0)
-        except ProcessLookupError:
+        if not (left := _marked(mark)):
             return True
         time.sleep(0.05)
-    os.killpg(group, signal.SIGKILL)
+    for process in left:
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
     return False
+
+
+def _marked(mark: str) -> list[int]:
+    """Return the processes that have a mark in their environment; that of one that has ended is empty."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if mark.encode() in (entry / "environ").read_bytes():
+                found.append(int(entry.name))
+    return found
 
 
 def of_python(ending: Ending) -> bool:

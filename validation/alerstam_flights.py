@@ -11,8 +11,8 @@ from pathlib import Path
 import wingbeat as wb
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
-from wingbeat.orbits.many.batch import in_processes
 from wingbeat.orbits.solve import Progress
+from wingbeat.workers.process_map import in_processes
 
 AIRSPEEDS = "bird_airspeed_alerstam2007.csv"
 FREQUENCIES, LEVEL_FLIGHT, AMPLITUDES = (

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from wingbeat.errors import ForkError as ForkError
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
+    from wingbeat.errors import WorkerError as WorkerError
     from wingbeat.kinematics import Wingbeat as Wingbeat
     from wingbeat.mechanics.equations_of_motion import air_forces as air_forces
     from wingbeat.mechanics.equations_of_motion import equations_of_motion as equations_of_motion
@@ -126,6 +127,7 @@ _HOME = {
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
     "WingbeatError": "errors",
+    "WorkerError": "errors",
     "air_forces": "mechanics.equations_of_motion",
     "bat": "species",
     "bird": "species",

@@ -4,5 +4,5 @@ import sys
 
 from wingbeat.cli import program
 
-if __name__ == "__main__":  # not in the worker processes, which import this too
+if __name__ == "__main__":
     sys.exit(program())

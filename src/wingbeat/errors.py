@@ -53,6 +53,10 @@ class ForkError(WingbeatError, RuntimeError):
     """A forked process cannot run JAX, since its parent has; the message says how to start one that can."""
 
 
+class WorkerError(WingbeatError, RuntimeError):
+    """A worker process cannot be started, or died over its work twice; the message says how it ended."""
+
+
 def install_extra(extra: str) -> str:
     """Say how to install an extra; wingbeat is installed from a clone.
 

@@ -90,7 +90,7 @@ class Wingbeat:
         faults.number("wingbeat.fold_amplitude", self.fold_amplitude, unit="rad")
         faults.number("wingbeat.wrist", self.wrist, at_least=0, at_most=1, fix="a fraction of the span")
         faults.number("wingbeat.pitch_phase", self.pitch_phase, unit="rad")
-        even = "0.5 is as long as the upstroke"
+        even = "0.5 makes it as long as the upstroke"
         faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
         faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
         faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
@@ -119,7 +119,7 @@ class Wingbeat:
                 faults.add(where, tuple(given), rule, "give the numbers in pairs")
             sound &= all([faults.number(f"{where}[{i}]", value) for i, value in enumerate(given)])
         if sound and self.span_harmonics and not faults.faults and self._least_span() <= 0:
-            least = f"vanishes: with span_retraction its least is {self._least_span():.2g} of the full span"
+            least = f"makes the span vanish: its minimum is {self._least_span():.2g} of the full span"
             faults.add("wingbeat.span_harmonics", self.span_harmonics, least, "make them smaller")
 
     def _least_span(self) -> float:

@@ -228,7 +228,7 @@ def test_what_is_none_is_refused_at_every_door(what):
         lambda: wb.FlightModel(PIGEON.vehicle, given),
         lambda: wb.glide_polar(PIGEON, given),
         lambda: wb.aero.BladeElement(given),
-        lambda: film.problem(PIGEON, 10.0, aero=given),
+        lambda: wb.filmed_problem(film, PIGEON, 10.0, aero=given),
     ):
         with pytest.raises(wb.InvalidInputError, match=words):
             door()

@@ -3,24 +3,15 @@
 import math
 import resource
 import socket
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
 import pytest
 
 from tests.app.program import PATIENCE, Program, wait_gone
-from tests.helpers.places import ROOT
-from wingbeat.app.crew import WorkerProcess
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Event, Pool
 from wingbeat.app.scenario import Scenario
-
-
-@pytest.fixture(autouse=True)
-def standin(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+from wingbeat.workers.fair_pool import FairPool
 
 
 def ended(pool, what):
@@ -37,28 +28,8 @@ def ended(pool, what):
     return endings[0]
 
 
-def test_a_worker_that_outgrows_its_memory_leaves_without_a_word(capfd):
-    worker = WorkerProcess("tests.helpers.explorer_standin:do")
-    told = worker.lines()
-    assert next(told)["kind"] == "ready"
-    worker.send({"number": 1, "what": ["outgrow", 0]})
-    kinds = [each["kind"] for each in told]  # until it has left
-    assert kinds == ["took", "done"]
-    assert worker.bury() == "exit code 0"
-    assert capfd.readouterr().err == ""
-
-
-def test_a_worker_that_is_refused_memory_is_told_of_and_replaced():
-    pool = Pool("tests.helpers.explorer_standin:do", 1)
-    try:
-        assert ended(pool, ("hoard", 1 << 40)) == Event("lost", "exit code 12: out of memory")
-        assert ended(pool, ("echo", 1)).kind == "done"
-    finally:
-        pool.close()
-
-
 def test_a_solver_without_memory_is_told_of_and_replaced():
-    pool = Pool("wingbeat.app.jobs:do", 1)
+    pool = FairPool("wingbeat.app.jobs:do", 1)
     question = {"do": "orbit", "scenario": to_plain(Scenario(starts=1))}
     try:
         assert ended(pool, {"do": "no such thing"}).kind == "failed"  # it runs now, and has solved nothing yet
@@ -73,24 +44,6 @@ def test_a_solver_without_memory_is_told_of_and_replaced():
         assert ended(pool, question).kind == "done"
     finally:
         pool.close()
-
-
-def test_a_worker_whose_server_was_killed_ends_whatever_it_does():
-    script = """if True:
-        from wingbeat.app.crew import WorkerProcess
-        worker = WorkerProcess("tests.helpers.explorer_standin:do")
-        told = worker.lines()
-        next(told)
-        worker.send({"number": 1, "what": ["deaf", 1000.0]})
-        assert next(told)["kind"] == "took"
-        print(worker.pid, flush=True)
-        next(told)
-    """
-    server = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
-    worker = int(server.stdout.readline())
-    server.kill()
-    server.communicate()
-    wait_gone([worker])
 
 
 @pytest.fixture

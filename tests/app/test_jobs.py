@@ -2,23 +2,25 @@
 
 import base64
 import json
+import resource
 import threading
+from pathlib import Path
 
 import pytest
 
 import wingbeat as wb
 from wingbeat.app.jobs import do
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Pool
 from wingbeat.app.scenario import Scenario
-from wingbeat.app.worker import Hand, StoppedError
+from wingbeat.workers.fair_pool import FairPool
+from wingbeat.workers.main import Context, StoppedError
 
 PIGEON = Scenario(species="pigeon", speed=10.0, starts=1)
 
 
-def work(what, unwanted=()):
+def work(what, stopped=False):
     told = []
-    answer = do(what, Hand(1, told.append, set(unwanted)))
+    answer = do(what, Context(told.append, lambda: stopped))
     json.dumps(answer, allow_nan=False)  # fit to travel
     return answer
 
@@ -76,11 +78,11 @@ def test_what_is_refused_names_the_choice():
 
 def test_a_search_that_is_not_wanted_any_more_stops():
     with pytest.raises(StoppedError):
-        work({"do": "orbit", "scenario": to_plain(PIGEON)}, unwanted=[1])
+        work({"do": "orbit", "scenario": to_plain(PIGEON)}, stopped=True)
 
 
 def test_memory_is_flat_over_two_hundred_solves():
-    pool, memory = Pool("wingbeat.app.jobs:do", 1), []
+    pool, memory = FairPool("wingbeat.app.jobs:do", 1), []
     near = None
     try:
         for count in range(200):
@@ -97,7 +99,8 @@ def test_memory_is_flat_over_two_hundred_solves():
             assert ended.wait(120.0)
             assert endings[0].kind == "done"
             near = endings[0].value["near"]
-            memory.append(next(iter(pool.memory.values())))
+            (worker,) = pool.workers
+            memory.append(int(Path(f"/proc/{worker}/statm").read_text().split()[1]) * resource.getpagesize())
     finally:
         pool.close()
     assert memory[-1] < 1.05 * memory[40], [round(m / 1e6) for m in memory[::20]]

@@ -4,9 +4,9 @@ import asyncio
 import contextlib
 from concurrent.futures import ThreadPoolExecutor
 
-from wingbeat.app.pool import Event
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session
+from wingbeat.workers.fair_pool import Event
 
 
 class Shown:

@@ -11,13 +11,13 @@ from wingbeat.app.jobs import do
 from wingbeat.app.links import from_plain, to_json
 from wingbeat.app.scenario import Scenario, problem_of
 from wingbeat.app.uploads import clean_label
-from wingbeat.app.worker import Hand
 from wingbeat.results.orbit import load_orbit
 from wingbeat.species import template
+from wingbeat.workers.main import Context
 
 
 def read(path, label="sent.nc"):
-    return do({"do": "read", "path": str(path), "label": label}, Hand(1, lambda told: None, set()))
+    return do({"do": "read", "path": str(path), "label": label}, Context(lambda told: None, lambda: False))
 
 
 def refused(path, label="sent.nc"):

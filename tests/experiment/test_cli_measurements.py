@@ -123,7 +123,7 @@ def test_bad_runs_are_refused_by_row_and_column(case, here, capsys):
 
 BAD_TABLES = {
     "empty": ("", ["the file holds no table"]),
-    "header": ("alpha_deg,C_L,C_D\n", ["no row of numbers follows"]),
+    "header": ("alpha_deg,C_L,C_D\n", ["has no row of numbers"]),
     "columns": (TABLE.replace("C_D", "cd"), ["column 3 = 'cd': is not a known column", "column C_D"]),
     "radians": (
         TABLE.replace("alpha_deg", "alpha"),

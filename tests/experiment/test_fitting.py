@@ -214,7 +214,7 @@ BAD_MODELS = {
     'name = "mine"|name = 3': ["name = 3: must be a text"],
     "alpha_range_deg = [0.0, 110.0]|alpha_range_deg = [110.0, 0.0]\ncolour = 1": [
         "'colour' = '': is not a known key",
-        "alpha_range_deg = [110.0, 0.0]: puts the highest first",
+        "alpha_range_deg = [110.0, 0.0]: has the highest value first",
     ],
     "[drag]|[drug]": ["'drug' = '': is not a known key", "drag.constant = None: must be a number"],
     "rate = |rate_ = ": ["'rate_'", "lift.rate = None: must be a number", "drag.rate = None"],

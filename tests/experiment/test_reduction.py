@@ -124,7 +124,7 @@ def test_a_window_that_still_moves_is_told():
         ({"density": math.nan}, 20, "run, density = nan: must be finite"),
         ({"channel_width": 0.0}, 20, "channel_width = 0.0: must be > 0 m"),
         ({"alpha_deg": 200.0}, 20, "alpha_deg = 200.0: must lie in -180 to 180 degrees"),
-        ({"seconds": 1.0}, 1, "must hold at least 32 samples; record for longer"),
+        ({"seconds": 1.0}, 1, "must hold at least 32 samples; record longer"),
         ({"tare": ((0, 1),)}, 20, "tare = .*must be three pairs of finite numbers"),
         ({}, 0.0, "last = 0.0: must be > 0 s"),
         ({}, 31.0, "last = 31.0: is longer than the record of run, 30 s; give a smaller --last"),

@@ -164,7 +164,7 @@ def test_where_nothing_glides_ahead_it_says_so(capsys, tmp_path):
         ("--flap-deg 90", "--flap-deg = 90.0"),
         ("--trim rudder", "trim = 'rudder': is not a known choice; use one of body-pitch, flap, tail"),
         ("--payload -1", "payload = -1.0: must be >= 0 kg"),
-        ("--set air.gravity=0", "air.gravity = 0.0: must be > 0 m/s2; without weight nothing glides"),
+        ("--set air.gravity=0", "air.gravity = 0.0: must be > 0 m/s2; nothing glides without weight"),
         ("--payload nan", "payload = nan: must be finite"),
         ("--plot glide.txt", "is not a figure format"),
         ("--plot glide.png -o glide.png", "is the file of --output too"),

@@ -1,7 +1,6 @@
 """Many problems at once: the answers of one by one, whoever computes them."""
 
 import dataclasses
-import gc
 import math
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
 from wingbeat.orbits.many import batch
-from wingbeat.orbits.many.batch import find_orbits, in_processes
+from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.nlp import defect_correction
 from wingbeat.orbits.nlp.defect_correction import correct
 from wingbeat.orbits.nlp.local_search import optimise, search
@@ -192,13 +191,3 @@ def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monke
     found = wb.solve_orbits(both)
     assert asked == [usual_starts(problem) for problem in both]
     assert [orbit.inputs["starts"] for orbit in found] == asked
-
-
-def first_threshold(_):
-    return gc.get_threshold()[0]
-
-
-def test_processes_of_a_batch_look_for_garbage_seldom_and_this_one_as_it_was_told_to():
-    own = gc.get_threshold()
-    assert list(in_processes(first_threshold, [0, 1], 2)) == [50_000, 50_000]
-    assert list(in_processes(first_threshold, [0], 1)) == [own[0]]

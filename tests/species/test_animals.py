@@ -213,7 +213,7 @@ def test_a_bat_beyond_the_law_of_amplitude_must_say_how_it_beats() -> None:
     assert wb.bat(**SIZE | {"mass": 20.0}).wingbeat.frequency > 1.0
     assert wb.bat(**SIZE | {"mass": 20.0}, frequency=2.0).wingbeat.frequency == 2.0
     tiny = {"mass": 1e-3, "wing_span": 1e-3, "wing_area": 1e-7}
-    assert "beyond the law" in faults_of(lambda: wb.bat(**tiny))["wing_area"]
+    assert "outside the range of the law" in faults_of(lambda: wb.bat(**tiny))["wing_area"]
 
 
 @pytest.mark.parametrize("limits", [(5,), 3, (6, 2), (0, 4), ("a", 3), (1, math.inf), (4, 4)])

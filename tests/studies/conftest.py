@@ -87,7 +87,6 @@ class Cheap:
 def cheap(tmp_path, capsys, monkeypatch):
     """Return a maker of cheap studies, each in a folder of its own."""
     monkeypatch.setattr(LocalProcesses, "work", "tests.helpers.study_standin:solve")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT), *sys.path]))
 
     def make(speeds, name="here"):
         folder = tmp_path / name

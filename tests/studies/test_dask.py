@@ -59,7 +59,7 @@ class Cluster:
         found = []
         for process in self.study.processes():
             with open(f"/proc/{process}/cmdline", "rb") as file:
-                if b"wingbeat.studies.worker" in file.read():
+                if b"wingbeat.workers.main" in file.read():
                     found.append(process)
         return found
 
@@ -173,7 +173,7 @@ def test_dask_of_this_machine_through_the_program(cheap):
     assert "with 2 processes" in err
     assert "Traceback" not in err
     assert "converged 40 error 1 crashed 1 timeout 1" in " ".join(out.split())
-    assert "crashed: speed = 90: its process was ended by SIGKILL" in out
+    assert "crashed: speed = 90: its process ended with SIGKILL" in out
     assert "timeout: speed = 91: no answer within 1 s" in out
     study.wait_gone()
     kept = study.points()

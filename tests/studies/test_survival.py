@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from tests.helpers.study_standin import CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
+from tests.helpers.study_standin import BREAKS, CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from tests.helpers.terminals import needs_terminal, on_terminal
 from wingbeat.species import species_text
 from wingbeat.studies.engine import LocalProcesses
@@ -132,17 +132,18 @@ def test_workers_that_leave_cores_to_others_are_pinned_to_none(cheap):
 
 
 def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again(cheap, monkeypatch):
-    study = cheap([CRASHES, HANGS, RAISES, INFEASIBLE, LEAVES, *GRID[:20]])
+    study = cheap([CRASHES, HANGS, RAISES, INFEASIBLE, LEAVES, BREAKS, *GRID[:20]])
     code, out, err = study.run("run", study.file, "-j", 2, "--timeout", 1)
     assert code == 3, err
-    for line in ("converged 20", "infeasible 1", "error 1", "crashed 2", "timeout 1"):
+    for line in ("converged 20", "infeasible 1", "error 1", "crashed 3", "timeout 1"):
         assert line in out
-    assert "crashed: speed = 90: its process was ended by SIGKILL" in out
+    assert "crashed: speed = 90: its process ended with SIGKILL" in out
     assert "crashed: speed = 95: its process ended with exit code 7" in out
+    assert "crashed: speed = 96: its process raised TypeError: no outcome" in out
     assert "timeout: speed = 91: no answer within 1 s" in out
     assert "error: speed = 92: ValueError: no such speed" in out
     assert "infeasible: speed = 93: too fast" in out
-    assert "25 points" in err
+    assert "26 points" in err
     assert "Traceback" not in err
     kept = study.points()
     assert study.run("run", study.file, "--allow-failures")[0] == 0
@@ -152,7 +153,7 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     monkeypatch.setenv("STANDIN_LOG", str(study.folder / "log"))
     assert study.run("run", study.file, "--retry-failed", "--allow-failures")[0] == 0
     assert len((study.folder / "log").read_text().split()) == 1
-    assert "3 results of points that are no longer in the study are kept" in study.run("status", study.file)[1]
+    assert "4 results of points that are no longer in the study are kept" in study.run("status", study.file)[1]
     study.wait_gone()
 
 

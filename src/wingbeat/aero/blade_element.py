@@ -72,7 +72,7 @@ class BladeElement:
             faults.add(
                 "aero.force_point",
                 self.force_point,
-                f"needs a centre of pressure, which {self.coefficients.name} has none of",
+                f"needs a centre of pressure, and {self.coefficients.name} has none",
                 "use quarter-chord, or a model that has one",
             )
         faults.raise_if_any()

@@ -194,7 +194,7 @@ def _check_range(faults: FaultList, where: str, limits: Any) -> None:
     if not isinstance(limits, tuple) or len(limits) != 2:
         faults.add(where, limits, "must be a pair", "give (lowest, highest)")
     elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
-        faults.add(where, limits, "must not fall", "give (lowest, highest)")
+        faults.add(where, limits, "must not decrease", "give (lowest, highest)")
 
 
 @register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension"))

@@ -159,7 +159,7 @@ def _pair(
     if not all([faults.number(f"{file}: {key}[{i}]", v, at_least=low, at_most=high) for i, v in enumerate(pair)]):
         return None
     if pair[0] > pair[1]:
-        faults.add(f"{file}: {key}", pair, "puts the highest first", "write [lowest, highest]")
+        faults.add(f"{file}: {key}", pair, "has the highest value first", "write [lowest, highest]")
     return float(pair[0]), float(pair[1])
 
 

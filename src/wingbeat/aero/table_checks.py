@@ -62,7 +62,7 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         faults.add(at_last, last, rule, "write alpha_deg in degrees, from 0 to at least 90")
         return
     if last < 90:
-        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure farther")
+        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure at larger angles")
     if first > 0:
         faults.add(at_first, first, "the table must begin at 0 degrees or below", "add a row for 0")
     if is_whole_turn(angles):

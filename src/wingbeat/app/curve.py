@@ -9,11 +9,11 @@ from nicegui import ui
 
 from wingbeat.app.curve_chart import chart
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Event, Job
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session
 from wingbeat.app.widgets import Field, box, button, number_field, tag
 from wingbeat.app.words import from_shown, number
+from wingbeat.workers.fair_pool import Event, Job
 
 __all__ = ["CurvePanel"]
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.app.links import from_plain
 from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
-from wingbeat.app.worker import Hand
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
@@ -23,6 +22,7 @@ from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.viewer import scene
+from wingbeat.workers.main import Context
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,9 +32,9 @@ __all__ = ["do"]
 _MOST_RANKED = 12
 
 
-def do(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Do a job; what is refused comes back as ``{"refused": [[where, message], ...]}``."""
-    kinds: dict[str, Callable[[dict[str, Any], Hand], dict[str, Any]]] = {
+    kinds: dict[str, Callable[[dict[str, Any], Context], dict[str, Any]]] = {
         "orbit": _orbit,
         "point": _point,
         "scene": _scene,
@@ -43,7 +43,7 @@ def do(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
         "read": _read,
     }
     try:
-        return kinds[what["do"]](what, hand)
+        return kinds[what["do"]](what, context)
     except InvalidInputError as error:
         return {"refused": [[fault.where, _sentence(fault)] for fault in error.faults]}
     except FileError as error:
@@ -54,7 +54,7 @@ def _sentence(fault: Any) -> str:
     return fault.rule + (f"; {fault.fix}" if fault.fix else "")
 
 
-def _orbit(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Continue the answer before where there is one near; else search as the command line does."""
     begun = time.perf_counter()
     scenario = from_plain(what["scenario"])
@@ -62,8 +62,8 @@ def _orbit(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
     continued = _continued(problem, what.get("near"))
     if continued is not None:
         return answer_of(Orbit.of(continued, 1), what.get("beside"), begun) | {"continued": True}
-    orbit = solve_orbit(problem, scenario.starts, scenario.seed, hand.progress)
-    hand.check()
+    orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
+    context.check()
     return answer_of(orbit, what.get("beside"), begun)
 
 
@@ -76,13 +76,13 @@ def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution |
     return search_near(problem, np.array(near["unknowns"], dtype=float))
 
 
-def _point(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _point(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return one point of a curve: the better of its own searches and the neighbour's answer continued."""
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
-    orbit = solve_orbit(problem, scenario.starts, scenario.seed, hand.progress)
-    hand.check()
+    orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
+    context.check()
     other = None if continued is None else Orbit.of(continued, 1)
     if other is not None and (
         orbit.status is not Status.CONVERGED
@@ -133,11 +133,11 @@ def orbit_again(known: dict[str, Any]) -> Orbit:
     return Orbit.of_record(known["record"], problem_from(inputs), inputs["starts"], inputs["seed"])
 
 
-def _scene(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _scene(what: dict[str, Any], context: Context) -> dict[str, Any]:
     return {"scene": _drawn(orbit_again(what["of"]), what.get("beside"))}
 
 
-def _influence(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return what each quantity depends on most, and prices of the active bounds."""
     orbit = orbit_again(what["of"])
     found = sensitivities(orbit)
@@ -159,7 +159,7 @@ def _influence(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
     return {"values": found.values, "units": found.units, "rankings": rankings, "ranked": ranked, "prices": prices}
 
 
-def _file(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _file(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return an orbit as the bytes of a file, in base 64."""
     dataset = orbit_again(what["of"]).dataset
     content = bytes(dataset.to_netcdf(engine="h5netcdf")) if what["as"] == "nc" else _figure(dataset, what["as"])
@@ -174,7 +174,7 @@ def _figure(dataset: xr.Dataset, kind: str) -> bytes:
         return file.getvalue()
 
 
-def _read(what: dict[str, Any], hand: Hand) -> dict[str, Any]:
+def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return what an uploaded file holds: a scenario, or an orbit with the scenario that it answers."""
     found = read_upload(what["path"], what["label"])
     if isinstance(found, Orbit):

@@ -16,13 +16,13 @@ from wingbeat.app.curve import CurvePanel
 from wingbeat.app.flying import Flying
 from wingbeat.app.links import from_plain, from_query, to_json, to_query
 from wingbeat.app.pins import Pins
-from wingbeat.app.pool import Event, Pool
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session, known
 from wingbeat.app.shelf import Shelf, Thing
 from wingbeat.app.widgets import button, choice_field, run_script, tag
 from wingbeat.app.words import sentence
 from wingbeat.errors import InvalidInputError
+from wingbeat.workers.fair_pool import Event, FairPool
 
 __all__ = ["Page"]
 
@@ -42,7 +42,7 @@ class Page:
     query : of the address, which may hold a scenario.
     """
 
-    def __init__(self, name: str, pool: Pool, shelf: Shelf, query: str) -> None:
+    def __init__(self, name: str, pool: FairPool, shelf: Shelf, query: str) -> None:
         self.name, self._shelf = name, shelf
         self._client: Client = ui.context.client
         self._refusals, scenario = [], Scenario()

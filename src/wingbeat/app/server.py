@@ -23,10 +23,10 @@ from starlette.requests import ClientDisconnect
 from wingbeat.app.door import Door, guard_events, is_loopback
 from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
 from wingbeat.app.page import Page
-from wingbeat.app.pool import Pool
 from wingbeat.app.shelf import Shelf
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.workers.fair_pool import FairPool
 from wingbeat.workers.leftovers import Leftover
 
 __all__ = ["serve"]
@@ -56,7 +56,7 @@ class House:
     """What all visitors share: the pool, what lies ready to be fetched, who is here."""
 
     def __init__(self, processes: int) -> None:
-        self.pool = Pool(_WORK, processes)
+        self.pool = FairPool(_WORK, processes)
         self.shelf = Shelf()
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")

@@ -9,8 +9,8 @@ from contextlib import AbstractContextManager, suppress
 from typing import Any, Protocol
 
 from wingbeat.app.links import to_plain
-from wingbeat.app.pool import Event, Job, Pool
 from wingbeat.app.scenario import Scenario
+from wingbeat.workers.fair_pool import Event, FairPool, Job
 
 __all__ = ["Session", "View"]
 
@@ -64,7 +64,7 @@ class Session:
     scenario : what is asked at first.
     """
 
-    def __init__(self, name: str, pool: Pool, scenario: Scenario, view: View) -> None:
+    def __init__(self, name: str, pool: FairPool, scenario: Scenario, view: View) -> None:
         self.name, self.scenario = name, scenario
         self.answer: dict[str, Any] | None = None
         self._answered = scenario

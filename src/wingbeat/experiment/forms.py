@@ -83,7 +83,7 @@ class CurveForm:
     def __post_init__(self) -> None:
         faults = FaultList()
         if not self.start:
-            faults.add("start", self.start, "names no parameter", "give {name: value to begin at}")
+            faults.add("start", self.start, "has no parameters", "give {name: starting value}")
         for name, value in self.start.items():
             faults.number(f"start.{name}", value)
         try:

@@ -96,7 +96,7 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     shape = run.time.shape
     if len(shape) != 1 or shape[0] < MIN_SAMPLES:
         rule = f"must hold at least {MIN_SAMPLES} samples"
-        faults.add(f"{run.name}, time", f"shape {shape}", rule, "record for longer")
+        faults.add(f"{run.name}, time", f"shape {shape}", rule, "record longer")
         return
     for name in COLUMN_UNITS:
         column = getattr(run, name)

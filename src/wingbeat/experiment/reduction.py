@@ -102,7 +102,7 @@ def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
         step = run.duration / len(run.time)
         if last > run.duration + step:
             rule = f"is longer than the record of {run.name}, {run.duration:.4g} s"
-            faults.add("last", last, rule, "give a smaller --last, or record for longer")
+            faults.add("last", last, rule, "give a smaller --last, or record longer")
         elif last / step < MIN_SAMPLES - 0.5:
             rule = f"leaves fewer than {MIN_SAMPLES} samples of {run.name}"
             faults.add("last", last, rule, "give a larger --last, or sample faster")
@@ -235,5 +235,5 @@ def _notes(means: list[RunMeans]) -> tuple[str, ...]:
     notes = [note for one in means for note in one.notes]
     blockage = max((one.blockage for one in means), default=0.0)
     if blockage > _BLOCKED:
-        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; nothing was corrected")
+        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; no correction was made")
     return tuple(notes)

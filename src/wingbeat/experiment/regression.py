@@ -152,7 +152,7 @@ class CurveFit:
         a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
         low, high = float(self.alpha_deg.min()), float(self.alpha_deg.max())
         if a.min() < low - 1e-9 or a.max() > high + 1e-9:
-            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used beyond"
+            text = f"{self.label} was fitted from {low:g} to {high:g} degrees and is used outside that range"
             warnings.warn(text, FitRangeWarning, stacklevel=2)
         return self.form.value(a, self.parameters)
 
@@ -252,7 +252,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"
-        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a plainer form")
+        faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a simpler form")
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
         faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
@@ -310,7 +310,7 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
     limits = fit.interval()
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
-        text = f"{fit.label}: too uncertain to mean anything: {', '.join(loose)}"
+        text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
         notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(

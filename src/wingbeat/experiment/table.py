@@ -183,7 +183,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
             where = f"{sheet.file} row {sheet.header_row}, column {name}"
             faults.add(where, ",".join(sheet.header), "the column is missing", f"needed are {', '.join(REQUIRED)}")
     if not sheet.rows:
-        faults.add(f"{sheet.file} row {sheet.header_row}", "", "no row of numbers follows", "add the measurements")
+        faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
     return names
 
 

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.orbits.many.batch import in_processes
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit
 from wingbeat.species import load_species
+from wingbeat.workers.process_map import in_processes
 
 ANIMALS = ("pigeon", "bat")
 MODELS = ("su-fan", "dickinson")

@@ -142,7 +142,7 @@ def glide_polar(
     if not isinstance(species, Species):
         faults.add("species", species, "is not a Species", "use load_species(name or path)")
     elif species.air.gravity == 0:
-        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "without weight nothing glides")
+        faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "nothing glides without weight")
     faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()

@@ -326,8 +326,8 @@ def solve_orbits(
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
     starts, seed : as in `solve_orbit`, for each problem.
-    processes : how many Python processes share the work. With more than one, a script must keep its calls under
-        ``if __name__ == "__main__":``, as always with Python's processes.
+    processes : how many Python processes share the work. A script whose own functions or classes are in the
+        problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
     most_starts : starts for a problem without an orbit before the solver gives up, default 50; fewer end sooner.
     advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does; it
@@ -339,6 +339,7 @@ def solve_orbits(
 
     Raises
     ------
+    WorkerError : processes die over the same problem twice, or cannot be started.
     InvalidInputError : something that is not a problem, starts, seed, most_starts or processes out of range, or
         problems in order with different free parameters.
 

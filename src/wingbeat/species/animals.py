@@ -168,8 +168,13 @@ def _species(
 def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     mass, span, area = size.values()
     faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the mass of the whole in kg")
-    good = faults.number("wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give it tip to tip in m")
-    if not faults.number("wing_area", area, above=0, unit="m2", fix="give that of both wings in m2") or not good:
+    good = faults.number(
+        "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
+    )
+    if (
+        not faults.number("wing_area", area, above=0, unit="m2", fix="give the area of both wings in m2")
+        or not good
+    ):
         return
     if area > span * span:
         faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "m and m2?")
@@ -183,7 +188,9 @@ def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: Fa
         return
     _, amplitude = bat_beat(mass, area)
     if single(amplitude) <= 0:
-        faults.add("wing_area", area, "is beyond the law of bats' flap_amplitude", "give flap_amplitude=")
+        faults.add(
+            "wing_area", area, "is outside the range of the law for bats' flap_amplitude", "give flap_amplitude="
+        )
 
 
 def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:
@@ -225,5 +232,5 @@ def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None
     elif all([faults.number(where, value, above=0, unit="Hz") for value in limits]):
         if limits[0] < limits[1]:
             return float(limits[0]), float(limits[1])
-        faults.add(where, limits, "leaves no room between its ends", "write (lowest, highest)")
+        faults.add(where, limits, "must have its low end below its high end", "write (lowest, highest)")
     return None

@@ -251,7 +251,7 @@ def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
             ends = [table.get(end) for end in ("low", "high")]
             low, high = (to_si(end, path) if has_shape("number", end) else None for end in ends)
             if low is not None and high is not None and low > high:  # type: ignore[operator]
-                faults.add(path, ends, "has its low end above its high one", "exchange the two")
+                faults.add(path, ends, "has its low end above its high one", "swap the two")
             speeds = _range(f"{path}.speeds", table.get("speeds"), f"{path}.speeds", faults)
             found[key.name] = Range(low, high, key.unit, _line(table.get("source")), speeds)  # type: ignore[arg-type]
     return found
@@ -263,7 +263,7 @@ def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, 
         return None
     lowest, highest = (to_si(value, path) for value in pair)
     if lowest > highest:  # type: ignore[operator]
-        faults.add(where, pair, "puts the highest value first", "write [lowest, highest]")
+        faults.add(where, pair, "has the highest value first", "write [lowest, highest]")
     return lowest, highest  # type: ignore[return-value]
 
 

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import NamedTuple
 
 from wingbeat._version import NUMERICAL_VERSION, __version__
-from wingbeat.errors import ClusterError, FileError
+from wingbeat.errors import ClusterError, WorkerError
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 
@@ -121,7 +121,7 @@ def solve_batch(order: bytes) -> Ended:
                 ended = _solve(asked, process)
                 if not process.false_starts:  # else no point is to blame
                     return ended._replace(worker=f"{here} {ended.worker}")
-    except FileError:
+    except WorkerError:
         fix = "see the log of that worker"
         raise ClusterError(f"on {here} no solver process can be started; {fix}") from None
 

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-import json
-import os
 import queue
-import subprocess
-import sys
-import threading
 import time
-from contextlib import suppress
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
-from wingbeat.errors import FileError
+from wingbeat.errors import WorkerError
 from wingbeat.studies.units import Outcome, Unit
 from wingbeat.workers.affinity import cores_of
+from wingbeat.workers.main import Message
+from wingbeat.workers.process import WorkerProcess
 
-__all__ = ["Ended", "Engine", "LocalProcesses", "pack"]
+__all__ = ["Ended", "Engine", "LocalProcesses"]
 
-# What a worker is told of threads: as many processes as there are cores, each with one.
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
-# A worker that dies so soon after its start, before it said anything, is no fault of a point.
+# There are as many processes as cores, so each has one thread.
+_ONE_THREAD = {
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "VECLIB_MAXIMUM_THREADS": "1",
+}
+# Workers that die in a row before they are ready, after which no more are started: no point is to blame.
 _STARTS = 3
-# Seconds that a process whose pipe has closed gets to end by itself, so that its exit code is its own.
-_LEAVING = 2.0
+# How many times the timeout a worker may be silent that its driver cannot end, and some seconds for short ones.
+_BACKSTOP, _BACKSTOP_SECONDS = 2.0, 60.0
 
 
 class Ended(NamedTuple):
@@ -75,25 +75,20 @@ class Engine(Protocol):
         ...
 
 
-def pack(units: list[Unit]) -> dict[str, Any]:
-    """Return units as a dictionary fit for JSON, each recipe once."""
-    recipes = list(dict.fromkeys(unit.recipe for unit in units))
-    places = {recipe: i for i, recipe in enumerate(recipes)}
-    return {"recipes": recipes, "units": [[places[u.recipe], u.tasks, u.skip] for u in units]}
-
-
-@dataclass
+@dataclass(eq=False)
 class _Worker:
-    """A process, what it works on, and when it was last heard of."""
+    """A process, what it works on, and when it was last heard."""
 
-    process: subprocess.Popen[bytes]
-    name: str
-    listener: threading.Thread
+    process: WorkerProcess = field(init=False)
     core: int | None
     batch: int | None = None
     outcomes: list[Outcome] = field(default_factory=list)
     heard: float = 0.0
     ready: bool = False
+
+    @property
+    def name(self) -> str:
+        return f"process {self.process.pid}"
 
 
 class LocalProcesses:
@@ -112,14 +107,14 @@ class LocalProcesses:
     """
 
     # What the processes run; tests put something cheaper in its place.
-    work = "wingbeat.studies.work:solve_unit"
+    work = "wingbeat.studies.work:solve_units"
 
     def __init__(self, processes: int, timeout: float = 600.0) -> None:
         self.workers = processes
         self._cores = cores_of(processes)
         self._timeout = timeout
         self._crew: list[_Worker] = []
-        self._heard: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
+        self._heard: queue.SimpleQueue[tuple[_Worker, Message | None]] = queue.SimpleQueue()
         self._ended: list[Ended] = []
         self.false_starts = 0
 
@@ -132,10 +127,7 @@ class LocalProcesses:
         """Take a batch."""
         idle = next((worker for worker in self._crew if worker.batch is None), None) or self._start()
         idle.batch, idle.outcomes, idle.heard = batch, [], time.monotonic()
-        assert idle.process.stdin is not None
-        with suppress(OSError):  # it has died: its pipe's end says so
-            idle.process.stdin.write(json.dumps(pack(units)).encode() + b"\n")
-            idle.process.stdin.flush()
+        idle.process.request(units)
 
     def wait(self, seconds: float) -> Ended | None:
         """Return a batch that ended, or None after so many seconds."""
@@ -143,12 +135,13 @@ class LocalProcesses:
         while not self._ended:
             self._end_silent()
             try:
-                who, line = self._heard.get(timeout=max(min(until - time.monotonic(), 0.2), 0.001))
+                worker, message = self._heard.get(timeout=max(min(until - time.monotonic(), 0.2), 0.001))
             except queue.Empty:
                 if time.monotonic() >= until:
                     return None
                 continue
-            self._hear(who, line)
+            if worker in self._crew:  # else it has been given up
+                self._hear(worker, message)
         return self._ended.pop(0)
 
     def close(self) -> None:
@@ -156,99 +149,56 @@ class LocalProcesses:
         for worker in self._crew:
             worker.process.kill()
         for worker in self._crew:
-            _leave(worker)
+            worker.process.bury()
         self._crew.clear()
 
     def _start(self) -> _Worker:
-        environment = dict(os.environ)
-        for name in _ONE_THREAD:
-            environment[name] = "1"
-        # The package that drives is the one that works, wherever it was imported from.
-        home = str(Path(__file__).resolve().parents[2])
-        environment["PYTHONPATH"] = os.pathsep.join([home, *filter(None, [environment.get("PYTHONPATH")])])
         taken = [worker.core for worker in self._crew]
-        core = next((core for core in self._cores if core not in taken), None)
-        words = [self.work, str(self._timeout), *([] if core is None else [str(core)])]
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "wingbeat.studies.worker", *words],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=environment,
-            start_new_session=True,  # Ctrl-C is for the driver, which then says what becomes of its workers
+        worker = _Worker(next((core for core in self._cores if core not in taken), None))
+        worker.process = WorkerProcess(
+            self.work,
+            lambda message: self._heard.put((worker, message)),
+            core=worker.core,
+            silence=_BACKSTOP * self._timeout + _BACKSTOP_SECONDS,
+            environment=_ONE_THREAD,
         )
-        listener = threading.Thread(target=self._listen, args=(process,), daemon=True)
-        worker = _Worker(process, f"process {process.pid}", listener, core)
         self._crew.append(worker)
-        listener.start()
         return worker
 
-    def _listen(self, process: subprocess.Popen[bytes]) -> None:
-        """Pass on what a worker says, line by line, and its end as no line."""
-        assert process.stdout is not None
-        with process.stdout as lines:
-            for line in lines:
-                if line.endswith(b"\n"):
-                    self._heard.put((process.pid, line))
-        self._heard.put((process.pid, b""))
-
-    def _hear(self, who: int, line: bytes) -> None:
-        worker = next((worker for worker in self._crew if worker.process.pid == who), None)
-        if worker is None:  # its last words, after it was given up
-            return
+    def _hear(self, worker: _Worker, message: Message | None) -> None:
         worker.heard = time.monotonic()
-        if not line:
+        if message is None:
             self._bury(worker, "crashed")
-            return
-        told = json.loads(line)
-        if isinstance(told, list):
-            worker.outcomes.append(Outcome(*told))
-        elif told == "done" and worker.batch is not None:
-            self._ended.append(Ended(worker.batch, worker.outcomes, worker.name))
-            worker.batch = None
-        elif told == "ready":
+        elif message.kind == "ready":
             worker.ready, self.false_starts = True, 0
+        elif message.kind == "progress":
+            worker.outcomes.append(message.value)
+        elif message.kind == "done":
+            self._end(worker)
+        elif message.kind == "failed":
+            self._end(worker, "crashed", f"its process raised {type(message.value).__name__}: {message.value}")
 
     def _end_silent(self) -> None:
         """End workers that have work and said nothing for too long."""
         now = time.monotonic()
         for worker in list(self._crew):
             if worker.batch is not None and now - worker.heard > self._timeout:
+                worker.process.kill()
                 self._bury(worker, "timeout")
 
     def _bury(self, worker: _Worker, how: str) -> None:
-        """Take leave of a worker, and say what became of its batch."""
+        """Take leave of a worker that has ended, and say what became of its batch."""
         self._crew.remove(worker)
-        if how == "crashed":
-            with suppress(subprocess.TimeoutExpired):
-                worker.process.wait(_LEAVING)
-        worker.process.kill()
-        code = _leave(worker)
+        ending = worker.process.bury()
         if not worker.ready and how == "crashed":
             self.false_starts += 1
             if self.false_starts >= _STARTS:
-                raise FileError("no worker process can be started; see its message above")
-        text = f"no result within {self._timeout:g} s" if how == "timeout" else _last_words(code)
+                raise WorkerError("no worker process can be started; see its message above")
+        text = f"no result within {self._timeout:g} s" if how == "timeout" else f"its process ended with {ending}"
+        self._end(worker, how, text)
+
+    def _end(self, worker: _Worker, lost: str | None = None, text: str = "") -> None:
+        """Say how the batch of a worker ended, if it has one."""
         if worker.batch is not None:
-            self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, how, text))
-
-
-def _leave(worker: _Worker) -> int:
-    """Close the pipes of a process that was ended, and return its exit code."""
-    code = worker.process.wait()
-    assert worker.process.stdin is not None
-    with suppress(OSError):
-        worker.process.stdin.close()
-    worker.listener.join(1.0)
-    return code
-
-
-def _last_words(code: int) -> str:
-    """Return how a process ended."""
-    if code >= 0:
-        return f"its process ended with exit code {code}"
-    import signal
-
-    try:
-        return f"its process was ended by {signal.Signals(-code).name}"
-    except ValueError:
-        return f"its process was ended by signal {-code}"
+            self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, lost, text))
+            worker.batch = None

@@ -1,6 +1,6 @@
 """What a worker does: points in, outcomes out, each of its inputs alone.
 
-Nothing here knows of stores, processes or clusters; an engine calls `solve_unit` wherever it likes.
+Nothing here knows of stores, processes or clusters.
 """
 
 from __future__ import annotations
@@ -19,13 +19,21 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
+from wingbeat.workers.main import Context
 
-__all__ = ["solve_unit"]
+__all__ = ["solve_unit", "solve_units"]
 
 # Recipes that a process keeps set up.
 _KEPT = 64
 # Answers of a chain that predict the next: a parabola along it needs no more.
 _PREDICTING = 8
+
+
+def solve_units(units: list[Unit], context: Context) -> None:
+    """Report the outcome of each point of some units, in order; what a worker process does with a batch."""
+    for unit in units:
+        for outcome in solve_unit(unit):
+            context.report(outcome)
 
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:

@@ -44,7 +44,7 @@ NAMES = {
     "--aero foo": "coefficients = 'foo'|su-fan, dickinson|a table's path ends in .csv",
     "--airspeed fast": "aero.airspeed = 'fast'|use one of planar, full",
     "--force-point nose": "aero.force_point = 'nose'|use one of quarter-chord, centre-of-pressure",
-    "--force-point centre-of-pressure --aero dickinson": "aero.force_point|which dickinson has none of; use quar",
+    "--force-point centre-of-pressure --aero dickinson": "aero.force_point|and dickinson has none; use quar",
     "--frequency 3": "--frequency",
     "12": "'12'",
     "--json=perhaps": "--json|perhaps",

@@ -3,16 +3,7 @@
 from __future__ import annotations
 
 import functools
-import multiprocessing
-import multiprocessing.connection
-import multiprocessing.resource_tracker
-import multiprocessing.util
-import os
-import signal
-import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -26,9 +17,7 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, correct_guess, find_beside, find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
-from wingbeat.workers.affinity import cores_of, pin_to
-from wingbeat.workers.gc import collect_seldom
-from wingbeat.workers.leftovers import Leftover
+from wingbeat.workers.process_map import process_map
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -103,7 +92,7 @@ def _in_order(
     work = solve if processes == 1 else functools.partial(_all_of, solve)
     waiting: dict[int, Solution] = {}
     due = 0
-    with spread(processes, max(len(groups), sum(len(group.parts) for group in groups))) as over:
+    with process_map(processes, max(len(groups), sum(len(group.parts) for group in groups))) as over:
         for index, solution in _by_groups(functools.partial(over, work), problems, groups):
             waiting[index] = solution
             if progress is not None:
@@ -184,87 +173,3 @@ def find_with_known(
     if known is None:
         return find_orbit(problem, starts, seed, None, 1, most_starts, advise, explain, options)
     return known if starts == 1 else find_beside(known, starts - 1, seed)
-
-
-def in_processes(
-    work: Callable[[T], R],
-    items: Sequence[T],
-    processes: int,
-    progress: Progress | None = None,
-) -> Iterator[R]:
-    """Yield what `work` makes of each item, in their order, as they come.
-
-    Parameters
-    ----------
-    work : a function that can be pickled; its JAX programs run in the process it is called in.
-    items : what to work on.
-    processes : how many Python processes share the items; with 1 it is done in this one.
-    progress : called with (items done, items in all).
-    """
-
-    def told(results: Iterator[R]) -> Iterator[R]:
-        for done, result in enumerate(results, start=1):
-            if progress is not None:
-                progress(done, len(items))
-            yield result
-
-    with spread(processes, len(items)) as over:
-        yield from told(over(work, items))
-
-
-@contextmanager
-def spread(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
-    """Give a `map` over so many processes, as many as there is work for at most; with 1 it is Python's own."""
-    if processes == 1:
-        yield map
-        return
-    # A process that has run JAX must not be forked, so the workers start afresh and import wingbeat.
-    context = multiprocessing.get_context("spawn")
-    count = min(processes, max(most, 1))
-    with Leftover(_abandon), ProcessPoolExecutor(count, context, _begin_work, (cores_of(count),)) as pool:
-
-        def over(work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
-            with _deaf_to_interrupts():  # it starts the processes
-                return pool.map(work, items)
-
-        try:
-            yield over
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-
-
-@contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Have processes that are started meanwhile ignore Ctrl-C, also while they still import: it is for this one."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    multiprocessing.resource_tracker.ensure_running()  # at its start it lets the signal through again
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _abandon() -> None:
-    """End the processes of pools at once, and give the system back the semaphores they share."""
-    for process in multiprocessing.active_children():
-        process.kill()
-    multiprocessing.util._run_finalizers(0)  # type: ignore[attr-defined]
-
-
-def _begin_work(cores: Sequence[int | None]) -> None:
-    """Set up a process of a pool: those of one pool are numbered one after the other, so that each has its core."""
-    number = multiprocessing.current_process().name.split("-")[-1].split(":")[-1]
-    threading.Thread(target=_leave_with_parent, daemon=True).start()
-    pin_to(cores[int(number) % len(cores)])
-    collect_seldom()
-
-
-def _leave_with_parent() -> None:
-    """End this process when the one that started it is gone, whatever it is doing."""
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-    multiprocessing.connection.wait([parent.sentinel])
-    os._exit(1)

@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.many.batch import in_processes
 from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.sensitivity import Sensitivity
 from wingbeat.orbits.solve import Progress, correct_guess, find_orbit, search_near
 from wingbeat.orbits.status import Status
+from wingbeat.workers.process_map import in_processes
 
 # A uniform spread's standard deviation, as a share of its width.
 _UNIFORM = 1 / math.sqrt(12)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import itertools
+import queue
 import threading
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from wingbeat.app.crew import WorkerProcess
+from wingbeat.workers.main import Message
+from wingbeat.workers.process import WorkerProcess
 
-__all__ = ["Event", "Job", "Pool"]
+__all__ = ["Event", "FairPool", "Job"]
 
 # Processes that end before they are ready, in a row, after which no more are started for the same job.
 _FALSE_STARTS = 3
@@ -40,7 +43,7 @@ class Event(NamedTuple):
 
 @dataclass(eq=False)
 class Job:
-    """Something to do for a session; made by `Pool.submit`."""
+    """Something to do for a session; made by `FairPool.submit`."""
 
     session: str
     what: Any
@@ -58,6 +61,7 @@ class _Desk:
 
     wake: threading.Condition
     worker: WorkerProcess | None = None
+    heard: queue.SimpleQueue[Message | None] = field(default_factory=queue.SimpleQueue)
     job: Job | None = None
     ready: bool = False
     late: bool = False
@@ -79,25 +83,32 @@ class _Turns:
         return turn
 
 
-class Pool:
+class FairPool:
     """A pool of worker processes with a fair queue; events come from threads of its own.
 
     Parameters
     ----------
-    work : what a worker does with a job, ``MODULE:FUNCTION``, called with the job and a `worker.Hand`.
+    work : what a worker does with a job, ``MODULE:FUNCTION``, called with the job and a `main.Context`.
     processes : how many workers.
     most_waiting : jobs of one session that may wait at a time.
     seconds : a job that takes longer is ended, and so is its process.
+    memory : resident memory [bytes] beyond which a worker is replaced after a job.
     """
 
-    def __init__(self, work: str, processes: int, most_waiting: int = 6, seconds: float = 300.0) -> None:
-        self._work, self._most_waiting, self._seconds = work, most_waiting, seconds
+    def __init__(
+        self,
+        work: str,
+        processes: int,
+        most_waiting: int = 6,
+        seconds: float = 300.0,
+        memory: int = 3 << 30,
+    ) -> None:
+        self._work, self._most_waiting, self._seconds, self._memory = work, most_waiting, seconds, memory
         self._lock = threading.RLock()
         self._waiting: list[Job] = []
         self._turns = _Turns()
         self._numbers = itertools.count(1)
         self._open = True
-        self.memory: dict[int, int] = {}
         self._desks = [_Desk(threading.Condition(self._lock)) for _ in range(processes)]
         for desk in self._desks:
             desk.thread = threading.Thread(target=self._look_after, args=(desk,), daemon=True)
@@ -115,7 +126,7 @@ class Pool:
         Parameters
         ----------
         session : whose job it is.
-        what : fit for JSON; what the worker's function gets.
+        what : what the worker's function gets; it can be pickled.
         tell : called with each `Event`, from another thread.
         """
         with self._lock:
@@ -139,7 +150,7 @@ class Pool:
                 return
             for desk in self._desks:
                 if desk.job is job and desk.worker is not None:
-                    desk.worker.send({"stop": job.number})
+                    desk.worker.stop()
                     self._later(_GRACE, desk, job, late=False)
 
     def leave(self, session: str) -> None:
@@ -218,41 +229,51 @@ class Pool:
 
     def _seat(self, desk: _Desk) -> None:
         """Start a process and wait until it is ready; one that cannot start is left for the next job to try."""
-        worker = WorkerProcess(self._work)
+        # The libraries keep the threads they have on the command line: with others they add up in another order,
+        # and the tenth digit of an answer would not be the command line's.
+        worker = WorkerProcess(self._work, desk.heard.put, memory=self._memory)
         with self._lock:
             desk.worker, desk.ready = worker, False
             if not self._open:
                 worker.kill()
-        desk.ready = next(worker.lines(), None) is not None
+        desk.ready = desk.heard.get() is not None
         desk.false_starts = 0 if desk.ready else desk.false_starts + 1
-        if not desk.ready and desk.false_starts < _FALSE_STARTS and self._open:
+        if desk.ready:
+            return
+        if desk.false_starts < _FALSE_STARTS and self._open:
             worker.bury()
             self._seat(desk)
+        else:
+            desk.heard.put(None)  # the next job hears it again
 
     def _see_through(self, desk: _Desk, job: Job) -> Event | None:
         """Return how a job ended, or None where its process was gone before it took it."""
         worker = desk.worker
         assert worker is not None
-        if job.unwanted:
-            return Event("stopped")
         desk.late, took, leaves, ending = False, False, False, None
+        with self._lock:  # who cancels the job comes before its request, or sends its stop after it
+            if job.unwanted:
+                return Event("stopped")
+            worker.request(job.what)
         clock = self._later(self._seconds, desk, job, late=True)
-        worker.send({"number": job.number, "what": job.what})
-        for told in worker.lines():
-            kind, value = told["kind"], told.get("value")
-            if kind == "took":
+        while ending is None and (message := desk.heard.get()) is not None:
+            event = Event(*message)
+            if event.kind == "failed":
+                traceback.print_exception(event.value)  # the server's log has all of it, its visitor a line
+                words = f"{type(event.value).__name__}: {event.value}".split("\n")[0][:300]
+                event = Event("failed", words)
+            if event.kind == "leaving":
+                leaves = True
+            elif event.ends:
+                ending = event
+            else:
                 took = True
-                job.tell(Event("started"))
-            elif Event(kind).ends:
-                self.memory[worker.pid], leaves, ending = told["memory"], told["leaves"], Event(kind, value)
-                break
-            elif not job.unwanted:
-                job.tell(Event(kind, value))
+                if not job.unwanted:
+                    job.tell(event)
         clock.cancel()
         if ending is None or leaves:
             how = worker.bury()
-            self.memory.pop(worker.pid, None)
-            desk.worker, desk.ready = None, False
+            desk.worker, desk.ready, desk.heard = None, False, queue.SimpleQueue()
             ending = ending or self._loss(desk, job, took, how)
         return Event("stopped") if ending is not None and job.unwanted else ending
 

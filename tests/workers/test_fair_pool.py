@@ -7,9 +7,8 @@ import time
 
 import pytest
 
-from tests.helpers.places import ROOT
-from wingbeat.app import pool as pool_module
-from wingbeat.app.pool import Event, Pool
+from wingbeat.workers import fair_pool
+from wingbeat.workers.fair_pool import Event, FairPool
 
 PATIENCE = 60.0
 
@@ -40,12 +39,11 @@ class Heard:
 
 
 @pytest.fixture
-def make_pool(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+def make_pool():
     pools = []
 
     def make(processes=1, **options):
-        pools.append(Pool("tests.helpers.explorer_standin:do", processes, **options))
+        pools.append(FairPool("tests.helpers.worker_standin:do", processes, **options))
         return pools[-1]
 
     yield make
@@ -116,7 +114,7 @@ def test_a_waiting_job_is_dropped_and_a_running_one_stops_at_its_next_step(make_
 
 
 def test_a_job_that_is_deaf_to_being_stopped_is_ended_with_its_process(make_pool, monkeypatch):
-    monkeypatch.setattr(pool_module, "_GRACE", 0.2)
+    monkeypatch.setattr(fair_pool, "_GRACE", 0.2)
     pool = make_pool()
     job, heard = ask(pool, ("deaf", 1000.0))
     heard.until("started")
@@ -147,6 +145,20 @@ def test_work_that_ends_its_process_is_lost_by_itself(make_pool):
     assert ask(pool, ("echo", 1))[1].end().kind == "done"
 
 
+def test_a_worker_that_is_refused_memory_is_told_of_and_replaced(make_pool):
+    pool = make_pool()
+    assert ask(pool, ("hoard", 1 << 40))[1].end() == Event("lost", "exit code 12: out of memory")
+    assert ask(pool, ("echo", 1))[1].end().kind == "done"
+
+
+def test_a_worker_that_outgrew_its_memory_is_replaced_and_costs_nobody_an_answer(make_pool):
+    pool = make_pool(memory=1)
+    jobs = [ask(pool, ("echo", i))[1] for i in range(3)]
+    answers = [heard.end().value for heard in jobs]
+    assert [answer["echo"] for answer in answers] == [0, 1, 2]
+    assert len({answer["pid"] for answer in answers}) == 3
+
+
 def test_a_job_that_takes_too_long_is_ended(make_pool):
     pool = make_pool(seconds=0.3)
     assert ask(pool, ("deaf", 1000.0))[1].end() == Event("late", 0.3)
@@ -168,11 +180,11 @@ def test_a_session_that_leaves_takes_its_jobs_along(make_pool):
     assert first.end().kind == second.end().kind == "stopped"
 
 
-def test_work_that_cannot_be_imported_is_told_and_not_tried_for_ever(monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", "")
-    pool = Pool("no_such_module:do", 1)
+def test_work_that_cannot_be_imported_is_told_for_every_job_and_not_tried_for_ever():
+    pool = FairPool("no_such_module:do", 1)
     try:
-        assert ask(pool, ("echo", 1))[1].end() == Event("lost", "exit code 1")
+        for _ in range(2):
+            assert ask(pool, ("echo", 1))[1].end() == Event("lost", "exit code 1")
     finally:
         pool.close()
 

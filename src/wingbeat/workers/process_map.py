@@ -1,0 +1,166 @@
+"""A `map` over worker processes, which start when there is work for them and end with the map."""
+
+from __future__ import annotations
+
+import io
+import multiprocessing
+import pickle
+import queue
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from multiprocessing import spawn
+from typing import Any, TypeVar
+
+from wingbeat.errors import WorkerError
+from wingbeat.workers.affinity import cores_of, pin_to
+from wingbeat.workers.main import Context, Message
+from wingbeat.workers.process import WorkerProcess
+
+__all__ = ["in_processes", "process_map"]
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+# Processes that one item may take along: a kill from outside hardly meets the same one twice.
+_TRIES = 2
+
+
+def in_processes(
+    work: Callable[[T], R],
+    items: Sequence[T],
+    processes: int,
+    progress: Callable[[int, int], None] | None = None,
+) -> Iterator[R]:
+    """Yield what `work` makes of each item, in their order, as they come.
+
+    Parameters
+    ----------
+    work : a function that can be pickled; its JAX programs run in the process it is called in.
+    items : what to work on.
+    processes : how many Python processes share the items; with 1 it is done in this one.
+    progress : called with (items done, items in all).
+
+    Raises
+    ------
+    WorkerError : processes die over the same item, or cannot be started.
+    """
+    with process_map(processes, len(items)) as over:
+        for done, result in enumerate(over(work, items), start=1):
+            if progress is not None:
+                progress(done, len(items))
+            yield result
+
+
+@contextmanager
+def process_map(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
+    """Give a `map` over so many processes, as many as there is work for at most; with 1 it is Python's own."""
+    if processes == 1:
+        yield map
+        return
+    callers = _Callers(min(processes, max(most, 1)))
+    with ThreadPoolExecutor(callers.count) as threads:
+
+        def over(work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+            return threads.map(lambda item: callers.call(work, item), items)
+
+        try:
+            yield over
+        finally:
+            threads.shutdown(wait=False, cancel_futures=True)
+            callers.close()
+
+
+class _Caller:
+    """A place for a process, on a core of its own if there is one for each."""
+
+    def __init__(self, core: int | None) -> None:
+        self.core = core
+        self.heard: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
+        self.process: WorkerProcess | None = None
+
+
+class _Callers:
+    """Processes that call functions, each lent to one thread at a time; that used last is lent first."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        # What a new process needs to import this one's main module; it refuses to start more from within that.
+        self._main = spawn.get_preparation_data("worker")
+        del self._main["authkey"]  # which does not let itself be pickled
+        self._all = [_Caller(core) for core in cores_of(count)]
+        self._idle: queue.LifoQueue[_Caller] = queue.LifoQueue()
+        for caller in self._all:
+            self._idle.put(caller)
+        self._lock = threading.Lock()
+        self._open = True
+
+    def call(self, work: Callable[[T], R], item: T) -> R:
+        """Return what a process makes of an item."""
+        pickled = pickle.dumps((work, item))
+        caller = self._idle.get()
+        ending = ""
+        try:
+            for _ in range(_TRIES):
+                process = self._process(caller)
+                process.request((self._main, pickled, caller.core))
+                for message in iter(caller.heard.get, None):
+                    if message.kind == "done":
+                        return message.value
+                    if message.kind == "failed":
+                        raise message.value
+                ending, caller.process = process.bury(), None
+            raise WorkerError(f"a worker process ended with {ending}, and so did another one over the same work")
+        finally:
+            self._idle.put(caller)
+
+    def close(self) -> None:
+        """End every process now, whatever it does."""
+        with self._lock:
+            self._open = False
+            processes = [caller.process for caller in self._all if caller.process is not None]
+        for process in processes:
+            process.kill()
+        for process in processes:
+            process.bury()
+
+    def _process(self, caller: _Caller) -> WorkerProcess:
+        with self._lock:
+            if not self._open:
+                raise WorkerError("the worker processes are closed")
+            if caller.process is None:
+                caller.process = WorkerProcess(f"{__name__}:call", caller.heard.put)
+            return caller.process
+
+
+def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) -> Any:
+    """Call a function with an item in a worker process; the request holds both, pickled, and a core."""
+    main, pickled, core = request
+    work, item = _Unpickler(main, pickled).load()
+    # After the imports: a BLAS that sees one core has one thread, and adds up in another order than in the process
+    # that asks.
+    pin_to(core)
+    return work(item)
+
+
+class _Unpickler(pickle.Unpickler):
+    """Imports the main module of the process that asks, though only where something of it is needed.
+
+    A script that gives nothing of its own to the workers may so leave out ``if __name__ == "__main__":``.
+    """
+
+    def __init__(self, main: dict[str, Any], pickled: bytes) -> None:
+        super().__init__(io.BytesIO(pickled))
+        self._main = main
+
+    def find_class(self, module: str, name: str) -> Any:
+        """Return a class or function."""
+        if module == "__main__":
+            here: Any = multiprocessing.current_process()
+            here._inheriting = True  # as multiprocessing marks it, so that `get_preparation_data` refuses
+            try:
+                spawn.prepare(self._main)
+            finally:
+                del here._inheriting
+        return super().find_class(module, name)

@@ -65,12 +65,12 @@ if TYPE_CHECKING:
     from wingbeat.results.glide import glide_polar as glide_polar
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
-    from wingbeat.results.orbit import solve_orbit as solve_orbit
-    from wingbeat.results.orbit import solve_orbits as solve_orbits
     from wingbeat.results.power import power_account as power_account
     from wingbeat.results.sensitivities import Sensitivities as Sensitivities
     from wingbeat.results.sensitivities import sensitivities as sensitivities
     from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
+    from wingbeat.results.solving import solve_orbit as solve_orbit
+    from wingbeat.results.solving import solve_orbits as solve_orbits
     from wingbeat.results.spread import Spread as Spread
     from wingbeat.results.spread import orbit_spread as orbit_spread
     from wingbeat.species import Species as Species
@@ -150,8 +150,8 @@ _HOME = {
     "simulate": "results.flight",
     "simulate_torque_driven": "results.flight",
     "solve_curve": "results.curve",
-    "solve_orbit": "results.orbit",
-    "solve_orbits": "results.orbit",
+    "solve_orbit": "results.solving",
+    "solve_orbits": "results.solving",
     "species_names": "species",
     "uncertainty_by_samples": "results.sensitivities",
 }

@@ -119,7 +119,7 @@ def test_a_straight_line_has_the_textbook_intervals():
 
 
 def test_use_beyond_the_data_is_warned_of(fit):
-    with pytest.warns(FitRangeWarning, match="C_L was fitted from 0 to 110 degrees and is used beyond"):
+    with pytest.warns(FitRangeWarning, match="C_L was fitted from 0 to 110 degrees and is used outside that range"):
         fit.lift.predict([120.0])
     assert fit.lift.predict(5.0).shape == (1,)
 

@@ -102,7 +102,7 @@ def test_blockage_is_told_and_not_corrected():
     narrow = [run(alpha_deg=a, channel_width=0.5, thickness=0.01) for a in (0.0, 90.0)]
     wide = [dataclasses.replace(one, channel_width=None) for one in narrow]
     assert reduce_runs(narrow).notes == (
-        "the plate blocks up to 16.0% of the channel's width; nothing was corrected",
+        "the plate blocks up to 16.0% of the channel's width; no correction was made",
     )
     assert reduce_runs(wide).notes == ()
     np.testing.assert_array_equal(reduce_runs(wide).mean["C_D"], reduce_runs(narrow).mean["C_D"])

@@ -17,10 +17,11 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import Orbit, solve_orbit
+from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups
 from wingbeat.results.sensitivities import sensitivities
+from wingbeat.results.solving import solve_orbit
 from wingbeat.viewer import scene
 from wingbeat.workers.main import Context
 

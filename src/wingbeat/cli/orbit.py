@@ -50,10 +50,11 @@ from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.power import power_account
 from wingbeat.results.sensitivities import Sensitivities
 from wingbeat.results.sensitivities import sensitivities as differentiate
+from wingbeat.results.solving import solve_orbit
 from wingbeat.results.spread import Spread, orbit_spread
 from wingbeat.species import Species
 

@@ -17,7 +17,8 @@ from wingbeat.errors import FaultList, suggest
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Tally
-    from wingbeat.studies.study import Study, Summary
+    from wingbeat.studies.study import Study
+    from wingbeat.studies.summary import Summary
 
 study = App(name="study", help="Solve a grid or sample of problems; an interrupted study resumes.")
 

@@ -14,8 +14,8 @@ from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whol
 from wingbeat.cli.progress import progress_bar
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import solve_orbit
 from wingbeat.results.sensitivities import Comparison, sensitivities, uncertainty_by_samples
+from wingbeat.results.solving import solve_orbit
 from wingbeat.workers.affinity import core_count
 
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from wingbeat._jax.config import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
-from wingbeat.mechanics.wing_motion import Strips, WingShape, shape_at, strips_of, with_time_axes
+from wingbeat.mechanics.wing_motion import shape_at, strips_of, with_time_axes
+from wingbeat.mechanics.wing_shape import Strips, WingShape
 from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:

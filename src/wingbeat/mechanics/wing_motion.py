@@ -16,6 +16,7 @@ from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.frames import from_world, stroke_pitch
+from wingbeat.mechanics.wing_shape import Strips, WingShape
 from wingbeat.vehicle import Vehicle, Wing
 
 if TYPE_CHECKING:
@@ -23,87 +24,6 @@ if TYPE_CHECKING:
 
 
 _FEW_STRIPS = 32
-
-
-class Strips(NamedTuple):
-    """What of the strips of one wing does not change with time, shape (N,), or (N, 1, ...) beside axes of time.
-
-    Attributes
-    ----------
-    span_fraction : distance of the strip's centre from the shoulder over the semi-span, 0 to 1.
-    chord : [m].
-    mass : [kg].
-    """
-
-    span_fraction: PerStripBroadcast
-    chord: PerStripBroadcast
-    mass: PerStripBroadcast
-
-
-class WingShape(NamedTuple):
-    """Where the strips of the left wing are, in stroke axes, arrays of shape (N, ...).
-
-    Flap turns a strip about the first axis. Sweep then turns its span forward, in the plane of that axis and the
-    span. Pitch turns it about its own span, which runs along the quarter chords.
-
-    Attributes
-    ----------
-    ahead, left, above : place of the quarter chord from the body's centre of mass [m].
-    flap_sine, flap_cosine : of the strip's flap angle.
-    pitch : pitch of the strip [rad].
-    pitch_sine, pitch_cosine : of that pitch.
-    sweep_sine, sweep_cosine : of the sweep angle, shape (...); None for a wing without sweep.
-    """
-
-    ahead: PerStripBroadcast
-    left: PerStripBroadcast
-    above: PerStripBroadcast
-    flap_sine: PerStripBroadcast
-    flap_cosine: PerStripBroadcast
-    pitch: PerStripBroadcast
-    pitch_sine: PerStripBroadcast
-    pitch_cosine: PerStripBroadcast
-    sweep_sine: Phases | None = None
-    sweep_cosine: Phases | None = None
-
-    @property
-    def quarter_chord(self) -> Triple:
-        """Place of the quarter chord, forward, left and up [m]."""
-        return self.ahead, self.left, self.above
-
-    @property
-    def unpitched(self) -> Triple:
-        """Unit vector along the chord that the strip has without pitch."""
-        if self.sweep_sine is None:
-            return 1.0, 0.0, 0.0
-        inward = -self.sweep_sine
-        return self.sweep_cosine, inward * self.flap_cosine, inward * self.flap_sine
-
-    @property
-    def spanwise(self) -> Triple:
-        """Unit vector towards the tip."""
-        if self.sweep_sine is None:
-            return jnp.zeros_like(self.flap_sine), self.flap_cosine, self.flap_sine
-        return self.sweep_sine, self.sweep_cosine * self.flap_cosine, self.sweep_cosine * self.flap_sine
-
-    @property
-    def chordwise(self) -> Triple:
-        """Unit vector to the leading edge."""
-        if self.sweep_sine is not None:
-            return self._pitched(self.pitch_cosine, self.pitch_sine)
-        return self.pitch_cosine, -self.pitch_sine * self.flap_sine, self.pitch_sine * self.flap_cosine
-
-    @property
-    def normal(self) -> Triple:
-        """Unit vector normal to chord and span, up at rest."""
-        if self.sweep_sine is not None:
-            return self._pitched(-self.pitch_sine, self.pitch_cosine)
-        return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine
-
-    def _pitched(self, along: PerStripBroadcast, across: PerStripBroadcast) -> Triple:
-        """Return the vector of these parts along the unpitched chord and along the normal without pitch."""
-        forward, left, up = self.unpitched
-        return along * forward, along * left - across * self.flap_sine, along * up + across * self.flap_cosine
 
 
 class WingMotion(NamedTuple):

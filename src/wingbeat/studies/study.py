@@ -6,7 +6,6 @@ import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +25,7 @@ from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
 from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
+from wingbeat.studies.summary import Summary
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
 from wingbeat.workers.affinity import core_count
 
@@ -41,40 +41,6 @@ _SUFFIX = ".study.sqlite"
 _LONGEST = 1e6
 # Seconds of a search, of the record beside it, and of a process that starts, before this machine has solved any.
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
-
-
-@dataclass(frozen=True)
-class Summary:
-    """How far a study is.
-
-    Parameters
-    ----------
-    total : points of the study.
-    counts : points by status; ``waiting`` are those without an answer.
-    kept : answers in the store of points that the study no longer asks for.
-    changed : whether the store holds the points of the study as it was before a change, not yet run.
-    seconds : what the answers took, on one core [s].
-    """
-
-    total: int
-    counts: dict[str, int]
-    kept: int = 0
-    changed: bool = False
-    seconds: float = 0.0
-
-    def count(self, *statuses: str) -> int:
-        """Points that have one of these statuses."""
-        return sum(self.counts.get(status, 0) for status in statuses)
-
-    @property
-    def waiting(self) -> int:
-        """Points without an answer."""
-        return self.count("waiting")
-
-    @property
-    def all_certified(self) -> bool:
-        """Whether every point has a certified orbit."""
-        return self.count("converged") == self.total
 
 
 class Study:

@@ -31,7 +31,7 @@ NUMBERS = {
     "--speed 9 --strips 0": "aero.strips = 0: must be a whole number from 1 to 1000; the paper has 10",
     "--speed 9 --strips 1001": "aero.strips = 1001: must be a whole number from 1 to 1000",
     "--speed 9 --strips ten": '--strips|"ten" is not a whole number',
-    "--speed 9 --flap-amplitude-max nan": "--flap-amplitude-max = nan: must be finite; the lower bound of",
+    "--speed 9 --flap-amplitude-max nan": "--flap-amplitude-max = nan: must be finite; the lower bound of the flap",
     "--speed 9 --flap-amplitude-max -5": "--flap-amplitude-max = -5.0: must be > 5 and < 180 degrees",
     "--speed 9 --flap-amplitude-max 4": "--flap-amplitude-max = 4.0: must be > 5|is 5 degrees",
     "--speed 9 --flap-amplitude-max 180": "--flap-amplitude-max = 180.0: must be > 5 and < 180 degrees",

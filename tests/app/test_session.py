@@ -48,7 +48,7 @@ def test_no_more_searches_are_done_than_were_asked_for():
     with ThreadPoolExecutor(1) as thread:
         states = thread.submit(asyncio.run, visit()).result()
     assert states == [
-        ("Solving: 11 of 12 searches.", 11 / 12),
-        ("Solving: 12 of 12 searches.", 1.0),
-        ("Solving: 12 of 12 searches.", 1.0),
+        ("Solving: 11 of 12 starts.", 11 / 12),
+        ("Solving: 12 of 12 starts.", 1.0),
+        ("Solving: 12 of 12 starts.", 1.0),
     ]

@@ -174,7 +174,7 @@ def test_dask_of_this_machine_through_the_program(cheap):
     assert "Traceback" not in err
     assert "converged 40 error 1 crashed 1 timeout 1" in " ".join(out.split())
     assert "crashed: speed = 90: its process ended with SIGKILL" in out
-    assert "timeout: speed = 91: no answer within 1 s" in out
+    assert "timeout: speed = 91: no result within 1 s" in out
     study.wait_gone()
     kept = study.points()
     study.write(GRID[:40])

@@ -140,7 +140,7 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     assert "crashed: speed = 90: its process ended with SIGKILL" in out
     assert "crashed: speed = 95: its process ended with exit code 7" in out
     assert "crashed: speed = 96: its process raised TypeError: no outcome" in out
-    assert "timeout: speed = 91: no answer within 1 s" in out
+    assert "timeout: speed = 91: no result within 1 s" in out
     assert "error: speed = 92: ValueError: no such speed" in out
     assert "infeasible: speed = 93: too fast" in out
     assert "26 points" in err

@@ -122,7 +122,7 @@ def test_every_number_is_given_derived_or_a_guess(kind: str) -> None:
             assert path.startswith("wingbeat.")
             assert number.value in (0.0, 0.5, ())
             continue
-        told = text.startswith(("given", DERIVED, "guess: ", "first guess", "Su et al.", "vehicle.mass minus"))
+        told = text.startswith(("given", DERIVED, "guess: ", "first guess", "Su et al.", "vehicle.mass less"))
         assert told, (path, text)
         assert number.range or path in ("vehicle.mass", "vehicle.body.mass"), path
     laws = ["body.pitch_inertia", "wing.semi_span", "wing.chord", "wing.mass", "wing.mass_exponent"]

@@ -78,7 +78,7 @@ def test_a_damaged_answer_is_named_and_salvage_loses_nothing_else(cheap, monkeyp
         code, out, err = study.run(*words)
         assert (code, out) == (2, "")
         assert f"is damaged (1 of 13 results do not match their digests, key {key[:8]})" in err
-        assert "run `wingbeat study salvage`, which keeps the 12 answers that are whole" in err
+        assert "run `wingbeat study salvage`, which keeps the 12 intact results" in err
     assert study.store.read_bytes() == damaged
     code, out, err = study.run("salvage", study.file)
     aside = study.folder / "cheap.study.sqlite.damaged"
@@ -116,7 +116,7 @@ def test_a_damaged_head_costs_no_answer(cheap, place, words):
     code, _, err = study.run("status", study.file)
     assert code == 2
     assert f"is damaged ({words})" in err
-    assert "keeps the 12 answers" in err
+    assert "keeps the 12 intact results" in err
     assert study.run("salvage", study.file)[0] == 0
     assert table(study) == before
     assert study.points() == kept
@@ -128,7 +128,7 @@ def test_a_lost_answer_is_missed(cheap):
     with closing(sqlite3.connect(study.store)) as connection:
         connection.execute("DELETE FROM points WHERE rowid = 3")
         connection.commit()
-    assert "is damaged (11 of 12 answers are left" in study.run("status", study.file)[2]
+    assert "is damaged (11 of 12 results are left" in study.run("status", study.file)[2]
 
 
 def test_a_damaged_log_of_a_killed_driver_is_not_cut_off_in_silence(cheap):

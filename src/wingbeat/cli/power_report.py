@@ -34,7 +34,7 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
 
 
 def _fate(returned: float) -> str:
-    named = {-1.0: "if negative work costs as much as positive", 0.0: "if it is lost"}
+    named = {-1.0: "if it costs as much as positive work", 0.0: "if it is lost"}
     return named.get(returned, f"if {returned:.0%} of it is returned")
 
 

@@ -63,7 +63,7 @@ def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -
     elif whole <= 2 * wing:
         faults.add(where, value, f"leaves no mass for the body: whole {whole:g} kg, each wing {wing:g} kg")
     else:
-        numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass minus both wings")
+        numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass less both wings")
 
 
 def check_bounds(content: SpeciesText, faults: FaultList) -> None:

@@ -104,6 +104,7 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
     Raises
     ------
     InvalidInputError : the address cannot be opened.
+    KeyboardInterrupt : it was interrupted.
     """
     host = host.strip() or _LOOPBACK  # for the system an empty one would be every address there is
     try:
@@ -123,6 +124,8 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
             _Server(configure(house, host)).run(sockets=[listening])
         finally:
             house.close()
+    # Only a signal ends the server. Now and then, on a busy machine, the one raised again is lost.
+    raise KeyboardInterrupt
 
 
 def _announce(host: str, listening: socket.socket) -> str:

@@ -35,7 +35,10 @@ def reachable():
             if not thing.__module__.startswith("wingbeat.") or thing.__module__.startswith(ELSEWHERE):
                 continue
             found[name] = thing
-            for key, member in vars(thing).items() if isinstance(thing, type) else ():
+            own = [
+                base for base in reversed(getattr(thing, "__mro__", ())) if base.__module__.startswith("wingbeat.")
+            ]
+            for key, member in [item for base in own for item in vars(base).items()]:
                 member = member.__func__ if isinstance(member, classmethod | staticmethod) else member
                 if not key.startswith("_") and (inspect.isfunction(member) or isinstance(member, property)):
                     found[f"{name}.{key}"] = member

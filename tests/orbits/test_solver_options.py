@@ -83,6 +83,14 @@ def test_every_option_says_what_it_is(made):
         assert field.name in words, f"{made.__name__}.{field.name} is not in the docstring"
 
 
+@pytest.mark.parametrize("made", CLASSES)
+def test_every_option_is_read(made):
+    package = ORBITS.parent
+    code = "\n".join(p.read_text() for p in package.rglob("*.py") if "options" not in p.relative_to(package).parts)
+    fields = [field.name for field in dataclasses.fields(made)]
+    assert not [name for name in fields if f".{name}" not in code and made is not wb.SolverOptions]
+
+
 @pytest.mark.parametrize(
     ("made", "given", "words"),
     [
@@ -139,3 +147,12 @@ def test_every_verb_obeys_the_options():
     ]
     statuses = [one["status"] if isinstance(one, dict) else one.status.value for one in found]
     assert "converged" not in statuses
+
+
+def test_derivatives_obey_the_options(pigeon_orbit):
+    usual = wb.sensitivities(pigeon_orbit.orbit)
+    rough = wb.SolverOptions(sensitivity=wb.SensitivityOptions(step=1e-3))
+    found = wb.sensitivities(pigeon_orbit.orbit, options=rough)
+    pairs = [(a.objective, b.objective) for a, b in zip(usual.slopes, found.slopes, strict=True)]
+    assert any(one != other for one, other in pairs)
+    assert all(one == pytest.approx(other, rel=0.02, abs=1e-3) for one, other in pairs)

@@ -26,7 +26,7 @@ from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
-from wingbeat.results.saving import save_result
+from wingbeat.results.saving import Saveable
 from wingbeat.results.storage import inputs_hash, load_dataset
 from wingbeat.workers.affinity import core_count
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 MOST_SPEEDS = 1000
 
 
-class Curve:
+class Curve(Saveable):
     """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`.
 
     Attributes
@@ -116,20 +116,6 @@ class Curve:
             "warnings": self.warnings,
         }
         return finite_or_none(record)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
-
-        Parameters
-        ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
-
-        Raises
-        ------
-        InvalidInputError : another suffix.
-        FileError : the file cannot be written.
-        """
-        save_result(self._dataset, path)
 
 
 _JSON = ("vehicle", "aero", "air", "constraints", "marks", "warnings", "inputs")

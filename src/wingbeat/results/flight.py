@@ -6,7 +6,6 @@ import functools
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,14 +18,14 @@ from wingbeat.mechanics.flight_model import FlightModel, State, check_state
 from wingbeat.mechanics.flights import fly_beats, fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
-from wingbeat.results.saving import save_result
+from wingbeat.results.saving import Saveable
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 @dataclass(frozen=True)
-class Flight:
+class Flight(Saveable):
     """A flight with prescribed wings, sampled along its beats; made by `simulate`.
 
     Attributes
@@ -59,20 +58,6 @@ class Flight:
             "version": __version__,
         }
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
-
-        Parameters
-        ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
-
-        Raises
-        ------
-        InvalidInputError : another suffix.
-        FileError : the file cannot be written.
-        """
-        save_result(self.dataset, path)
 
 
 def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128) -> Flight:
@@ -111,7 +96,7 @@ _RATES = ("u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate")
 
 
 @dataclass(frozen=True)
-class TorqueDrivenFlight:
+class TorqueDrivenFlight(Saveable):
     """A flight whose wings are driven by torques.
 
     Attributes
@@ -142,20 +127,6 @@ class TorqueDrivenFlight:
             {"time": ("time", self.time, attributes_of(NOMENCLATURE["time"]))},
             {"Conventions": "CF-1.11", KIND: "torque-driven flight", "version": __version__},
         )
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
-
-        Parameters
-        ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
-
-        Raises
-        ------
-        InvalidInputError : another suffix.
-        FileError : the file cannot be written.
-        """
-        save_result(self.dataset, path)
 
 
 def simulate_torque_driven(

@@ -7,7 +7,6 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
-from wingbeat.results.saving import save_result
+from wingbeat.results.saving import Saveable
 from wingbeat.species import Species
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ DEFAULT_ALPHA_DEG = np.arange(1.0, 31.0)
 
 
 @dataclass(frozen=True)
-class GlidePolar:
+class GlidePolar(Saveable):
     """Steady glides of one species over the angle of attack; made by `glide_polar`.
 
     Attributes
@@ -85,20 +84,6 @@ class GlidePolar:
         about = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self._about().items()}
         attributes = {"Conventions": "CF-1.11", KIND: "glide", **about}
         return xr.Dataset(variables, attrs=attributes).set_coords("angle_of_attack")
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
-
-        Parameters
-        ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
-
-        Raises
-        ------
-        InvalidInputError : another suffix.
-        FileError : the file cannot be written.
-        """
-        save_result(self.dataset, path)
 
 
 def glide_polar(

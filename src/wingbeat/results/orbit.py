@@ -20,7 +20,7 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.provenance import inputs_of, own_functions, problem_from
 from wingbeat.results.record import orbit_record
-from wingbeat.results.saving import save_result
+from wingbeat.results.saving import Saveable
 from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def _summary(record: dict[str, Any]) -> Summary:
     )
 
 
-class Orbit:
+class Orbit(Saveable):
     """One periodic orbit, from `solve_orbit`, `solve_orbits`, `load_orbit` or a study.
 
     What can be done with it::
@@ -227,20 +227,6 @@ class Orbit:
         shown = [self] if beside is None else [self, beside]
         labels = ["first", "second"] if beside else [self._inputs["species"]["name"]]
         return FlightWidget([(label, orbit.dataset) for label, orbit in zip(labels, shown, strict=True)])
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
-
-        Parameters
-        ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
-
-        Raises
-        ------
-        InvalidInputError : another suffix.
-        FileError : the file cannot be written.
-        """
-        save_result(self.dataset, path)
 
 
 def load_orbit(path: str | PathLike[str]) -> Orbit:

@@ -15,7 +15,7 @@ from wingbeat.results.storage import save_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["SUFFIXES", "check_result_name", "results_of", "save_result"]
+__all__ = ["SUFFIXES", "Saveable", "check_result_name", "results_of", "save_result"]
 
 # Attributes of a dataset that are plain text; other texts are JSON.
 _TEXTS = (
@@ -81,3 +81,21 @@ def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
 
 def _suffix(path: str | PathLike[str]) -> str:
     return os.path.splitext(os.fspath(path))[1].lower()
+
+
+class Saveable:
+    """A result whose ``dataset`` can be written to a file."""
+
+    def save(self: Any, path: str | PathLike[str]) -> None:
+        """Write everything as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat); see `save_result`.
+
+        Parameters
+        ----------
+        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
+
+        Raises
+        ------
+        InvalidInputError : another suffix.
+        FileError : the file cannot be written.
+        """
+        save_result(self.dataset, path)

@@ -17,6 +17,7 @@ from wingbeat.orbits.many.uncertainty import (
     sample_orbits,
     uniform_spread,
 )
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.objectives import Quantity, named_quantity
 from wingbeat.orbits.problem.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -143,7 +144,9 @@ class Sensitivities:
         faults.raise_if_any()
 
 
-def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES) -> Sensitivities:
+def sensitivities(
+    orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES, options: SolverOptions = DEFAULTS
+) -> Sensitivities:
     """Differentiate an orbit by every number it depends on, and price the bounds and limits that bind.
 
     The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
@@ -154,6 +157,7 @@ def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIE
     ----------
     orbit : certified, of `solve_orbit` or `load_orbit`.
     quantities : what to differentiate besides objective and wingbeat, quantities or their names.
+    options : of the solvers.
 
     Raises
     ------
@@ -170,7 +174,7 @@ def sensitivities(orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIE
         raise InvalidInputError([Fault("orbit", orbit.status.value, rule, fix)])
     known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
     problem = orbit.problem
-    optimum = OptimumSlopes(problem, orbit.unknowns)
+    optimum = OptimumSlopes(problem, orbit.unknowns, options)
     slopes = [optimum.by(one, known) for one in parameters_of(problem)]
     prices = [optimum.by(one, known) for one in optimum.active()]
     return Sensitivities(problem, orbit.unknowns, known, optimum.values(known).tolist(), slopes, prices)
@@ -249,6 +253,7 @@ def uncertainty_by_samples(
     share: float = 1.0,
     processes: int = 1,
     progress: Progress | None = None,
+    options: SolverOptions = DEFAULTS,
 ) -> dict[str, Comparison]:
     """Solve the orbit for parameters drawn from their uncertainties, and compare the result with the first order.
 
@@ -259,7 +264,7 @@ def uncertainty_by_samples(
     samples : number of random samples.
     seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.
-    processes, progress : as in `solve_orbits`.
+    processes, progress, options : as in `solve_orbits`.
 
     Raises
     ------
@@ -272,7 +277,7 @@ def uncertainty_by_samples(
     spreads = found.spreads(fit, share)
     read = [named_quantity(name) for name in quantities]
     drawn = sample_orbits(
-        found.problem, found.unknowns, found.slopes, spreads, read, samples, seed, processes, progress
+        found.problem, found.unknowns, found.slopes, spreads, read, samples, seed, processes, progress, options
     )
     slopes = {s.parameter.path: s for s in found.slopes}
     return {bar.quantity: _compared(bar, drawn, i, slopes) for i, bar in enumerate(bars)}

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -123,6 +124,7 @@ def sample_orbits(
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
+    options: SolverOptions = DEFAULTS,
 ) -> Samples:
     """Solve a problem with its parameters drawn from their spreads, again and again.
 
@@ -137,7 +139,7 @@ def sample_orbits(
     quantities : read off every certified orbit; NaN where there is none.
     count : number of draws.
     seed : of the draws, and of the searches.
-    processes, progress : as in `solve_orbits`.
+    processes, progress, options : as in `solve_orbits`.
     """
     generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]
@@ -145,7 +147,7 @@ def sample_orbits(
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
     predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
     drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, predicted, strict=True)]
-    work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed)
+    work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options)
     values = np.array(list(in_processes(work, drawn, processes, progress)))
     certified = np.asarray(np.isfinite(values).all(axis=1))
     return Samples(tuple(p.path for p in parameters), deviations, values, certified)
@@ -157,12 +159,14 @@ def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: n
     return problem
 
 
-def _read_off(drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int) -> list[float]:
+def _read_off(
+    drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int, options: SolverOptions
+) -> list[float]:
     """Return quantities of the orbit of one draw, not-a-number where there is none."""
     problem, guess = drawn
-    found = correct_guess(problem, guess) or search_near(problem, guess)
+    found = correct_guess(problem, guess, options=options) or search_near(problem, guess, options=options)
     if found is None:
-        found = find_orbit(problem, 1, seed, threads=1, most_starts=1)
+        found = find_orbit(problem, 1, seed, threads=1, most_starts=1, options=options)
     if found.status is not Status.CONVERGED:
         return [math.nan] * len(quantities)
     return [found.value_of(quantity) for quantity in quantities]

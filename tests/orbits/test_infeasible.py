@@ -168,7 +168,7 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     monkeypatch.setattr("wingbeat.orbits.infeasible.without_orbit.search", lambda *_: astray)
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
-    assert "beats that almost close were met in 1 searches, but none could be certified" in failure.message
+    assert "beats that almost close were found from 1 start, but none could be certified" in failure.message
     assert (failure.deficits, failure.relaxations) == ((), ())
     np.testing.assert_array_equal(beat.scaled, closed.scaled)
     # Of those that close the one that closes best is told.
@@ -176,7 +176,7 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
         dataclasses.replace(closed, optimal=False, violation=v, scaled=closed.scaled + v) for v in (0.2, 0.1)
     )
     beat, failure = without_orbit(programme, [astray, rough, best], 1, advise=False)
-    assert "beats that close were met in 3 searches, but none could be certified" in failure.message
+    assert "beats that close were found from 3 starts, but none could be certified" in failure.message
     np.testing.assert_array_equal(beat.scaled, best.scaled)
     beat, failure = unexplained([astray, rough, best])
     assert (failure.status, beat.scaled is best.scaled) == (Status.NOT_CONVERGED, True)
@@ -186,7 +186,7 @@ def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_t
     problem = solved["too slow"].problem
     found = find_orbit(problem, 2, most_starts=2, threads=1, advise=False, explain=False)
     assert (found.status, found.deficits, found.relaxations) == (Status.INFEASIBLE, (), ())
-    assert found.message == "no orbit within the bounds in 2 searches; which law of balance fails was not asked"
+    assert found.message == "no orbit within the bounds from 2 starts; the balance that fails was not computed"
     explained = find_orbit(problem, 2, most_starts=2, threads=1, advise=False)
     assert explained.deficits
 

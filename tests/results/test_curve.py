@@ -47,7 +47,7 @@ def test_every_optimum_of_a_curve_is_certified_and_none_beats_the_first(bat):
 def test_the_change_of_family_is_marked_and_nothing_jumps_beside_the_marks(bat):
     marks = marks_of(bat)
     assert [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"] == [(6.0, 7.0)]
-    assert "another family becomes the better near 6." in next(m.what for m in marks if m.kind == "branch")
+    assert "another family becomes better near 6." in next(m.what for m in marks if m.kind == "branch")
     assert [m.what for m in marks if m.kind == "bounds"] == ["flap_mean met"]
     assert unmarked_jumps(bat, marks) == []
     assert unmarked_jumps(bat, []) == [(6.0, 7.0)]

@@ -140,7 +140,7 @@ FAULTS = [
         {"species": "pigeon", "speed": 9.0, "aero": "sufan"},
         "is not a known coefficient model; did you mean su-fan?",
     ),
-    ({"species": "pigeon", "speed": 9.0, "minimise": "powr"}, "is not one that wingbeat knows"),
+    ({"species": "pigeon", "speed": 9.0, "minimise": "powr"}, "is not known to wingbeat"),
     ({"species": "pigeon", "speed": 9.0, "minimise": "no.py:f"}, "cannot read"),
     ({"species": "pigeon", "speed": 9.0, "subject_to": "power<30"}, "power<30"),
     ({"species": "pigeon", "speed": 9.0, "free": []}, "free = []: must hold at least 1 values"),

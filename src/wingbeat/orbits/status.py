@@ -6,7 +6,7 @@ import enum
 
 
 class Status(enum.Enum):
-    """How a search for an orbit ended; the value is the name in records."""
+    """How the solver ended; the value is the name in records."""
 
     CONVERGED = "converged"
     INFEASIBLE = "infeasible"

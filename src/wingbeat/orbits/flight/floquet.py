@@ -69,11 +69,11 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
 
     They are the eigenvalues of the monodromy matrix, the derivative of the pitch state after a period with
-    respect to that before. Not-a-number where the flight tumbles off.
+    respect to that before. Not-a-number if the flight diverges.
 
     Parameters
     ----------
-    steps : where the certifier stepped.
+    steps : the certifier's steps.
     model, wingbeat : what flies.
     """
     phase, path = steps.phase, steps.states[:, 2:]

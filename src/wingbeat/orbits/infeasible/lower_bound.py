@@ -58,8 +58,8 @@ def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxatio
 def words_of_raise(problem: OrbitProblem, change: Relaxation) -> str:
     """Return why searches failed where an orbit was certified at a raised bound only, and what to do."""
     return (
-        f"the least frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, where an orbit "
-        "was certified; of lower ones none could be. The wings hardly need to beat here, the problem ends at the "
-        "lower bound of frequency, and more starts will hardly help. "
-        f"Raise that bound ({change.text}), minimise a power, or see `wingbeat glide {problem.species.name}`"
+        f"the lowest frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, where an "
+        "orbit was certified; no lower one could be certified. The wings hardly need to beat here: the problem "
+        "ends at the lower bound of frequency, and more starts will hardly help. Raise that bound "
+        f"({change.text}), minimise a power, or see `wingbeat glide {problem.species.name}`"
     )

@@ -67,9 +67,9 @@ def without_orbit(
     if nearest.closes:
         return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost close", len(found))
     flying = certified_changes(programme, changes)
-    message = f"no orbit within the bounds in {len(found)} searches: {words_of(programme, nearest.deficits)}"
+    message = f"no orbit within the bounds from {_starts(len(found))}: {words_of(programme, nearest.deficits)}"
     if flying:
-        message += f"; the nearest changes that fly, each by itself: {', or '.join(r.text for r in flying)}"
+        message += f"; the smallest single changes that fly: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
     ending = Ending(Status.INFEASIBLE, message, nearest.deficits, flying)
@@ -82,7 +82,7 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
     if closing:
         return _uncertified(closing, len(found))
     nearest = min(found, key=lambda c: c.violation)
-    message = f"no orbit within the bounds in {len(found)} searches; which law of balance fails was not asked"
+    message = f"no orbit within the bounds from {_starts(len(found))}; the balance that fails was not computed"
     return certified(nearest.programme.uncorrected(), nearest.scaled), Ending(Status.INFEASIBLE, message)
 
 
@@ -93,11 +93,12 @@ def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, En
 
 
 def _no_optimum(how: str, searches: int) -> Ending:
-    message = (
-        f"beats that {how} were met in {searches} searches, but none could be certified as an "
-        "optimum; try more starts, another seed, or a start nearer the answer"
-    )
-    return Ending(Status.NOT_CONVERGED, message)
+    found = f"beats that {how} were found from {_starts(searches)}, but none could be certified as an optimum"
+    return Ending(Status.NOT_CONVERGED, f"{found}; try more starts or another seed")
+
+
+def _starts(count: int) -> str:
+    return f"{count} start" if count == 1 else f"{count} starts"
 
 
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:

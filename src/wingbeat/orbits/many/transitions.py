@@ -109,9 +109,9 @@ def _how_it_changes(branches: Branches, interval: int) -> str:
         after = above[ways[0]].objective - above[0].objective
         low, high = below[0].problem.speed, above[0].problem.speed
         share = before / (before + after) if before + after > 0 else 0.5
-        return f"another family becomes the better near {low + share * (high - low):.2f} m/s"
+        return f"another family becomes better near {low + share * (high - low):.2f} m/s"
     if 0 in ways:
         return "a better family begins"
     if 0 in back:
-        return "the family ends and another goes on"
+        return "the family ends and another continues"
     return "the family ends and another begins"

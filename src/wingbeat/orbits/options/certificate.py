@@ -15,14 +15,14 @@ class NewtonOptions:
     Parameters
     ----------
     iterations : at most.
-    step_tolerance : a step whose successor counts as none.
+    step_tolerance : after a step shorter than this, the next step counts as zero.
     difference_step : of the quotient that measures the curvature along the null space.
-    residual_tolerance, gradient_tolerance : conditions that hold so well, and a slope along them so small, are as
+    residual_tolerance, gradient_tolerance : residuals and a reduced gradient this small are as
         good as the next step could make them.
-    rank_tolerance : conditions smaller than this share of the largest say nothing new.
-    normal_share : a step tells of the curvature along the null space if its part across is shorter than this share.
-    curvature_share : and if the curvature is more than this share of what was expected.
-    diverged : a violation this large ends it.
+    rank_tolerance : conditions below this share of the largest count as dependent.
+    normal_share : a step measures the curvature along the null space if its normal part is shorter than this share.
+    curvature_share : and if the curvature exceeds this share of the expected one.
+    diverged : a larger violation ends the method.
     """
 
     iterations: int = 10
@@ -46,17 +46,17 @@ class CertificateOptions:
     Parameters
     ----------
     closure_tolerance : a certified orbit closes to this [m, rad, m/s, rad/s].
-    limit_tolerance : body pitch, the stroke and constraints keep to their limits to this, in their scales.
-    aimed_closure : what the correction aims at, so that rounding does not decide.
+    limit_tolerance : body pitch, the stroke and constraints may exceed their limits by this, in their scales.
+    aimed_closure : target of the correction, stricter than the tolerance so that rounding does not decide.
     rtol : relative tolerance of the certifying flight (Dopri8).
-    rough_rtol : of flights that only correct. They are right to 1e-8 and take half the time.
-    fine_blocks : a corrected flight has so many times the steps of a search's.
-    linear_range : how far, in the optimiser's scale, the derivative of a finer flight holds.
-    linearisations : derivatives of finer flights that are taken, at most.
-    linearised_step : how near to the optimum is near enough while the derivative is not the last.
-    corrections : flights of the certifier, at most.
-    trial_corrections, trial_reduction : after so many the residual must have shrunk to this share.
-    bound_updates : times that the active bounds are found anew where a beat closes but is not optimal.
+    rough_rtol : relative tolerance of flights that only correct. They are accurate to 1e-8 and take half the time.
+    fine_blocks : a corrected flight has this multiple of the steps of the solver's flights.
+    linear_range : range of validity of the derivative of a finer flight, in the optimiser's scale.
+    linearisations : largest number of derivatives of finer flights.
+    linearised_step : step at which the optimum is close enough before the derivative is updated.
+    corrections : largest number of certifying flights.
+    trial_corrections, trial_reduction : after this many corrections the residual must have shrunk to this share.
+    bound_updates : how often the active bounds are determined again if a wingbeat closes but is not optimal.
     iterations, tolerance : of SLSQP where Newton's method fails, and its tolerance of the objective.
     newton : the method that follows the optimum while its closure is corrected.
     """

@@ -13,23 +13,24 @@ class ContinuationOptions:
 
     Parameters
     ----------
-    max_step : an orbit this near to another, in the optimiser's scale, may be its continuation. It is 2 degrees
-        of flap amplitude and of body pitch, 0.9 Hz, 0.15 m/s. Orbits farther apart are of one branch only if
-        orbits between them lead from one to the other.
-    first_speed_step, least_speed_step : along speed [m/s]. A branch that cannot be continued by the least ends.
-    step_growth : the next step is at most so many times the last.
-    aimed_step : a step aims at this share of `max_step`.
-    step_iterations : of the search where Newton's method fails, as where a bound is met or left.
-    fewer_starts : between the ends of a range of speeds the starts are divided by this, for most is found by
-        continuing.
-    followed : optima of one speed that are continued, the best first.
-    near_closure : unknowns this near to closure, in the optimiser's scale, are next to an orbit.
-    sweeps : along a series, up and down, at most.
-    improvement : a neighbour's answer must be better by this share to replace one's own.
-    batch_size : problems that are solved one after the other, each helped by those before; few enough to share a
+    max_step : an orbit within this distance of another, in the optimiser's scale, may be its continuation. It is 2
+        degrees of flap amplitude and of body pitch, 0.9 Hz, 0.15 m/s. Orbits farther apart are of one branch only
+        if orbits between them lead from one to the other.
+    first_speed_step, least_speed_step : steps of speed [m/s]. A branch ends if the smallest step cannot continue
+        it.
+    step_growth : the next step is at most this multiple of the last.
+    aimed_step : target of a step, as a share of `max_step`.
+    step_iterations : iterations of the solver if Newton's method fails, for example where a bound becomes active.
+    fewer_starts : between the ends of a range of speeds the starts are divided by this, because most optima are
+        found by continuing.
+    followed : number of optima of one speed that are continued, the best first.
+    near_closure : unknowns with a smaller residual, in the optimiser's scale, are close to an orbit.
+    sweeps : largest number of passes along a series, up and down.
+    improvement : a neighbour's result must be better by this share to replace a problem's own.
+    batch_size : number of problems solved in sequence, each using those before; few enough to distribute a
         batch out over processes.
-    batch_first : of more that are alike so many go first and help all others.
-    near_share : answers nearer than this share of the farthest one in use weigh alike in a prediction.
+    batch_first : of more similar problems than that, this many are solved first and help all others.
+    near_share : results nearer than this share of the farthest one in use have equal weight in a prediction.
     rounding : relative differences between numbers that come from rounding.
     """
 

@@ -11,30 +11,30 @@ from wingbeat.orbits.options.least_squares import LeastSquaresOptions
 
 @dataclass(frozen=True)
 class DiagnosisOptions:
-    """Options of the diagnosis of a problem without an orbit: what is short, and which single changes fly.
+    """Options of the diagnosis of a problem without an orbit: which balance fails, and which single changes fly.
 
     Parameters
     ----------
-    nearest_ends : ends of searches that the beat nearest to an orbit is sought from.
-    ends_apart : two ends count as two where an unknown differs by this share of its range.
+    nearest_ends : end points of starts from which the closest wingbeat is computed.
+    ends_apart : two end points count as different if an unknown differs by this share of its range.
     deficit : least squares that find the beat with the least deficit.
-    trial_evaluations : of each end, before the best goes on alone.
-    violation_weight : a residual of 1 in the optimiser's scale, where the law of balance is kept, weighs as much as
+    trial_evaluations : evaluations for each end point, before only the best continues.
+    violation_weight : a residual of 1 in the optimiser's scale of a balance that must hold counts as much as
         so many weights that are short.
-    kept_closure : a residual, in the optimiser's scale, that counts as none.
-    least_gravity : gives a weight to compare forces with [m/s2].
-    nothing : a share of the weight that counts as none.
-    mentioned : of several deficits those are reported that are more than this share of the largest.
-    near_bound : a beat nearer to a bound than this share of its range is held back by it.
-    reported : changes that are reported, at most.
-    slack : times the least change that is reported. At the least itself there is one orbit only, and it is hard to
-        certify.
+    kept_closure : a residual below this, in the optimiser's scale, counts as zero.
+    least_gravity : smallest gravity that defines the weight with which forces are compared [m/s2].
+    nothing : a share of the weight below this counts as zero.
+    mentioned : deficits above this share of the largest are reported.
+    near_bound : a wingbeat nearer to a bound than this share of its range counts as at the bound.
+    reported : largest number of reported changes.
+    slack : the smallest change is multiplied by this. At the smallest itself there is only one orbit, and it is
+        hard to certify.
     widened : steps of the last digit by which a change is widened until an orbit is certified.
     difference_step : of derivatives by a number of the vehicle or the flight, as a share of its scale.
     far_iterations, back_iterations : of the search with the number moved far, and of each that moves it back.
-    back_times : how often it is moved back, each time from where the last ended.
-    raised_bounds : times the lower bound of frequency, where the least frequency may end at it.
-    raised_starts : searches for each of these bounds.
+    back_times : how often it is moved back, each time from the last end point.
+    raised_bounds : multiples of the lower bound of frequency that are tried where the minimum may be at it.
+    raised_starts : starts for each of these bounds.
     """
 
     nearest_ends: int = 6
@@ -63,20 +63,20 @@ class DiagnosisOptions:
 
 @dataclass(frozen=True)
 class ChangeOptions:
-    """Options of the single changes that are tried where there is no orbit.
+    """Options of the single changes that are tried if no orbit exists.
 
     Parameters
     ----------
-    large_angle : a change of an angle by this counts as large as a change of another number by all of itself [rad].
-    limit_factor : times itself that a limit is raised by, or lowered.
+    large_angle : a change of an angle by this counts as much as a change of another number by 100 % [rad].
+    limit_factor : factor by which a limit is raised or lowered.
     lightest : the lightest body, as a share of its mass.
-    faster : the most that is added to the speed, as a share of what was asked for.
-    slowest : the slowest flight where a cost of transport is asked for, as a share of the speed.
+    faster : largest increase of speed, as a share of the problem's.
+    slowest : slowest speed if the problem contains a cost of transport, as a share of the problem's.
     wide_frequency : the ends of the range of frequencies move to so many times themselves, or divided by it. Bounds
         of a scaling law used outside its data were 9 times too low (a bat of 10 kg).
     raised_frequency : shares of the upper end by which it is raised first.
-    beyond : times the deficit that a number is moved first.
-    chords : that the shoulder is moved by, at most.
+    beyond : a number is first moved by this multiple of the deficit.
+    chords : largest shift of the shoulder [chords].
     low_speed : what counts as a large change of a speed near 0 [m/s].
     """
 

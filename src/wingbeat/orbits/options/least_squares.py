@@ -13,14 +13,14 @@ class LeastSquaresOptions:
 
     Parameters
     ----------
-    evaluations : of the residuals, at most.
+    evaluations : largest number of evaluations of the residuals.
     tolerance : it ends where a step lessens the sum of squares by less than this share.
     step_tolerance : a shorter step, in the optimiser's scale, ends it.
-    damping, least_damping : of the first step, and the least, over the largest curvature. Without the least, fewer
-        residuals than unknowns fix no step.
+    damping, least_damping : initial and smallest damping, divided by the largest curvature. Without the smallest,
+        fewer residuals than unknowns fix no step.
     shrink, growth : of the damping after a step that is taken, at most, and after the first that is not.
-    accepted : a step that gains less than this share of what the linear model predicts is not taken.
-    trusted : a step that gains more than this share may be the last.
+    accepted : a step that gains less than this share of the linear model's prediction is rejected.
+    trusted : only a step that gains more than this share may be the last.
     bound_changes : bounds that one step may meet or leave, over the number of unknowns.
     """
 

@@ -11,7 +11,7 @@ from wingbeat.orbits.options.start_families import START_FAMILIES, StartFamily
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Options of the searches from several starts, before anything is certified.
+    """Options of the solver's starts, before anything is certified.
 
     In the optimiser's scale 0.15 is 2 degrees of flap amplitude or body pitch, 0.9 Hz, or 0.15 m/s.
 
@@ -20,35 +20,36 @@ class SearchOptions:
     starts : of a problem that minimises the frequency within the species' bounds. With 6 none of 480 answers of the
         built-in animals was more than 0.5 % above the best of 80 random starts.
     starts_of_outputs : where the objective or a limit is an output of the wingbeat. Such problems have more optima:
-        6 starts missed the bat's least frequency within a limit of its power at 10 m/s by half, 12 did not.
+        6 starts gave 1.5 times the bat's lowest frequency within a power limit at 10 m/s, 12 found it.
     starts_of_many_optima : where bounds are the user's own, or a peak is minimised. With a flap amplitude of 50 deg
         at most, 12 missed the bat's least frequency at 10 m/s by 3 %, 24 did not; of 30 random starts 4 led to the
         bat's least peak pitch torque at 14 m/s, which 12 missed by half.
     most_starts : as long as none can be certified, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
-    random_margin : random starts keep this share of their range off the bounds.
-    random_below, random_above : how far they go from the stock start in body pitch, u, w [rad, m/s, m/s] and pitch
-        rate [rad/s].
+    random_margin : distance of random starts from the bounds, as a share of the range.
+    random_below, random_above : their largest distance from the stock start in body pitch, u, w [rad, m/s, m/s] and
+        pitch rate [rad/s].
     random_octaves : how far they go below and above the stock start's frequency.
-    start_spread : how far from the best optimum the starts beside it are, in the optimiser's scale.
+    start_spread : distance of additional starts from the best optimum, in the optimiser's scale.
     iterations, tolerance : of SLSQP, and its tolerance of the objective.
-    local_iterations : from the answer of a neighbouring problem.
-    closure_tolerance : what a search must reach [m, rad, m/s, rad/s]. The last digits come when the orbit is
-        corrected.
+    local_iterations : iterations from the result of a neighbouring problem.
+    closure_tolerance : residual that a start must reach [m, rad, m/s, rad/s]. The last digits come when the orbit
+        is corrected.
     optimality_tolerance : largest residual of the optimality conditions, in the optimiser's scale.
-    bound_tolerance : an unknown this near to a bound, as a share of its range, is at the bound; likewise the limits
+    bound_tolerance : an unknown closer to a bound than this share of its range is at the bound; likewise the limits
         along the path, in their own scale.
-    diverged_closure, diverged_flights : a search that is still farther from closure after so many flights has
-        diverged. Of 376 searches that met an orbit, 2 were.
-    restoration : least squares that bring a start near closure before the objective counts.
-    restored_closure : a start that stays farther from closure, in the optimiser's scale, is given up.
-    same_optimum : optima nearer to one another than this, in the optimiser's scale, are of one family. Some
-        wingbeats change a little at hardly any cost, and where along them a search stops is chance.
+    diverged_closure, diverged_flights : a start with a larger residual after this many flights has
+        diverged. Of 376 starts that found an orbit, 2 had.
+    restoration : least squares that bring a start close to closure before the objective counts.
+    restored_closure : a start whose residual stays larger, in the optimiser's scale, is abandoned.
+    same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some
+        wingbeats can change a little at hardly any cost, and it is chance where a start stops among them.
     uncorrected_error : an optimum whose objective is more than this share above a certified one is no better. Of
         200 frequencies nearly all changed by less than 0.0025 when they were corrected.
-    plane_clearance : strip corners keep this share of the wing's length off the plane of symmetry. It is ten times
-        what the other tolerances leave open: 3 micrometres of 0.3 m.
-    largest_residual : residuals of flights that tumble off are cut to this, so that a line search can back away.
+    plane_clearance : strip corners keep this share of the wing's length from the plane of symmetry. It is ten times
+        the other tolerances: 3 micrometres of 0.3 m.
+    largest_residual : residuals of diverging flights are limited to this, so that a line search can shorten its
+        step.
     """
 
     starts: int = 6

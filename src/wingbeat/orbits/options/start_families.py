@@ -11,13 +11,14 @@ _BRISK = 2.5
 
 
 class StartFamily(NamedTuple):
-    """A family of wingbeats, as what its start changes in the species' stock wingbeat.
+    """A family of wingbeats: the changes that its start makes to the species' stock wingbeat.
 
     Parameters
     ----------
-    flap_mean : in shares of half its range from the middle of its bounds; that of the stock wingbeat if not given.
+    flap_mean : offset from the middle of its bounds, in shares of half its range; default that of the stock
+        wingbeat.
     pitch_mean, pitch_amplitude : likewise [rad].
-    flap_amplitude, frequency : times those of the stock wingbeat.
+    flap_amplitude, frequency : multiples of those of the stock wingbeat.
     nose_up : body pitch [rad], with an upright stroke plane.
     """
 

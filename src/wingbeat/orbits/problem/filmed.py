@@ -28,16 +28,16 @@ class Filmed(Protocol):
 
 
 def filmed_species(beat: Filmed, species: Species) -> Species:
-    """Return a species that beats as filmed; what was not filmed stays its own.
+    """Return a species with the filmed wingbeat; parameters that were not filmed do not change.
 
     Parameters
     ----------
     beat : from `wingbeat.experiment.fit_film`.
-    species : who was filmed.
+    species : the filmed species.
 
     Raises
     ------
-    InvalidInputError : a wingbeat that cannot be.
+    InvalidInputError : an impossible wingbeat.
     """
     return species.with_values({f"wingbeat.{name}": value for name, value in beat.numbers.items()})
 
@@ -64,9 +64,9 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
     Parameters
     ----------
     beat : from `wingbeat.experiment.fit_film`.
-    species : who was filmed.
+    species : the filmed species.
     speed : mean forward speed [m/s].
-    more : what else an `OrbitProblem` takes. If it names no objective, the frequency is minimised where it is free,
+    more : other arguments of `OrbitProblem`. If it names no objective, the frequency is minimised where it is free,
         else the mean positive power.
 
     Raises

@@ -14,14 +14,14 @@ from wingbeat.orbits.problem.objectives import NUMBER, Quantity, named_quantity
 
 @dataclass(frozen=True)
 class Constraint:
-    """A quantity kept at most, or at least, at a limit.
+    """A limit on a quantity.
 
     Parameters
     ----------
     quantity : a `Quantity`, or the name of one.
     limit : in the quantity's unit.
     at_most : whether the limit is the largest value allowed; else the smallest. Of a series the largest value
-        counts, so that at most means at every moment, and at least means at some moment.
+        counts: at most means at every instant, at least means at one instant or more.
 
     Raises
     ------

@@ -24,12 +24,13 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number read off one beat, or a series along it, or several in columns, of which the largest value counts.
+    """A number computed from one wingbeat, or a series along it, whose largest value counts.
 
     Parameters
     ----------
-    name : what it is called in records and messages.
-    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or (K, m) of K phases.
+    name : its name in records and messages.
+    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or
+        (K, m) of K phases.
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
     parameter : the wingbeat parameter that the quantity is, if it is one: as an objective it then needs no flight.
@@ -100,12 +101,12 @@ def Frequency() -> Quantity:
 
 
 def PowerCost(returned: float = 0.0) -> Quantity:
-    """Return the mean hinge power of which negative work gives back a share only.
+    """Return the mean hinge power if only a share of the negative work is returned.
 
     Parameters
     ----------
-    returned : 0, negative work is free but lost; 1, it is stored and returned in full, which is the mean power;
-        between, partly; -1, braking costs as much as driving.
+    returned : 0, negative work costs nothing and is lost; 1, it is fully returned, which is the mean power;
+        between, partly; -1, negative work costs as much as positive.
 
     Raises
     ------
@@ -123,15 +124,15 @@ def PowerCost(returned: float = 0.0) -> Quantity:
 
 
 def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
-    """Return the mean positive hinge power that springs at the flap hinges leave to the actuators.
+    """Return the mean positive hinge power with springs at the flap hinges.
 
-    A spring's torque is ``-k (flap - rest)``; what an actuator gives is the hinge torque less that of the spring.
-    What it brakes is free but lost, as in ``mean_positive_power``, which is this without a spring.
+    A spring's torque is ``-k (flap - rest)``; the actuator's is the hinge torque minus that of the spring.
+    Its negative work costs nothing and is lost, as in ``mean_positive_power``, which is this without a spring.
 
     Parameters
     ----------
     stiffness : k of both springs together [N m/rad].
-    rest_angle : flap angle at which they are slack [rad]; the middle of the stroke if not given.
+    rest_angle : flap angle at which they exert no torque [rad]; default the middle of the stroke.
 
     Raises
     ------
@@ -231,7 +232,7 @@ def named_quantity(name: str) -> Quantity:
         faults = FaultList()
         others = f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
         fix = suggest(str(name), QUANTITIES, most=1, otherwise=others)
-        faults.add("quantity", name, "is not one that wingbeat knows", fix)
+        faults.add("quantity", name, "is not known to wingbeat", fix)
         faults.raise_if_any()
     return QUANTITIES[name]
 

@@ -113,7 +113,7 @@ def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]
     """Return what is wrong with the quantities' functions: they fail, or give neither a number nor a series."""
     faults = []
     for quantity in quantities:
-        where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python: see Beat for what it is given"
+        where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python; `Beat` documents its argument"
         try:
             found = _given_by(quantity.of, strips)
         except Exception as error:  # whatever a user's function raises

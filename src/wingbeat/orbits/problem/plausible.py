@@ -13,7 +13,7 @@ from wingbeat.species import Range, Species
 from wingbeat.species.plausibility import JUDGED
 from wingbeat.vehicle import Air
 
-_WAY_OUT = "leave out 'plausible', or give the range of the species file that you know better"
+_WAY_OUT = "leave out 'plausible', or correct the range in the species file"
 # A held number or the Reynolds number may pass the end of a range by rounding.
 _ROUNDING = 1e-9
 # By what share of itself a limit lies inside the end of its range. Of three orbits held by a limit (bat at 5 m/s,
@@ -42,13 +42,13 @@ def drawn_in(
         if pair[0] < pair[1]:
             drawn[name] = pair
         else:
-            rule = f"has nothing in common with the plausible {_words(species.plausible_range(name, 0.0))}"
+            rule = f"does not overlap with the plausible {_words(species.plausible_range(name, 0.0))}"
             faults.add(f"bounds.{name}", bounds[name], rule, f"widen the bounds, or {_WAY_OUT}")
     for name in JUDGED:
         if name in FREE_NAMES and name not in free:
             value, known = parameter(species.wingbeat, name), species.plausible_range(name, 0.0)
             if _outside(value, known):
-                faults.add(f"wingbeat.{name}", value, f"is held outside the plausible {_words(known)}", _WAY_OUT)
+                faults.add(f"wingbeat.{name}", value, f"is fixed outside the plausible {_words(known)}", _WAY_OUT)
     return drawn
 
 

@@ -54,7 +54,7 @@ class Unknowns:
 
 @dataclass(frozen=True)
 class OrbitProblem:
-    """A periodic orbit at a prescribed mean velocity, of least objective within bounds.
+    """A periodic orbit at a prescribed mean velocity that minimises an objective within bounds.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class OrbitProblem:
     free : names of the wingbeat parameters that are free; the species' own if not given.
     bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
         flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
-        searches inside the species' plausible ranges: bounds are drawn in to them, and what is read off the beat
+        stays within the species' plausible ranges: they narrow the bounds, and each quantity of the flown wingbeat
         becomes a limit of `subject_to`.
     minimise : the objective, a `Quantity` or the name of one; the frequency, as in the paper, if not given.
     air : replaces the species' air.
@@ -153,7 +153,7 @@ class OrbitProblem:
             except InvalidInputError as error:
                 faults.faults.extend(error.faults)
             if limit.sign == "=" and not self.free:
-                faults.add("subject_to", text, "leaves nothing free", "hold fewer parameters of the wingbeat")
+                faults.add("subject_to", text, "leaves nothing free", "fix fewer parameters of the wingbeat")
         if faults.faults:
             return
         if not isinstance(minimise, Quantity):
@@ -221,17 +221,17 @@ class OrbitProblem:
 
     @property
     def has_outputs(self) -> bool:
-        """Whether objective or constraints are outputs of the beat, and not all read off the unknowns."""
+        """Whether objective or constraints need the flown wingbeat, not only the unknowns."""
         return bool(self._quantities())
 
     @property
     def asks_cost_of_transport(self) -> bool:
-        """Whether objective or a constraint is the cost of transport, which hover has none of."""
+        """Whether objective or a constraint is the cost of transport, which is undefined in hover."""
         return "cost_of_transport" in {quantity.name for quantity in self._quantities()}
 
     @property
     def has_own_bounds(self) -> bool:
-        """Whether a free parameter of the wingbeat is bounded otherwise than the species bounds it."""
+        """Whether a free parameter of the wingbeat has other bounds than the species'."""
         return any(tuple(self.bounds[name]) != self.species.bounds.get(name) for name in self.free)
 
     @property
@@ -251,12 +251,12 @@ class OrbitProblem:
         ahead, _, above = self.vehicle.wing.shoulder
         if "stroke_plane_tilt" in free and ahead == 0 and above == 0:
             rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
-            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it held")
+            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it fixed")
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if self.minimise.parameter and self.minimise.parameter not in free:
             faults.add(
-                "free", free, f"leaves {self.minimise.parameter} nothing to change", "minimise something else"
+                "free", free, f"fixes {self.minimise.parameter}, which is the objective", "minimise something else"
             )
         asked: Bounds = self.bounds
         for name, pair in asked.items():
@@ -277,7 +277,7 @@ class OrbitProblem:
             try:
                 with_parameters(self.species.wingbeat, {name: value})
             except InvalidInputError as error:
-                faults.add(f"bounds.{name}", pair, f"reaches the impossible: {error.faults[0].rule}")
+                faults.add(f"bounds.{name}", pair, f"contains impossible values: {error.faults[0].rule}")
                 return
 
     @property
@@ -293,7 +293,7 @@ class OrbitProblem:
     def unknowns(self) -> Unknowns:
         """Return names, bounds and scales of the unknowns.
 
-        The bounds of the start's velocities are generous: they keep the search out of nonsense and are not meant
+        The bounds of the initial velocities are wide: they exclude absurd values and are not meant
         to be met.
         """
         free, bounds = self.free, self.bounds
@@ -315,7 +315,7 @@ class OrbitProblem:
         return with_parameters(self.species.wingbeat, values)
 
     def unknowns_of(self, state: np.ndarray, wingbeat: Wingbeat) -> np.ndarray:
-        """Return the unknowns that stand for a state at the start, as in `State`, and a wingbeat."""
+        """Return the unknowns of an initial state, as in `State`, and a wingbeat."""
         return np.array([*state[2:], *(parameter(wingbeat, name) for name in self.free)], dtype=float)
 
     def frequency(self, unknowns: np.ndarray) -> float:
@@ -325,12 +325,12 @@ class OrbitProblem:
         return self.species.wingbeat.frequency
 
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the miss of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
+        """Return the residual of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
         travelled = np.array([self.speed, self.climb]) / frequency
         return np.asarray(end) - np.concatenate([travelled, unknowns[:4]])
 
     def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the derivative of the miss from that of the end of the period."""
+        """Return the derivative of the residual from that of the end of the period."""
         jacobian = np.array(end_jacobian)
         jacobian[2:, :4] -= _START
         if "frequency" in self.free:

@@ -11,17 +11,12 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
 from wingbeat.cli.options import (
-    AeroName,
-    Airspeed,
-    BlendWidth,
-    Extension,
-    ForcePoint,
+    DEFAULT_AIR_LOADS,
+    AirLoadOptions,
     Output,
     Settings,
-    Strips,
     Whole,
     WithinPlausible,
-    aero_with,
     check_files,
     check_outputs,
     check_result,
@@ -43,13 +38,8 @@ def curve(
         Parameter(consume_multiple=True, negative=(), help="Speeds [m/s]: 3:20:1, or 0 3:20:1 with hover."),
     ],
     climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
-    aero: AeroName = "su-fan",
-    extension: Extension = "mirrored",
-    blend_width_deg: BlendWidth = 1.0,
-    force_point: ForcePoint = "quarter-chord",
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
     within_plausible: WithinPlausible = False,
-    airspeed: Airspeed = "planar",
-    strips: Strips = 10,
     minimise: Annotated[
         str, Parameter(help="Quantity to minimise at each speed: frequency, positive-power, power, peak-power, ...")
     ] = "frequency",
@@ -84,7 +74,7 @@ def curve(
         species_with(species, set_),
         speed=row[-1] if row else 0.0,
         climb=climb,
-        aero=aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed),
+        aero=air.loads(),
         bounds="plausible" if within_plausible else {},
         minimise=minimise,
         subject_to=subject_to or (),

@@ -12,16 +12,11 @@ from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import (
-    AeroName,
-    Airspeed,
-    BlendWidth,
-    Extension,
-    ForcePoint,
+    DEFAULT_AIR_LOADS,
+    AirLoadOptions,
     Output,
     Payload,
     Settings,
-    Strips,
-    aero_with,
     check_files,
     check_outputs,
     check_result,
@@ -54,12 +49,7 @@ def glide(
         str,
         Parameter(help="What turns until the pitching moment is zero: body-pitch, flap, or tail (nothing)."),
     ] = "body-pitch",
-    aero: AeroName = "su-fan",
-    extension: Extension = "mirrored",
-    blend_width_deg: BlendWidth = 1.0,
-    force_point: ForcePoint = "quarter-chord",
-    airspeed: Airspeed = "planar",
-    strips: Strips = 10,
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
     set_: Settings = None,
     payload: Payload = 0.0,
     json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
@@ -84,7 +74,7 @@ def glide(
         faults.add("--flap-deg", flap_deg, "must be between -90 and 90 degrees")
     faults.raise_if_any()
     animal = species_with(species, set_, payload)
-    loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
+    loads = air.loads()
     check_outputs(output, plot)
     polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
     if output:

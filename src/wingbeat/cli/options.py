@@ -6,6 +6,7 @@ import inspect
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -40,28 +41,52 @@ Settings = Annotated[
     ),
 ]
 Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
-AeroName = Annotated[
-    str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), a table (.csv) or a fit (.toml).")
-]
-Extension = Annotated[
-    str,
-    Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}."),
-]
-BlendWidth = Annotated[float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")]
 WithinPlausible = Annotated[
     bool,
     Parameter(negative="", help="Stay within the plausible ranges of the species file: bounds, powers, forces."),
 ]
-Strips = Annotated[Whole, Parameter(help="Number of strips of one wing.")]
 WingsMayCross = Annotated[
     bool,
     Parameter(negative="", help="Let the wings pass through the plane of symmetry and each other."),
 ]
-ForcePoint = Annotated[str, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}.")]
-Airspeed = Annotated[
-    str,
-    Parameter(help="Airspeed that determines a strip's loads: planar (across the span) or full (also along it)."),
-]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class AirLoadOptions:
+    """The options of the air loads, the same for every command that flies an animal."""
+
+    aero: Annotated[
+        str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), a table (.csv) or a fit (.toml).")
+    ] = "su-fan"
+    extension: Annotated[str, Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}.")] = (
+        "mirrored"
+    )
+    blend_width_deg: Annotated[
+        float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")
+    ] = 1.0
+    force_point: Annotated[str, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}.")] = (
+        "quarter-chord"
+    )
+    airspeed: Annotated[
+        str,
+        Parameter(
+            help="Airspeed that determines a strip's loads: planar (across the span) or full (also along it)."
+        ),
+    ] = "planar"
+    strips: Annotated[Whole, Parameter(help="Number of strips of one wing.")] = 10
+
+    def loads(self) -> BladeElement:
+        """Return the air loads that the options ask for."""
+        coefficients = load_coefficients(self.aero, self.extension, self.blend_width_deg)
+        return BladeElement(coefficients, self.strips, self.force_point, self.airspeed)
+
+    def fit(self) -> FittedModel | None:
+        """Return the fit, with its covariance, where ``--aero`` names the file of one."""
+        return read_model(self.aero) if self.aero.lower().endswith(".toml") else None
+
+
+DEFAULT_AIR_LOADS = AirLoadOptions()
 
 
 def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
@@ -83,22 +108,15 @@ def species_with(name: str, settings: list[str] | None, payload: float = 0.0) ->
     return (species.with_values(values) if values else species).with_payload(payload)
 
 
-def aero_with(
-    name: str, extension: str, blend_width_deg: float, strips: int, force_point: str, airspeed: str
-) -> BladeElement:
-    """Return the air loads that the options ask for."""
-    return BladeElement(load_coefficients(name, extension, blend_width_deg), strips, force_point, airspeed)
-
-
-def fit_of(aero: str) -> FittedModel | None:
-    """Return the fit, with its covariance, where ``--aero`` names the file of one."""
-    return read_model(aero) if aero.lower().endswith(".toml") else None
-
-
 def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
     """Return the options of a command, but those allowed, that are not at their default, as they are typed."""
-    defaults = inspect.signature(command).parameters
-    names = [name for name, value in values.items() if name not in allowed and value != defaults[name].default]
+    defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}
+    names = []
+    for name, value in values.items():
+        if isinstance(value, AirLoadOptions):
+            names += [field.name for field in fields(value) if getattr(value, field.name) != field.default]
+        elif name not in allowed and value != defaults[name]:
+            names.append(name)
     return ["SPECIES" if name == "species" else "--" + name.strip("_").replace("_", "-") for name in names]
 
 

@@ -21,23 +21,17 @@ from wingbeat.cli.filmed import (
 )
 from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
-    AeroName,
-    Airspeed,
-    BlendWidth,
-    Extension,
-    ForcePoint,
+    DEFAULT_AIR_LOADS,
+    AirLoadOptions,
     Output,
     Payload,
     Settings,
-    Strips,
     Whole,
     WingsMayCross,
     WithinPlausible,
-    aero_with,
     check_files,
     check_outputs,
     check_result,
-    fit_of,
     given_beside,
     species_with,
     unpacking,
@@ -66,16 +60,11 @@ def orbit(
     *,
     speed: Annotated[float | None, Parameter(help="Mean forward speed [m/s]; 0 is hover.")] = None,
     climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
-    aero: AeroName = "su-fan",
-    extension: Extension = "mirrored",
-    blend_width_deg: BlendWidth = 1.0,
-    force_point: ForcePoint = "quarter-chord",
-    airspeed: Airspeed = "planar",
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
     flap_amplitude_max: Annotated[
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
     within_plausible: WithinPlausible = False,
-    strips: Strips = 10,
     minimise: Annotated[
         str | None,
         Parameter(
@@ -156,7 +145,7 @@ def orbit(
         bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), list(subject_to or ())
         if within_plausible and bounds:
             limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
-        loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
+        loads = air.loads()
         asked: dict[str, Any] = {"climb": climb, "aero": loads, "subject_to": limits}
         asked["bounds"] = "plausible" if within_plausible else bounds
         if wings_may_cross:
@@ -183,7 +172,7 @@ def orbit(
         record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
     influence, bars = None, []
     if certified and (sensitivities or tornado):
-        influence, bars = _influence(found, aero, tornado)
+        influence, bars = _influence(found, air, tornado)
     if influence and sensitivities:
         record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
     if power:
@@ -212,14 +201,14 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
     return {"flap_amplitude": (least, math.radians(most_deg))}
 
 
-def _influence(found: Orbit, aero: str, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
+def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
     """Differentiate an orbit, and draw what its uncertain numbers can change."""
     influence = differentiate(found)
     if tornado is not None:
         from wingbeat.plots import save_figure, tornado_page
 
         save_figure(tornado_page(influence), tornado)
-    fit = fit_of(aero)
+    fit = air.fit()
     return influence, [influence.error_bar(name, fit) for name in influence.values]
 
 

@@ -15,16 +15,11 @@ from rich.table import Table
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
 from wingbeat.cli.options import (
-    AeroName,
-    Airspeed,
-    BlendWidth,
-    Extension,
-    ForcePoint,
+    DEFAULT_AIR_LOADS,
+    AirLoadOptions,
     Output,
     Settings,
-    Strips,
     Whole,
-    aero_with,
     check_files,
     check_outputs,
     check_result,
@@ -56,12 +51,7 @@ def simulate(
     w: Annotated[float | None, Parameter(help="Initial upward velocity [m/s].")] = None,
     body_pitch_deg: Annotated[float | None, Parameter(help="Initial body pitch, nose up [deg].")] = None,
     pitch_rate: Annotated[float | None, Parameter(help="Initial pitch rate [rad/s].")] = None,
-    aero: AeroName = "su-fan",
-    extension: Extension = "mirrored",
-    blend_width_deg: BlendWidth = 1.0,
-    force_point: ForcePoint = "quarter-chord",
-    airspeed: Airspeed = "planar",
-    strips: Strips = 10,
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
     set_: Settings = None,
     kinematics: Kinematics = None,
     plot_kinematics: Annotated[
@@ -104,7 +94,7 @@ def simulate(
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = filmed_species(beat, animal)
-        loads = aero_with(aero, extension, blend_width_deg, strips, force_point, airspeed)
+        loads = air.loads()
         model, wingbeat = FlightModel(animal.vehicle, loads, animal.air), animal.wingbeat
         start = State(u=10.0)
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.influence import in_words, ranked_in_words
-from wingbeat.cli.options import AeroName, BlendWidth, Extension, Settings, Whole, aero_with, fit_of, species_with
+from wingbeat.cli.options import DEFAULT_AIR_LOADS, AirLoadOptions, Settings, Whole, species_with
 from wingbeat.cli.progress import progress_bar
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
@@ -24,9 +24,7 @@ def uncertainty(
     *,
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
     climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
-    aero: AeroName = "su-fan",
-    extension: Extension = "mirrored",
-    blend_width_deg: BlendWidth = 1.0,
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
     minimise: Annotated[str, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = "frequency",
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
     share: Annotated[float, Parameter(help="Share of every plausible range to sample, around the value.")] = 1.0,
@@ -47,7 +45,7 @@ def uncertainty(
         species_with(species, set_),
         speed=speed,
         climb=climb,
-        aero=aero_with(aero, extension, blend_width_deg, 10, "quarter-chord", "planar"),
+        aero=air.loads(),
         minimise=minimise,
     )
     orbit = solve_orbit(problem, seed=seed)
@@ -59,7 +57,7 @@ def uncertainty(
             sensitivities(orbit),
             samples=samples,
             seed=seed,
-            fit=fit_of(aero),
+            fit=air.fit(),
             share=share,
             processes=_processes(samples),
             progress=progress,

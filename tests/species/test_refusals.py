@@ -8,19 +8,7 @@ import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
 from wingbeat.errors import FileError
-from wingbeat.species import Species, load_species, parse_setting
-
-
-@pytest.fixture
-def load(tmp_path: Path) -> Any:
-    """Load a species from a TOML text."""
-
-    def load_text(text: str) -> Species:
-        path = tmp_path / "own.toml"
-        path.write_text(text, encoding="utf-8")
-        return load_species(path)
-
-    return load_text
+from wingbeat.species import load_species, parse_setting
 
 
 @pytest.mark.parametrize(

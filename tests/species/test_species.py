@@ -16,21 +16,8 @@ import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
 from wingbeat.kinematics import Wingbeat
-from wingbeat.species import Species, json_schema, load_species, species_names, template
+from wingbeat.species import json_schema, load_species, species_names, template
 from wingbeat.species_schema import KEYS
-
-
-@pytest.fixture
-def load(tmp_path: Path) -> Any:
-    """Load a species from a TOML text."""
-
-    def load_text(text: str) -> Species:
-        path = tmp_path / "own.toml"
-        path.write_text(text, encoding="utf-8")
-        return load_species(path)
-
-    return load_text
-
 
 # --- the animals in the box ---
 

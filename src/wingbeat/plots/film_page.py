@@ -39,23 +39,24 @@ def film_page(beat: FilmedBeat) -> Figure:
         law = beat.laws[name]
         value, error = law.curve(phase)
         seen, frames = beat.film.seen(name)
-        rest = frames - law.curve(seen)[0]
+        residual = frames - law.curve(seen)[0]
         above.fill_between(
             phase, value - 2 * error, value + 2 * error, color=_CURVE, alpha=0.3, linewidth=0, label="95 % band"
         )
         above.plot(phase, value, color=_CURVE, label="periodic spline")
         look = {"color": _POINTS, "marker": "o", "markersize": 3, "markerfacecolor": "none", "linestyle": ""}
         above.plot(seen % 1.0, frames, **look, label="frames")
-        below.plot(seen % 1.0, rest, **look)
+        below.plot(seen % 1.0, residual, **look)
         below.axhspan(-2 * law.residual_sd, 2 * law.residual_sd, color="0.9", zorder=0, label="±2 sd of a frame")
         below.fill_between(phase, -2 * error, 2 * error, color=_CURVE, alpha=0.3, linewidth=0)
         below.axhline(0.0, color=_CURVE)
         above.set_ylabel(_LABELS[name])
-        below.set(xlabel="phase of the film [beats]", ylabel=f"rest [{'deg' if name.endswith('_deg') else '-'}]")
+        unit = "deg" if name.endswith("_deg") else "-"
+        below.set(xlabel="phase of the film [beats]", ylabel=f"residual [{unit}]")
         for axes in (above, below):
             axes.grid()
             axes.set_xlim(0.0, 1.0)
-    legend_below(figure, grid[:, 0])
-    label = ": a random generator's, not filmed" if beat.film.synthetic else ""
+    legend_below(figure, grid[:, 0], columns=4 if len(columns) > 1 else 2)
+    label = ": synthetic, not filmed" if beat.film.synthetic else ""
     figure.suptitle(beat.film.name + label, fontsize=8)
     return figure

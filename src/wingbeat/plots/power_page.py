@@ -92,7 +92,7 @@ def _draw_costs(axes: Axes, account: dict[str, Any]) -> None:
     }
     colors = ["0.65" if name != "best spring" else VERMILION for name in bars]
     found = axes.barh(list(bars), [np.nan if v is None else v for v in bars.values()], color=colors, height=0.7)
-    axes.bar_label(found, fmt="%.3g", fontsize=7, padding=2)
+    axes.bar_label(found, fmt="%#.3g", fontsize=7, padding=2)
     axes.invert_yaxis()
     axes.margins(x=0.15)
     axes.tick_params(axis="y", length=0)

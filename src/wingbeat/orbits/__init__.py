@@ -1,1 +1,1 @@
-"""Periodic orbits: the problem, the search for it, the certificate."""
+"""Periodic orbits: the problem, its solution, the certificate."""

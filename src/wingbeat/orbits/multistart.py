@@ -1,4 +1,4 @@
-"""Many searches of one problem: from its starts, side by side, and from where those of an easier problem ended."""
+"""Many local searches of one problem: from its starts, in parallel, and from optima of an easier problem."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ Progress = Callable[[int, int], None]
 
 
 def load_programs(programme: Transcription, start: np.ndarray) -> None:
-    """Read or compile, side by side, the programs of a search and its certificate, once a process."""
+    """Load or compile the programs of a local search and of the certificate in parallel, once per process."""
     if fly_part.loaded:
         return
 
     wingbeat = programme.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:
-        # That of the search first, which takes the longest to compile.
+        # The program of the search compiles the longest, so it goes first.
         searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
         pool.submit(certify, programme.model, wingbeat, start[:4]).result()
         searching.result()
@@ -36,14 +36,14 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
 def first_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Return where searches end: from a problem's starts, from its optima without limits, from beside least peaks.
+    """Return where local searches end: from the starts, from optima without limits, and beside the lowest peak.
 
     Parameters
     ----------
     programme : of the problem.
-    starts, seed : how many starts, and what makes the random ones; limits are searched without from as many.
-    threads : searches at a time.
-    progress : called with (searches done, searches in all), those without limits among them.
+    starts, seed : number of starts, and seed of the random ones; the problem without limits has as many.
+    threads : local searches at a time.
+    progress : called with (local searches done, local searches in all), including those without limits.
     """
     limited = bool(programme.problem.subject_to)
     found: list[Candidate] = []
@@ -61,29 +61,29 @@ def first_searches(
 
 
 def search_from_optima(programme: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
-    """Return where searches end that start from the optima of an easier problem, the best of each family."""
+    """Return where local searches end that start from the best optimum of each family of an easier problem."""
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     starts = [optimum.unknowns for optimum in families(optima_of(easier), scale, apart)]
     return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
 
 
 def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:
-    """Return the optima among the ends of searches, in SI, the best first."""
+    """Return the optima among the candidates, in SI, the best first."""
     return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in optimal(candidates))
 
 
 def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
-    """Return those ends of searches that are optima, the best first."""
+    """Return the candidates that are optima, the best first."""
     return sorted((c for c in candidates if c.is_optimum), key=lambda c: c.objective)
 
 
 def search_from_starts(
     programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
-    """Yield where the searches from starts of these indices end, in order, so many threads at a time.
+    """Yield where local searches from these starts end, in order, with so many threads.
 
-    All but the first, the stock wingbeat, are brought near closure before the objective counts. A search from far
-    off diverges, and where there is no orbit 30 flights show it instead of 100.
+    All but the first, the stock wingbeat, are first brought close to closure without the objective. A local search
+    from far away diverges, and where there is no orbit, 30 flights show it instead of 100.
     """
 
     def one(index: int) -> Candidate:
@@ -97,7 +97,7 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
     if threads == 1:
         yield from map(work, items)
         return
-    # Compiled flights release the interpreter, so threads use the cores there are.
+    # Compiled flights release the interpreter lock, so threads run in parallel.
     with ThreadPoolExecutor(threads) as pool:
         try:
             yield from pool.map(work, items)
@@ -106,7 +106,7 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
 
 
 def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
-    """Return where searches end that start beside the best optimum so far: least peaks often have better near."""
+    """Return where local searches from beside the best optimum end: a lower peak is often near the lowest found."""
     more: list[Candidate] = []
     for index in range(count):
         optima = optima_of((*found, *more))

@@ -1,9 +1,9 @@
-"""How an optimum moves when a number it depends on changes: the implicit function theorem at its conditions.
+"""How an optimum changes with a number of its problem: the implicit function theorem at its conditions.
 
-At an optimum closure and active limits vanish, ``c(x, p) = 0``, and so does the Lagrangian's gradient along what
-they leave free. The objective changes by ``dJ/dp - multipliers . dc/dp``: how the optimum moves does not enter (the
-envelope theorem). Derivatives by the unknowns are the flight's own, exact; those by p are central differences of
-these exact numbers, so that whatever can be set can be asked for.
+At an optimum, closure and active limits vanish, ``c(x, p) = 0``, and so does the Lagrangian's gradient along the
+directions that they leave free. The objective changes by ``dJ/dp - multipliers . dc/dp``; the change of the optimum
+does not enter (the envelope theorem). Derivatives by the unknowns come from the flight and are exact. Those by p
+are central differences of these exact numbers, so p can be any number of the problem.
 """
 
 from __future__ import annotations
@@ -22,9 +22,11 @@ from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
-from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem, Unknowns
+from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem
+from wingbeat.orbits.problem.unknowns import Unknowns
 
-# Weights of values at multiples of a step in a derivative: to both sides, or where a number can go one way only.
+# Multiples of a step and weights of the values there: central differences, or one-sided ones where a number can
+# change one way only.
 _CENTRAL = ((-1, -0.5), (1, 0.5))
 _UPWARDS = ((0, -1.5), (1, 2.0), (2, -0.5))
 _DOWNWARDS = tuple((-at, -weight) for at, weight in _UPWARDS)
@@ -59,13 +61,13 @@ class OptimumSlopes:
         self._options = options
         fine = Transcription(problem, options, options.sensitivity.fine_blocks)
         guess = fine.scaled(unknowns)
-        # Active is what the certifier finds at its limit; the slopes are those of one kind of flight.
+        # The certificate decides which limits are active; all derivatives are of the solver's finer flights.
         certificate = certify(problem.model, problem.wingbeat(unknowns), unknowns[:4], options.certificate.rtol)
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
             rule = "is not determined by its conditions: its derivatives do not exist, or depend on the direction"
-            fix = "ask at a neighbouring speed, or free more of the wingbeat"
+            fix = "try a neighbouring speed, or free more of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
         self._at, self._free, self._active = found, newton.free, newton.active
         self._at_lower = found - fine.lower < fine.upper - found
@@ -88,16 +90,16 @@ class OptimumSlopes:
 
     @property
     def scale(self) -> np.ndarray:
-        """Differences of the unknowns that matter."""
+        """Scales of the unknowns: differences that matter."""
         return self._unknowns.scale
 
     @property
     def objective(self) -> float:
-        """What was minimised."""
+        """The objective at the optimum, in its unit."""
         return self._here.objective(self._at) * self.problem.minimise.scale
 
     def active(self) -> list[Parameter]:
-        """Return the bounds and limits that hold the optimum, whose derivatives are their prices."""
+        """Return the active bounds and limits; the derivative of the objective by each is its price."""
         problem, names = self.problem, self._unknowns.names
         found = [
             bound_of(problem, name, SIDES[int(not at_lower)])
@@ -113,7 +115,7 @@ class OptimumSlopes:
         return found
 
     def values(self, quantities: Sequence[Quantity]) -> np.ndarray:
-        """Return quantities at the optimum; of a series the largest value."""
+        """Return quantities at the optimum; of a series, its largest value."""
         return self._read(self._here, self._at, quantities)
 
     def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
@@ -122,7 +124,7 @@ class OptimumSlopes:
         Parameters
         ----------
         parameter : one of `parameters_of` the problem, or of those that are `active`.
-        quantities : what else to differentiate; of a series the largest value.
+        quantities : other quantities to differentiate; of a series, its largest value.
         """
         size, scale = parameter.size, self._unknowns.scale
         moved = np.zeros(self._at.size)
@@ -155,7 +157,7 @@ class OptimumSlopes:
         return values, jacobian[:, self._free]
 
     def _of_free(self, free: np.ndarray) -> np.ndarray:
-        """Return a direction of all unknowns from one of the free ones."""
+        """Expand a direction of the free unknowns to all unknowns."""
         whole = np.zeros(self._at.size)
         whole[self._free] = free
         return whole
@@ -165,11 +167,12 @@ class OptimumSlopes:
         return gradient - self._conditions(programme, scaled)[1].T @ self._multipliers
 
     def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
-        """Return quantities of the beat, flown by the certifier."""
+        """Return quantities of the beat as the certifier flies it."""
         if not quantities:
             return np.zeros(0)
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
-        # Not by the constructor: just outside of a bound there may be no such wingbeat, but there are its slopes.
+        # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
+        # derivatives.
         wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
         flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
         velocity = problem.speed, problem.climb
@@ -182,14 +185,14 @@ class OptimumSlopes:
         direction: np.ndarray,
         parameter: Parameter | None = None,
     ) -> np.ndarray:
-        """Return the derivative of a function while the unknowns go a direction and a parameter its size."""
+        """Return a function's derivative as the unknowns move in a direction and a parameter by its size."""
         step = self._options.sensitivity.step / max(1.0, float(np.abs(direction).max()))
         nodes = self._nodes(parameter, step)
         values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]
         return np.sum(values, axis=0) / step
 
     def _nodes(self, parameter: Parameter | None, step: float) -> list[tuple[int, float, Transcription]]:
-        """Return multiples of a step, their weights in a derivative, and the problem with the parameter there."""
+        """Return multiples of a step, their weights in a derivative, and the programme with the parameter there."""
         if parameter is None:
             return [(at, weight, self._here) for at, weight in _CENTRAL]
         for weights in (_CENTRAL, _UPWARDS, _DOWNWARDS):
@@ -199,4 +202,4 @@ class OptimumSlopes:
             except InvalidInputError:
                 continue
             return [(at, weight, self._programme(p)) for (at, weight), p in zip(weights, problems, strict=True)]
-        raise InvalidInputError([Fault(parameter.path, parameter.value, "can be moved neither way")])
+        raise InvalidInputError([Fault(parameter.path, parameter.value, "cannot be changed in either direction")])

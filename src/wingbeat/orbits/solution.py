@@ -1,4 +1,4 @@
-"""What a search found, and how it ended."""
+"""What the solver found, and how it ended."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from wingbeat.orbits.status import Status
 
 
 class Optimum(NamedTuple):
-    """The best uncorrected optimum of a family: the objective, the unknowns, and how many searches ended there."""
+    """The best uncorrected optimum of a family: the objective, the unknowns, and how many starts ended there."""
 
     objective: float
     unknowns: np.ndarray
@@ -32,13 +32,13 @@ class Optimum(NamedTuple):
 
 
 def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tuple[Optimum, ...]:
-    """Return the best optimum of each family, best first, with the searches that ended in it.
+    """Return the best optimum of each family, best first, with the number of starts that ended in it.
 
     Parameters
     ----------
-    optima : those that searches ended in.
+    optima : those in which starts ended.
     scale : of the unknowns.
-    apart : optima nearer to one another than this, over the scale, are of one family.
+    apart : optima closer to one another than this, over the scale, belong to one family.
     """
     found: list[Optimum] = []
     for optimum in sorted(optima, key=lambda o: o.objective):
@@ -53,12 +53,12 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
 
 @dataclass(frozen=True)
 class Solution:
-    """What the search found: the wingbeat and start of the best orbit, and how far it can be trusted.
+    """What the solver found: wingbeat and initial state of the best orbit, and how far it can be trusted.
 
-    `optima` are those that the searches met, one of each family. Where there is no orbit, wingbeat and start are of
-    the beat nearest to one. `deficits` say which law of balance it breaks and by how much, the largest first;
-    `relaxations` say which single changes fly, the smallest first. `reduced_hessian` helps problems near by;
-    `options` are those of the solvers.
+    `optima` holds the best uncorrected optimum of each family. Without an orbit, wingbeat and initial state are
+    those of the closest wingbeat; `deficits` are the balances that fail, the largest first; `relaxations` are the
+    single changes that fly, the smallest first. `reduced_hessian` helps to solve similar problems; `options` are
+    those of the solvers.
     """
 
     problem: OrbitProblem
@@ -82,7 +82,7 @@ class Solution:
 
     @property
     def starts_at_best(self) -> int:
-        """How many of the searches ended in the family of this optimum."""
+        """How many starts ended in the family of this optimum."""
         if self.status is not Status.CONVERGED:
             return 0
         scale, apart = self.problem.unknowns().scale, self.options.search.same_optimum
@@ -91,12 +91,12 @@ class Solution:
 
     @property
     def unknowns(self) -> np.ndarray:
-        """Pitch state at the start and free parameters, as a search starts from them."""
+        """Pitch state at phase 0 and free parameters, from which a local search can start."""
         return self.problem.unknowns_of(self.certificate.states[0], self.wingbeat)
 
     @property
     def place(self) -> np.ndarray:
-        """The unknowns in the optimiser's scale, velocities from the mean ones: orbits at two speeds compare."""
+        """The unknowns in the optimiser's scale, velocities less their means, to compare orbits at two speeds."""
         drift = np.zeros(self.unknowns.size)
         drift[1:3] = self.problem.speed, self.problem.climb
         return (self.unknowns - drift) / self.problem.unknowns().scale
@@ -107,34 +107,34 @@ class Solution:
 
     @functools.cached_property
     def objective(self) -> float:
-        """What was minimised."""
+        """The value that was minimised."""
         minimise = self.problem.minimise
         if minimise.parameter:
             return float(self.unknowns[self.problem.unknowns().names.index(minimise.parameter)])
         return self.value_of(minimise)
 
     def as_optimum(self) -> tuple[Optimum, ...]:
-        """Return the orbit as an optimum that a search ended in; none where nothing is certified."""
+        """Return the orbit as an optimum in which one start ended; nothing if it is not certified."""
         return (Optimum(self.objective, self.unknowns),) if self.status is Status.CONVERGED else ()
 
     def beat(self) -> Beat:
-        """Return the certified beat as a time series, made anew: batches have no room for many."""
+        """Return the certified beat as time series, computed anew: thousands of solutions could not hold theirs."""
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
         return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
 
     def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified beat in its unit, of a series its largest value."""
+        """Return a quantity of the certified beat in its unit; of a series, its largest value."""
         return float(np.max(quantity.of(self.beat())))
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:
-        """Floquet multipliers, found when first asked for."""
+        """Floquet multipliers, computed on first use."""
         return floquet_multipliers(self.problem.model, self.wingbeat, self.certificate.steps)
 
 
 def better_of(own: Solution, other: Solution) -> Solution:
-    """Return the better of two answers to one problem, with the searches, optima and times of both."""
+    """Return the better of two solutions of one problem, with the starts, optima and times of both."""
     converged = [s for s in (own, other) if s.status is Status.CONVERGED]
     known = [o for s in (own, other) for o in (s.optima or s.as_optimum())]
     optima = families(known, own.problem.unknowns().scale, own.options.search.same_optimum)

@@ -1,4 +1,4 @@
-"""From a problem to a certified orbit: several searches, defect correction, the certificate, a status."""
+"""From a problem to a certified orbit: several starts, defect correction, the certificate, a status."""
 
 from __future__ import annotations
 
@@ -51,27 +51,27 @@ def find_orbit(
     explain: bool = True,
     options: SolverOptions = DEFAULTS,
 ) -> Solution:
-    """Search for the periodic orbit of least objective from several starts and certify it.
+    """Find the periodic orbit that minimises the objective, from several starts, and certify it.
 
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of searches; if not given, as `SearchOptions` says for such a problem. Where peaks are
-        minimised, half as many follow beside the best.
-    seed : makes the random starts; the same seed gives the same orbit.
-    progress : called with (searches done, searches in all). Without an orbit changes are tried after that, each of
-        which counts as one more.
-    threads : searches at a time, as many as there are cores if not given.
-    most_starts : if none of the searches can be certified, more are made, up to this many; if not given, as
-        `SearchOptions` says.
-    advise : where there is no orbit, find the single changes that make one. It costs as much as the searches.
-    explain : where there is no orbit, find the beat nearest to one and which law of balance fails. It costs a third
-        of the searches. Without it nothing is advised.
+    starts : number of starts; default as in `SearchOptions` for such a problem. If peaks are minimised, half as
+        many follow beside the best optimum.
+    seed : of the random starts; the same seed gives the same orbit.
+    progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
+        as one more.
+    threads : local searches at a time; default the number of cores.
+    most_starts : if no start leads to a certified orbit, more follow, up to this many; default that of
+        `SearchOptions`.
+    advise : without an orbit, find the single changes that lead to one. It takes as long as the starts.
+    explain : without an orbit, find the closest wingbeat and the balance that fails. It takes a third of the time
+        of the starts. If false, `advise` has no effect.
     options : of the solvers.
 
     Returns
     -------
-    Solution : with a status; a failed search is data, not an exception.
+    Solution : with a status; a failure is a result, not an exception.
 
     Raises
     ------
@@ -91,9 +91,9 @@ def find_orbit(
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and what so many searches of its problem, one by one, come to.
+    """Return the better of a certified orbit and the best that so many starts find, one after the other.
 
-    Only what may be better, as far as the search's few steps tell, is certified.
+    Only optima that may be better, judged by the solver's coarse flights, are certified.
     """
     begun = time.perf_counter()
     programme, options = Transcription(known.problem, known.options), known.options.search
@@ -127,7 +127,7 @@ def _searched(
     threads: int,
     progress: Progress | None = None,
 ) -> tuple[Corrected | None, list[Candidate]]:
-    """Return the best certified orbit that searches lead to, if any, and where they all ended."""
+    """Return the best certified orbit that the starts lead to, if any, and where all local searches ended."""
     load_programs(programme, start_point(programme.problem, 0, seed, programme.options.search))
     found = first_searches(programme, starts, seed, threads, progress)
     best = first_certified(programme, found)
@@ -138,7 +138,7 @@ def _searched(
     more = range(starts, most if best is None else starts)
     for done, candidate in enumerate(search_from_starts(programme, more, seed, threads), starts + 1):
         found.append(candidate)
-        if progress is not None:  # what limits led to is none of the starts
+        if progress is not None:  # searches from limited quantities are not counted
             progress(done, max(starts, most))
         if (best := first_certified(programme, [candidate])) is not None:
             break
@@ -161,15 +161,15 @@ def _found(
 
 
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
-    """Yield where searches end that start from beats with the least of a limited quantity, one limit at a time.
+    """Yield where local searches end that start from beats with the least of a limited quantity, limit by limit.
 
-    Limits on a peak have edges in which searches from random starts stop: all fifty of the bat did at 10 m/s with
-    least positive power within a pitch torque, where a quarter less torque would have done.
+    Limits on a peak have edges at which local searches stop. For the bat at 10 m/s with least positive power within
+    a pitch torque all fifty random starts stopped there, although a quarter less torque was feasible.
     """
     problem, options = programme.problem, programme.options
     for limit in problem.subject_to:
         if limit.at_most:
-            # An output of the beat, as the limit is: a frequency that is held is no unknown.
+            # Minimised as an output of the beat, because a fixed frequency is no unknown.
             least = dataclasses.replace(limit.quantity, parameter=None)
             easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)
             found = first_searches(easier, starts, seed, threads)
@@ -182,13 +182,13 @@ def correct_guess(
     like: ReducedHessian | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Solution | None:
-    """Correct unknowns taken to be next to an orbit, without a search.
+    """Correct unknowns that are assumed to be next to an orbit, without a local search.
 
     Parameters
     ----------
     problem : the orbit problem.
     guess : unknowns.
-    like : curvature of a problem much the same.
+    like : curvature at the optimum of a similar problem.
     options : of the solvers.
 
     Returns
@@ -214,13 +214,13 @@ def correct_guess(
 def search_near(
     problem: OrbitProblem, start: np.ndarray, below: float = np.inf, options: SolverOptions = DEFAULTS
 ) -> Solution | None:
-    """Search once from unknowns near an orbit; return the certified orbit, or None.
+    """Run one local search from unknowns near an orbit; return the certified orbit, or None.
 
     Parameters
     ----------
     problem : the orbit problem.
     start : unknowns to start from, clipped to their bounds.
-    below : the objective must come out less than this, or the orbit is not even certified.
+    below : an optimum is certified only if its objective is less than this.
     options : of the solvers.
     """
     begun = time.perf_counter()
@@ -233,11 +233,11 @@ def search_near(
 def find_optima(
     problem: OrbitProblem, starts: int, seed: int = 0, options: SolverOptions = DEFAULTS
 ) -> list[Solution]:
-    """Return every distinct optimum that searches find and the certifier closes, the best first.
+    """Return every distinct optimum that the starts find and the certifier confirms, the best first.
 
     Parameters
     ----------
-    problem, starts, seed, options : as in `find_orbit`; the searches are made one after the other.
+    problem, starts, seed, options : as in `find_orbit`; the starts run one after the other.
     """
     begun = time.perf_counter()
     found = first_searches(Transcription(problem, options), starts, seed, 1)
@@ -256,7 +256,7 @@ def find_optima(
 
 
 def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
-    """Return what a search ended in as the certifier closes it, or None; `seconds` is what the search took."""
+    """Certify where a local search ended, or return None; `seconds` is the time that the search took."""
     begun = time.perf_counter()
     programme = candidate.programme.uncorrected()
     best = first_certified(programme, [candidate])

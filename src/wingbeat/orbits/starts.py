@@ -1,9 +1,9 @@
-"""Where searches start: a wingbeat of each family there is, then seeded random ones within the bounds.
+"""The solver's starts: one in each family of wingbeats, then seeded random ones within the bounds.
 
-Most start from brisk wingbeats. A vehicle that beats fast moves little within a beat, so closure is nearly linear
-there and its searches do not stray; one that beats too slowly to stay up has no orbit near. From a closed orbit of
-high frequency the way to least frequency is downhill. But where wings are large for the body, families of little
-pitching exist at low frequencies alone, and brisk starts miss them.
+Most have a high frequency. A vehicle that beats fast moves little within a beat, so closure is nearly linear and
+local searches do not diverge. One that beats too slowly to stay up has no orbit near. From a closed orbit of high
+frequency, the frequency decreases steadily towards its minimum. But where wings are large for the body, families
+with little wing pitching exist at low frequencies only, and fast starts miss them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
-    """Return how many starts a problem has if their number is not given."""
+    """Return the default number of starts of a problem."""
     if problem.minimises_peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
     return options.starts_of_outputs if problem.has_outputs else options.starts
@@ -29,7 +29,7 @@ def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search
 def start_beside(
     problem: OrbitProblem, best: np.ndarray, index: int, seed: int, options: SearchOptions = DEFAULTS.search
 ) -> np.ndarray:
-    """Return unknowns near those of an optimum; they depend on it, index and seed alone."""
+    """Return random unknowns near an optimum; they depend on it, index and seed alone."""
     unknowns = problem.unknowns()
     random = np.random.default_rng([seed, index])
     moved = best + options.start_spread * unknowns.scale * random.uniform(-1.0, 1.0, best.size)
@@ -59,7 +59,7 @@ def start_point(
 def structured_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> list[np.ndarray]:
     """Return a start in each family of wingbeats, the species' stock wingbeat first.
 
-    Optima beat with the wings below, above or about level with the body, and with little or much pitching.
+    In optima the wings beat below, above or about level with the body, with little or much pitching.
     """
     unknowns = problem.unknowns()
     found: list[np.ndarray] = []
@@ -82,6 +82,6 @@ def _start_in(problem: OrbitProblem, family: StartFamily) -> list[float]:
     if "flap_mean" in wingbeat and family.flap_mean is not None:
         low, high = problem.bounds["flap_mean"]
         wingbeat["flap_mean"] = 0.5 * (low + high + family.flap_mean * (high - low))
-    # Turning the stroke plane turns the body the other way and leaves the wings where they were.
+    # Tilting the stroke plane turns the body the other way and leaves the wings where they were.
     pitch = family.nose_up + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
     return [pitch, problem.speed, problem.climb, 0.0, *wingbeat.values()]

@@ -1,4 +1,4 @@
-"""How a search for an orbit ended."""
+"""How the solver ended."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One beat as a time series, with its exact derivatives along the unknowns: what quantities are read off."""
+"""One beat as time series, with exact derivatives by the unknowns; quantities are functions of it."""
 
 from __future__ import annotations
 
@@ -115,10 +115,10 @@ class Beat(NamedTuple):
 
 
 def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
-    """Return the mean of the positive part of samples at equal phases, straight lines between them.
+    """Return the mean of the positive part of samples at equal phases, with straight lines between them.
 
-    Unlike the mean of the samples' positive parts it has a derivative where a sample passes zero. `xp` is the array
-    module of the samples.
+    Unlike the mean of the samples' positive parts, it has a derivative where a sample passes zero. `xp` is the
+    array module of the samples.
     """
     before, after = values[:-1], values[1:]
     crosses = before * after < 0.0
@@ -127,12 +127,12 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
     return 0.5 * xp.mean(xp.where(crosses, part, whole))
 
 
-# Numbers of a beat that are no series.
+# Fields of a beat that are single numbers.
 NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
 
 
 class _Tables(NamedTuple):
-    """What the wing does at given phases, whatever the body does."""
+    """The wing's motion at given phases, which does not depend on the body's."""
 
     phase: Samples
     motion: WingMotion
@@ -208,12 +208,12 @@ def _part(
     *,
     free: tuple[str, ...],
 ) -> tuple[Beat, Beat]:
-    """Return the beat between two phases, and its derivatives: directions are the first axis."""
+    """Return the beat between two phases, and its derivatives, directions first."""
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
-    # A barrier, so that each direction reads the tables and does not compute them again.
+    # The barrier keeps each direction from computing the tables again.
     tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(directions)))
     found, change = jax.linearize(lambda table, a: _series(model, table, a, mean_velocity), tables, path)
     return found, jax.vmap(change)(table_tangents, tangents)
@@ -222,9 +222,9 @@ def _part(
 def beat_reader(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], mean_velocity: tuple[float, float]
 ) -> Callable[[np.ndarray, Flown], tuple[Beat, Beat]]:
-    """Return the beat, and its derivatives along the unknowns (first axis), as a function of a flight.
+    """Return a function of a flight: the beat, and its derivatives by the unknowns (first axis).
 
-    The function takes the values of the parameters named in `free`, and what `flier` made of them.
+    The function takes the values of the parameters named in `free`, and the flight that `flier` made with them.
     """
     part = _part.bind(model, wingbeat, free=free)
     velocity = np.array(mean_velocity)
@@ -245,7 +245,7 @@ def beat_reader(
 
 
 def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
-    """Return one beat of its parts along the axis of phases; where two meet they say the same."""
+    """Join parts of a beat along the axis of phases; neighbours share the sample between them."""
 
     def join(name: str) -> Any:
         parts = [np.asarray(getattr(piece, name)) for piece in pieces]
@@ -259,11 +259,11 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 @exported
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
-    """Return the beat of states that were flown.
+    """Return the time series of a flown path.
 
     Parameters
     ----------
-    model, wingbeat : what flies.
+    model, wingbeat : the flight model and its wingbeat.
     phase, path : equal phases from 0 to 1, shape (K,), and (body_pitch, u, w, pitch_rate) there, shape (K, 4)
         [rad, m/s, m/s, rad/s].
     mean_velocity : forward and up [m/s].

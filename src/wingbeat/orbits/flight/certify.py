@@ -1,7 +1,7 @@
 """The certificate: an independent adaptive flight of one period.
 
-Nothing of the search is used: Dopri8 at rtol 1e-10 with error control, the wing's motion evaluated where the
-integrator asks.
+It uses nothing of the solver's flights: Dopri8 with error control, at rtol 1e-10, evaluates the wing's motion at
+instants of its own.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Certificate:
     ----------
     phase : phases, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
-    steps : where the integrator stepped.
+    steps : the integrator's steps.
     """
 
     phase: np.ndarray
@@ -52,12 +52,13 @@ def certify(
 
     Parameters
     ----------
-    model, wingbeat : what flies.
-    pitch_state : where it starts, shape (4,) [rad, m/s, m/s, rad/s].
+    model, wingbeat : the flight model and its wingbeat.
+    pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
     rtol : relative tolerance of the flight.
     rough : sample the path at a few phases only, which takes half the time.
     """
-    # As many phases either way, the last ones all at the end, so that one compiled flight serves both.
+    # Always the same number of phases, if rough the last ones all at the end, so that one compiled program serves
+    # both.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
     start = State(0.0, 0.0, *pitch_state)
     return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))

@@ -1,7 +1,7 @@
-"""How a disturbed orbit returns: Floquet multipliers, from flights beside the certified path.
+"""How disturbances of an orbit grow or decay: Floquet multipliers, from flights beside the certified path.
 
-Differences serve here, not tangents: nothing is searched along them, they are right to some 1e-6, and they compile
-in half the time.
+Differences suffice: no optimiser uses these derivatives, they are accurate to about 1e-6, and they compile in half
+the time of tangents.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from wingbeat._jax.shapes import Stretches, StretchMaps, StretchStates
 
 
-# Steps in each of the certifier's own, which are short at the kinks of the loads: with two the multipliers of
-# unstable bats come within 1e-5 of those of an adaptive flight.
+# Steps in each of the certifier's own, which are short at the kinks of the loads. With two, the multipliers of
+# unstable bats are within 1e-5 of those of an adaptive flight.
 _STEPS = 2
-# How far beside the path the flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
+# Distances from the path at which the flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
 _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
-# Stretches of the path that are flown at once, as lanes: few enough for the processor's nearest memory.
+# Stretches of the path that are flown at once, as lanes: few enough for the processor's first cache.
 _LANES = 64
 
 
@@ -35,9 +35,9 @@ _LANES = 64
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
-    """Return the derivative of the pitch state at the end of each stretch by that at its begin, shape (K, 4, 4).
+    """Return the derivative of the pitch state at the end of each stretch by that at its start, shape (K, 4, 4).
 
-    Each stretch is flown from where the path is, (K, 4), and from beside it.
+    Each stretch is flown from the path, (K, 4), and from beside it.
     """
     length = (end - begin) / _STEPS
     seconds = length / wingbeat.frequency
@@ -74,14 +74,14 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     Parameters
     ----------
     steps : the certifier's steps.
-    model, wingbeat : what flies.
+    model, wingbeat : the flight model and its wingbeat.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
         return np.full(4, np.nan + 0j)
     maps_of, count, blocks = _state_maps.bind(model, wingbeat), len(phase) - 1, []
     for first in range(0, count, _LANES):
-        # Lanes to spare fly the last stretch again.
+        # Spare lanes repeat the last stretch.
         lanes = np.minimum(np.arange(first, first + _LANES), count - 1)
         blocks.append(maps_of(phase[lanes], phase[lanes + 1], path[lanes]))
     maps = np.concatenate(blocks)[:count]
@@ -92,7 +92,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
 
 
 def _chained(maps: np.ndarray) -> np.ndarray:
-    """Return the product of linear maps, shape (K, 4, 4), the first applied first; many pairs at a time."""
+    """Return the product of linear maps, shape (K, 4, 4), the first applied first; all pairs at a time."""
     while len(maps) > 1:
         last = maps[len(maps) // 2 * 2 :]
         maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])

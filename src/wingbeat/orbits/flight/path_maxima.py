@@ -1,6 +1,6 @@
 """The peaks of a series along a beat: its largest value in each quarter.
 
-A path seldom has two peaks in one quarter, and a search that saw the largest only would go to and fro between peaks
+A path seldom has two peaks in one quarter. With the largest peak alone, an optimiser would alternate between peaks
 of equal height.
 """
 
@@ -28,8 +28,8 @@ def highest(series: SampledSeries) -> Quarters:
 def peaks(series: SampledSeries) -> Quarters:
     """Return the peak in each quarter of a smooth curve through the samples of a closed path, along the first axis.
 
-    The highest sample itself has a kink wherever two samples are level, and optima that lower a peak, or are at a
-    bound of the path, come to lie in it. The curve between two samples is the cubic of Catmull and Rom.
+    The highest sample has a kink where two samples are equal, and optima that lower a peak, or are at a bound of
+    the path, end in that kink. The curve between two samples is a Catmull-Rom cubic.
     """
     part = (series.shape[0] - 1) // PARTS
     around = [_samples_around(series, i * part, (i + 1) * part) for i in range(PARTS)]
@@ -38,7 +38,7 @@ def peaks(series: SampledSeries) -> Quarters:
 
 
 def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
-    """Return the indices of four samples, between the middle two of which the curve peaks in a quarter."""
+    """Return the indices of four samples; in a quarter, the curve peaks between the middle two."""
     count = series.shape[0] - 1
     top = begin + jnp.argmax(series[begin : end + 1], axis=0)
 
@@ -47,14 +47,14 @@ def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
 
     way = jnp.where(beside(1) >= beside(-1), 1, -1)
     inside = (begin <= top + way) & (top + way <= end)
-    # Where the curve would rise out of the quarter, its peak there is the sample at the end.
+    # Where the curve would rise beyond the quarter, its peak is the sample at the end.
     return [jnp.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)]
 
 
 def peak_weights(path: np.ndarray) -> np.ndarray:
     """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`.
 
-    They are those of the peak's derivative, too: where the peak lies does not matter to first order.
+    The same weights give the peak's derivative: the phase of the peak does not matter to first order.
     """
     count = len(path) - 1
     begin = np.arange(PARTS) * (count // PARTS)
@@ -73,10 +73,10 @@ def peak_weights(path: np.ndarray) -> np.ndarray:
 def _weights(samples: Quarters, xp: Any) -> Quarters:
     """Return the weights of four samples that give the peak of the curve between the middle two.
 
-    The first of those is the higher. Samples and weights are the first axis; `xp` is their array module.
+    The first of these two is the higher. Samples and weights are the first axis; `xp` is their array module.
     """
     before, here, there, after = samples
-    # Slope, bend and twist of the cubic from the highest sample, at 0, to the one beside it that the path rises to.
+    # Coefficients of the cubic, linear to cubic, from the highest sample, at 0, to its higher neighbour, at 1.
     slope, slope_there = 0.5 * (there - before), 0.5 * (after - here)
     bend = 3.0 * (there - here) - 2.0 * slope - slope_there
     twist = 2.0 * (here - there) + slope + slope_there
@@ -94,8 +94,9 @@ def _weights(samples: Quarters, xp: Any) -> Quarters:
 
 
 def spread(series: SampledSeries) -> Columns:
-    """Return how far a series is, at each phase, above its least value in each quarter: shape (phases, quarters).
+    """Return a series less its least value in each quarter: shape (phases, quarters).
 
-    The largest of all is the series' range. Above the least value only, it would have a kink where two are level.
+    The largest of these numbers is the series' range. With the least value of the whole beat alone, it would have a
+    kink where two minima are equal.
     """
     return series[:, None] + peaks(-series)

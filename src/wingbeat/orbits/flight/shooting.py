@@ -1,7 +1,8 @@
-"""One period flown with fixed steps, and the exact derivative of where it ends.
+"""One period flown with fixed steps, and the exact derivative of its end.
 
-The march goes first, in sequence; then the tangents of all steps at once as lanes, each from the state where
-its step began; last the chain of the small step maps. Place (x, z) feeds nothing back and is a sum of steps.
+The states come first, step after step; then the tangents of all steps at once, as lanes, each from the state at the
+start of its step; last the product of the step maps. The position (x, z) does not feed back: it is a sum over the
+steps.
 """
 
 from __future__ import annotations
@@ -49,9 +50,9 @@ STEPS = 32
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
-    Where it ends, shape (6,), and body pitch or the whole pitch state after each step, from the start on, shape
-    (K, components); of their Jacobians the columns are last. How near the stroke comes to its limits, and the
-    derivative by the free parameters, are there if they were asked for.
+    `end` has shape (6,). `path` is body pitch, or the whole pitch state, at the start and after each step, shape
+    (K, components). The last axis of a Jacobian is the unknowns. `stroke`, the distances of the stroke from its
+    limits, and its derivative by the free parameters are None unless requested.
     """
 
     end: StateVector
@@ -67,7 +68,7 @@ def _tabulate(
 ) -> tuple[tuple[TableRows, Scalar], WingMotion]:
     """Tabulate the wing at the ends of the steps, then at their middles.
 
-    Returns the table in rows and the length of a step [s], and the table as it is.
+    Returns the table in rows and the length of a step [s], and the table itself.
     """
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
@@ -76,12 +77,12 @@ def _tabulate(
 
 
 def _in_rows(table: WingMotion) -> TableRows:
-    """Return one array of all quantities of a table, (rows, times): one array is cut up at less cost than many."""
+    """Return a table as one array, (rows, times), which costs less to slice than many."""
     return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
 
 
 def _from_rows(rows: TableRows, like: Any) -> WingMotion:
-    """Return the table whose rows these are; `like` is a table of any times."""
+    """Return a table from its rows; `like` is a table at any times."""
     leaves, tree = jax.tree_util.tree_flatten(like)
     sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
     parts = jnp.split(rows, sizes[:-1])
@@ -89,7 +90,7 @@ def _from_rows(rows: TableRows, like: Any) -> WingMotion:
     return jax.tree_util.tree_unflatten(tree, shaped)
 
 
-# Where the four stages of all steps are along the last axis of a table of `_tabulate`.
+# Indices of the four stages of all steps along the last axis of a table of `_tabulate`.
 _STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in PLACES]
 
 
@@ -154,9 +155,9 @@ def _stage_tangents(
 
 
 def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
-    """Return what tangents (directions, 4, ..) become under a linear map (4, components, ..), by state first.
+    """Apply a linear map (4, components, ..), state first, to tangents (directions, 4, ..).
 
-    Written out: XLA on CPU makes vector code of sums of products along the last axis, but not of small products.
+    Written out: XLA on CPU vectorises sums of products along the last axis, but not products of small matrices.
     """
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
@@ -215,10 +216,10 @@ def fly_part(
     components: int,
     stroke: bool,
 ) -> Flown:
-    """Fly `STEPS` steps from one phase to another, free parameters now at `values`, and differentiate.
+    """Fly `STEPS` steps between two phases with the free parameters at `values`, and differentiate.
 
-    The least distances of the stroke are of the whole beat, and told where it begins: in the same program, for a
-    call of their own would cost as much again.
+    The least distances of the stroke are of the whole beat; the part that starts at phase 0 returns them. In a
+    program of their own they would cost as much again.
     """
 
     def by_values(at: Any) -> Any:
@@ -252,9 +253,9 @@ def flier(
 ) -> Callable[..., Flown]:
     """Return the flight of one period as a function of free parameters, pitch state at x = z = 0, and blocks.
 
-    It flies `blocks` times `STEPS` steps and differentiates them. The path it returns is that of body pitch, or
-    the whole pitch state's: to hand over its derivatives where nobody reads them would cost a batch a tenth. With
-    `stroke` it hands over how near the stroke comes to its limits, too.
+    It flies `blocks` times `STEPS` steps and differentiates them. The path is that of body pitch, or with
+    `whole_path` that of the whole pitch state, whose derivatives take a tenth of a batch's time. With `stroke` it
+    also returns the distances of the stroke from its limits.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 
@@ -268,7 +269,7 @@ def flier(
 
 
 def _then(before: Flown, part: Flown) -> Flown:
-    """Return two parts flown one after the other."""
+    """Join two parts that were flown one after the other."""
     chained = before.end_jacobian[2:]
 
     def from_start(jacobian: Any) -> np.ndarray:

@@ -1,8 +1,8 @@
-"""How near a stroke comes to its limits: the side of the body that a wing keeps to, the range of its shoulder.
+"""How close a stroke comes to its limits: the plane of symmetry for each wing, the range of the shoulder.
 
-Both depend on the wingbeat alone; a flight hands them over with its end. Each row is the least distance from a
-limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand
-in the whole beat. Where in the beat the distance is least does not matter to first order.
+Both depend on the wingbeat alone; a flight returns them with its end. Each row is the least distance from a limit:
+of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand in the
+whole beat. The phase of the least distance does not matter to first order.
 """
 
 from __future__ import annotations
@@ -24,32 +24,31 @@ if TYPE_CHECKING:
     from wingbeat._jax.shapes import Samples, StrokeIndices, StrokeRows, StrokeSeries
 
 
-# The limit of the corners, as a name among the active bounds.
+# Name of the corners' limit among the active bounds.
 SYMMETRY = "plane_of_symmetry"
-# Phases at which the least distance is looked for, and steps of Newton's method that find it between them.
-# Harmonics go up to the eighth, each period of which has eight samples. One step leaves an error of 7e-5 in the
-# derivative, two 1e-8.
+# Number of sampled phases, and of steps of Newton's method from the least sample to the minimum. The eighth and
+# highest harmonic has eight samples in each period. One step leaves an error of 7e-5 in the derivative, two 1e-8.
 _SAMPLES, _NEWTON = 64, 2
 # Name and sign of each row's limit.
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
 
-# Each row of corners is looked for in its quarter of the beat, one of angles in the whole.
+# Phases between which each row is sought: corners in a quarter of the beat, angles in the whole.
 _BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
 _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 
 
 def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -> StrokeSeries:
-    """Return what the rows are the least of: corners over the wing's length, then angles, shape (4 N + 4, K)."""
+    """Return the series whose minima are the rows: corners over the wing's length, angles; shape (4 N + 4, K)."""
     corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, strips)]
     angles = flap_angles(wingbeat, phase)
     return jnp.concatenate([*corners, angles, -angles])
 
 
 def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIndices]:
-    """Return which series is the least of each row, and at which sample.
+    """Return the index of the series with the least value in each row, and of its sample.
 
-    First the sample, by the least of all corners at each: XLA on CPU makes vector code of a least value, but not of
-    the search for its place.
+    The sample comes first, from the minimum over all corners at each: XLA on CPU vectorises a minimum, but not the
+    search for its index.
     """
     part = (sampled.shape[1] - 1) // PARTS
     quarters = np.arange(PARTS)[:, None] * part + np.arange(part + 1)
@@ -64,7 +63,7 @@ def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIn
 def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
     """Return the least distance of each row, shape (12,).
 
-    Corner and phase are held when it is differentiated: at its least the rate by phase is 0.
+    Derivatives hold corner and phase fixed: at a minimum the derivative by phase is 0.
     """
     samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
     series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
@@ -87,7 +86,7 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Stroke
 
 
 def _at_least(value: Callable[[Any], Any], phase: StrokeRows, rows: slice) -> Samples:
-    """Return some rows at their least, by Newton's method from the phases of the least samples."""
+    """Return the minima of some rows, by Newton's method from the phases of the least samples."""
     phase = phase[rows]
     for _ in range(_NEWTON):
         one = jnp.ones_like(phase)

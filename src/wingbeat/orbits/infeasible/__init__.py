@@ -1,1 +1,1 @@
-"""What is said where no orbit is found: which law fails, by how much, and which changes would fly."""
+"""Diagnosis of problems without an orbit: which balance fails, by how much, and which changes fly."""

@@ -1,4 +1,4 @@
-"""Which law of balance fails where there is no orbit, and by how much.
+"""Which balance fails where there is no orbit, and by how much.
 
 We look for the wingbeat, within bounds, that returns to its position and attitude and comes closest to its initial
 velocity. A force that is short on average changes the velocity over the beat, a moment the pitch rate. As shares of
@@ -20,13 +20,13 @@ from wingbeat.orbits.problem.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 
 THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
 LAWS = (THRUST, LIFT, MOMENT)
-# The state that does not return where a law fails.
+# The velocity that does not return if a balance fails.
 _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 
 
 @dataclass(frozen=True)
 class Deficit:
-    """What a balance lacks on average over the beat; negative where there is too much.
+    """The mean deficit of a balance over the beat; negative for an excess.
 
     Parameters
     ----------
@@ -56,14 +56,14 @@ class Deficit:
 
 @dataclass(frozen=True)
 class Unbalanced:
-    """The beat nearest to an orbit with some laws broken, in the optimiser's scale, and the deficits as shares.
+    """The beat closest to an orbit if some balances may fail.
 
     Parameters
     ----------
-    scaled : its unknowns.
-    shares : the deficit of each broken law.
-    keeps_the_rest : whether all else holds.
-    nothing : a share that counts as none.
+    scaled : its unknowns, in the optimiser's scale.
+    shares : the deficit of each balance that may fail, as a share.
+    keeps_the_rest : whether all other conditions hold.
+    nothing : a smaller root of the sum of squares of the shares counts as zero.
     """
 
     scaled: np.ndarray
@@ -78,7 +78,7 @@ class Unbalanced:
 
     @property
     def closes(self) -> bool:
-        """Whether nothing is short at all."""
+        """Whether no balance fails and all other conditions hold."""
         return self.keeps_the_rest and self.size <= self.nothing
 
     @property
@@ -88,7 +88,7 @@ class Unbalanced:
 
 
 class Balance:
-    """Closeness to an orbit, in shares of the weight."""
+    """The distance of beats from an orbit, measured as shares of the weight."""
 
     def __init__(self, programme: Transcription) -> None:
         self._programme, problem = programme, programme.problem
@@ -98,13 +98,13 @@ class Balance:
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
         inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: _pitch_inertia(problem)}
         self._rows = {law: CLOSURE.index(state) for law, state in _STATES.items()}
-        # Times the frequency, the share that a miss of 1 in the optimiser's scale stands for.
+        # Share of the weight for a residual of 1 in the optimiser's scale, divided by the frequency.
         self._per_hertz = {law: inertias[law] * CLOSURE_SCALE[self._rows[law]] / self.units[law] for law in LAWS}
 
     def nearest(
         self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int | None = None
     ) -> Unbalanced:
-        """Return the beat nearest to an orbit, from a point of the search, with only these laws broken."""
+        """Return the beat closest to an orbit if only these balances may fail, from scaled unknowns."""
         options, weight = self._options, self._options.violation_weight
         least = options.deficit if evaluations is None else replace(options.deficit, evaluations=evaluations)
         programme, broken = self._programme, tuple(broken)
@@ -136,10 +136,10 @@ class Balance:
         return Unbalanced(found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps), options.nothing)
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes, or the nearest with the one law broken that alone suffices, or with all.
+        """Return a beat that closes; else the closest one with one failed balance; else that with all failed.
 
-        Of several laws that each suffice, the one that is broken least counts. A force that is too large counts
-        only where no deficit suffices: what is too much can mostly be spilled, as the price of another law.
+        If each of several balances alone may fail, the one with the smallest deficit counts. An excess of force
+        counts only if no deficit suffices: excess force can mostly be shed, at the expense of another balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []
@@ -158,7 +158,7 @@ class Balance:
         return best
 
     def deficits(self, beat: Unbalanced) -> tuple[Deficit, ...]:
-        """Return what is short at a beat, the largest first."""
+        """Return the deficits of a beat, the largest first."""
         shares = sorted(beat.shares.items(), key=lambda item: -abs(item[1]))
         return tuple(Deficit(law, share, share * self.units[law]) for law, share in shares)
 

@@ -1,4 +1,4 @@
-"""What to tell a user who asked for an orbit that there is not: what fails, and which changes would fly."""
+"""Diagnosis of a problem without an orbit: which balance fails, and which single changes fly."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 @dataclass(frozen=True)
 class Nearest:
-    """The beat within the bounds that is nearest to an orbit, and its deficits, the largest first."""
+    """The closest wingbeat, in the optimiser's scale, and its deficits, the largest first."""
 
     scaled: np.ndarray
     deficits: tuple[Deficit, ...]
@@ -32,7 +32,7 @@ class Nearest:
 
 
 class LeastChange(NamedTuple):
-    """A change, the share of its scale by which it must be made, and the unknowns of a beat that closes then."""
+    """A change, its least amount as a share of its scale, and the unknowns of a beat that then closes."""
 
     change: Change
     share: float
@@ -40,7 +40,7 @@ class LeastChange(NamedTuple):
 
 
 def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
-    """Return the beat nearest to an orbit, from where the searches ended."""
+    """Return the closest wingbeat, computed from where the local searches ended."""
     balance, options = Balance(programme), programme.options.diagnosis
     apart, ends = options.ends_apart * (programme.upper - programme.lower), []
     for end in (c.scaled for c in sorted(found, key=lambda c: c.violation)):
@@ -51,7 +51,7 @@ def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Neares
 
 
 def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
-    """Return what is short, as part of a sentence."""
+    """Return the deficits as part of a sentence."""
     problem, least = programme.problem, programme.options.diagnosis.mentioned * abs(deficits[0].share)
     words = [str(d) for d in deficits if abs(d.share) >= least]
     place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
@@ -66,14 +66,14 @@ def least_changes(
     threads: int,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[LeastChange]:
-    """Return the single changes with which beats close, as small as they can be, the smallest first.
+    """Return the single changes with which beats close, each as small as possible, the smallest first.
 
     Parameters
     ----------
     programme : of the problem without an orbit.
-    near : the unknowns of the beat nearest to one.
-    nearest : what that is short of.
-    threads : changes that are tried at a time.
+    near : the unknowns of the closest wingbeat.
+    nearest : that wingbeat with its deficits.
+    threads : changes tried at a time.
     progress : called with (changes tried, changes in all).
     """
     options = programme.options
@@ -94,7 +94,7 @@ def least_changes(
 
 
 def certified_changes(programme: Transcription, found: Iterable[LeastChange]) -> tuple[Relaxation, ...]:
-    """Return the first few changes with which, rounded outward, a certified orbit is found."""
+    """Return the first few changes that, rounded outward, lead to a certified orbit."""
     flying: list[Relaxation] = []
     programme = _plainly(programme)
     for least in found:
@@ -107,7 +107,7 @@ def certified_changes(programme: Transcription, found: Iterable[LeastChange]) ->
 
 
 def _plainly(programme: Transcription) -> Transcription:
-    """Return the programme with an objective that needs no unknown of its own."""
+    """Return the programme with an objective that needs no epigraph variable."""
     problem = programme.problem
     if programme.has_epigraph:
         plain = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
@@ -116,7 +116,7 @@ def _plainly(programme: Transcription) -> Transcription:
 
 
 def bounds_near(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
-    """Yield (name, sign) of the bounds that hold a beat back, and of the limits of the whole path that do."""
+    """Yield (name, sign) of the bounds that a beat is near, and of the limits of the whole path that it is near."""
     share = programme.options.diagnosis.near_bound
     names, reach = programme.unknowns.names, share * (programme.upper - programme.lower)
     for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
@@ -132,7 +132,7 @@ def bounds_near(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[
 def _least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
 ) -> tuple[float, np.ndarray] | None:
-    """Return what `least_change` does; a change that makes the problem impossible on its way is none."""
+    """Return the result of `least_change`, or None if the change makes the problem impossible."""
     try:
         return least_change(problem, change, near, options)
     except InvalidInputError:
@@ -146,7 +146,7 @@ def _certified_change(programme: Transcription, least: LeastChange) -> Relaxatio
         change = relaxation(problem, least.change, value, more)
         try:
             changed = Transcription(change.apply(problem), options)
-        except InvalidInputError:  # rounded to where no problem is: a shoulder at the centre of mass, for one
+        except InvalidInputError:  # impossible once rounded, such as a shoulder at the centre of mass
             continue
         for attempt in (refine, search):
             found = attempt(changed.uncorrected(), least.unknowns)

@@ -1,9 +1,9 @@
 """Least frequency that ends at its own lower bound, as in a descent that is nearly a glide.
 
-Where the wings hardly need to beat, orbits exist down to any frequency, and the bound is the answer. Searches often
-do not get there: a beat of half a second or more is too long for its closure to be nearly linear. For a pigeon at
-12 m/s and a sink of 7.2 m/s none of 20 searches closed, while with a lower bound of 2, 4 or 6 Hz the first few
-found an orbit at that bound. So where searches fail, the bound is raised.
+Where the wings hardly need to beat, orbits exist down to any frequency, and the optimum is at the bound. Local
+searches often do not reach it, because the closure of a beat of half a second or more is far from linear. For a
+pigeon at 12 m/s and a sink of 7.2 m/s none of 20 starts closed, while with a lower bound of 2, 4 or 6 Hz the first
+few found an orbit at that bound. So if all starts fail, the bound is raised.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from wingbeat.orbits.starts import start_point
 
 
 def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: float) -> bool:
-    """Say whether the frequency is minimised and is at its lower bound: no search can better that."""
+    """Return whether the frequency is minimised and at its lower bound, so that no start can improve it."""
     if problem.minimise.parameter != "frequency":
         return False
     low, high = problem.bounds["frequency"]
@@ -29,7 +29,7 @@ def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: fl
 
 
 def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
-    """Say whether least frequency may end at its bound: in a descent, or where a beat at the bound closed."""
+    """Return whether least frequency may end at its bound: in a descent, or if a beat at the bound closed."""
     problem, tolerance = programme.problem, programme.options.search.bound_tolerance
     if problem.minimise.parameter != "frequency":
         return False
@@ -56,7 +56,7 @@ def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxatio
 
 
 def words_of_raise(problem: OrbitProblem, change: Relaxation) -> str:
-    """Return why searches failed where an orbit was certified at a raised bound only, and what to do."""
+    """Return why starts failed if an orbit was certified only at a raised bound, and what to do."""
     return (
         f"the lowest frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, where an "
         "orbit was certified; no lower one could be certified. The wings hardly need to beat here: the problem "

@@ -18,7 +18,7 @@ from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.parameters import Place, with_number
 from wingbeat.orbits.problem.problem import FASTEST, FASTEST_CLIMB, PATH_NAMES, OrbitProblem
 
-# How far a wingbeat may be asked to go: to where it is hardly a wingbeat any more.
+# Widest ranges of the wingbeat's parameters, beyond which it is hardly a wingbeat any more.
 _QUARTER_TURN = 0.5 * math.pi
 _ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
 _ANY_FLAP = (-1.3 * _QUARTER_TURN, 1.3 * _QUARTER_TURN)
@@ -34,14 +34,14 @@ _REACH = {
     "body_pitch": _ANY_ANGLE,
     "flap": _ANY_FLAP,
 }
-# Of a harmonic, an angle or a share of the span.
+# Range of a harmonic, which is an angle or a share of the span.
 _HARMONIC = (-0.5, 0.5)
-# How often a reach beyond what can be is halved.
+# How often a reach with an impossible wingbeat is halved.
 _HALVED = 6
-# The least change that is worth a digit of its own, as a share of its scale.
+# Changes smaller than this share of their scale are rounded as if they were this large.
 _LEAST = 1e-3
-# Ends of the range of frequencies, which are moved whether or not the nearest beat is at them: a search that never
-# came near an orbit says nothing of where the frequency would have to be.
+# Bounds of the frequency, which move whether or not the closest wingbeat is at them: if no start came near an
+# orbit, it does not show which frequency an orbit needs.
 WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 
 
@@ -51,14 +51,14 @@ class Change:
 
     Parameters
     ----------
-    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity,
-        ``mass`` (whole, taken off the body), ``speed``, ``climb`` or ``shoulder`` (its place ahead of the body's
-        centre of mass).
-    sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for what is held.
-    old : what it is, SI and radians.
-    reach : how far it may go.
-    scale : a change that is large.
-    tries : shares of the scale at which an orbit is looked for first; the reach alone if not given.
+    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass``
+        (whole, taken off the body), ``speed``, ``climb`` or ``shoulder`` (its distance ahead of the body's centre
+        of mass).
+    sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for a fixed number.
+    old : its value, SI and radians.
+    reach : the farthest value it may take.
+    scale : a large change.
+    tries : changes that are tried first, as shares of the scale; only the reach if not given.
     """
 
     name: str
@@ -91,8 +91,8 @@ class Relaxation:
     Parameters
     ----------
     name, sign : which number, as in `Change`.
-    old, new : what it is and what it would be, SI and radians.
-    unit : of both.
+    old, new : its value in the problem, and in the changed problem [`unit`].
+    unit : of both; SI, radians.
     text : the change in words, angles in degrees.
     """
 
@@ -104,7 +104,12 @@ class Relaxation:
     text: str
 
     def apply(self, problem: OrbitProblem) -> OrbitProblem:
-        """Return the problem with the change made."""
+        """Return the problem with the change made.
+
+        Parameters
+        ----------
+        problem : the problem without an orbit.
+        """
         return with_change(problem, self.name, self.sign, self.new)
 
 
@@ -122,12 +127,12 @@ def _unit(problem: OrbitProblem, change: Change) -> str:
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
-    """Return the change to at least a value, rounded outward to what its text prints.
+    """Return the change to a value, rounded outward to the digits that its text prints.
 
     Parameters
     ----------
     problem, change : what changes.
-    value : what it must at least be changed to, SI.
+    value : the least change that is needed leads to this value, SI.
     more : further steps of the last digit.
     """
     unit = _unit(problem, change)
@@ -167,7 +172,7 @@ def _place(problem: OrbitProblem, name: str, sign: str) -> Place:
 
 
 def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
-    """Say whether a constraint is the limit of this name and sign."""
+    """Return whether a constraint is the limit of this name and sign."""
     return constraint.quantity.name == name and constraint.at_most is (sign == "<=")
 
 
@@ -182,10 +187,10 @@ def possible_changes(
     Parameters
     ----------
     problem : the problem.
-    at_bounds : (name, sign) of the bounds that the nearest beat is at, that of body pitch along the path too.
-    short : what that beat is short of, by law, as shares of the weight and of weight times chord. A vehicle lighter
-        by the lift that is short, or one that sinks by the thrust that is short, is next to an orbit.
-    options : how far, and in which steps.
+    at_bounds : (name, sign) of the bounds that the closest wingbeat is at, including those along the path.
+    short : that wingbeat's deficit of each balance, as a share of the weight, or of weight times chord. A vehicle
+        lighter by the missing lift, or one that sinks by the missing thrust, is close to an orbit.
+    options : how far each number may move, and which changes are tried first.
     """
     towards = functools.partial(_towards, large_angle=options.large_angle)
     tries_for = functools.partial(_tries, beyond=options.beyond)
@@ -231,13 +236,13 @@ def possible_changes(
 
 
 def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[float, ...]) -> Iterator[Change]:
-    """Yield the change of a velocity, if it leaves any way to go."""
+    """Yield the change of a velocity, unless it is already at the reach."""
     if reach != old:
         yield Change(name, "=", old, reach, scale, tries)
 
 
 def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: float) -> float:
-    """Return how far a number of the wingbeat may go, up or down, for there still to be a wingbeat."""
+    """Return the farthest value, up or down, of a number of the wingbeat with which a wingbeat is possible."""
     reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
     far = reach[upper]
     if name == "frequency":
@@ -259,20 +264,20 @@ def _tries(short: float | None, others: tuple[float, ...], beyond: float) -> tup
 def _towards(
     name: str, sign: str, old: float, reach: float, tries: tuple[float, ...], large_angle: float
 ) -> Iterator[Change]:
-    """Yield the change from old to reach, if there is any way to go in that direction."""
+    """Yield the change from old to reach, if reach is on the side that relaxes the problem."""
     scale = large_angle if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
     if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
         yield Change(name, sign, old, reach, scale, tries)
 
 
 def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
-    """Return a value that can be printed, moved on from `old` to the next of two digits of the change.
+    """Return a value that can be printed: rounded away from `old` to two digits of the change.
 
     Parameters
     ----------
     change : of which number.
-    value : what it must at least be changed to, SI.
-    factor : of the unit it is printed in.
+    value : the least change that is needed leads to this value, SI.
+    factor : from SI to the unit in which it is printed.
     more : further steps of the last digit.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor

@@ -1,4 +1,4 @@
-"""Problems made easier: one number, be it a bound, a limit, a mass or a speed, moves as little as it must."""
+"""Relaxed problems: one number, such as a bound, a limit, a mass or a speed, moves as little as possible."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from wingbeat.orbits.options.solver import SolverOptions
 from wingbeat.orbits.problem.problem import PATH_NAMES, OrbitProblem
 from wingbeat.orbits.starts import start_point
 
-# Problems with the number moved that are remembered: those of the last few points and of their quotients.
+# Number of cached problems: those of the last few points and of their difference quotients.
 _REMEMBERED = 8
 
 
 class RelaxedProgramme:
-    """A programme with one unknown more, the last, which it minimises: how far a number is moved, over its scale.
+    """A programme that minimises one more unknown, the last: how far a number is moved, over its scale.
 
     Parameters
     ----------
-    programme : of the problem, with the number moved as far as it may go or not at all.
+    programme : of the problem, with the number at its reach or not moved.
     change : the number, and which way it moves.
     """
 
@@ -56,7 +56,7 @@ class RelaxedProgramme:
         return _with_zeros(self._programme.closure_jacobian(scaled[:-1]))
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return how far all that has a limit is inside it."""
+        """Return the margin of everything that has a limit."""
         return self._at(scaled).inequalities(scaled[:-1])
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
@@ -77,7 +77,7 @@ def _with_zeros(jacobian: np.ndarray) -> np.ndarray:
 
 
 class _RelaxedBound(RelaxedProgramme):
-    """With a bound of a free parameter moved: one inequality more."""
+    """A bound of a free parameter moves, which takes one more inequality."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         programme = Transcription(with_change(problem, change.name, change.sign, change.reach), options)
@@ -86,7 +86,7 @@ class _RelaxedBound(RelaxedProgramme):
         self._scale = programme.unknowns.scale[self._column]
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the inequalities, and how far the parameter is inside its bound moved."""
+        """Return the inequalities, then the parameter's margin within its moved bound."""
         bound = self.change.moved(scaled[-1]) / self._scale
         inside = self.change.direction * (bound - scaled[self._column])
         return np.append(super().inequalities(scaled), inside)
@@ -99,7 +99,7 @@ class _RelaxedBound(RelaxedProgramme):
 
 
 class _RelaxedLimit(RelaxedProgramme):
-    """With a limit along the beat moved: of body pitch, of the flap angle, or a constraint."""
+    """A limit along the beat moves: of body pitch, of the flap angle, or of a constraint."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         programme = Transcription(with_change(problem, change.name, change.sign, change.reach), options)
@@ -115,7 +115,7 @@ class _RelaxedLimit(RelaxedProgramme):
         self._moved, self._unit = rows, change.scale / unit
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the inequalities with the limit moved; in the programme itself it is moved all the way."""
+        """Return the inequalities with the limit moved; in the programme itself it is at its reach."""
         inside = super().inequalities(scaled)
         inside[self._moved] += self._unit * (scaled[-1] - self.change.widest)
         return inside
@@ -128,7 +128,7 @@ class _RelaxedLimit(RelaxedProgramme):
 
 
 class _RelaxedNumber(RelaxedProgramme):
-    """With a number of vehicle, flight or wingbeat moved; derivatives by it are difference quotients."""
+    """A number of vehicle, flight or wingbeat moves; derivatives by it are difference quotients."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         super().__init__(Transcription(problem, options), change)
@@ -136,7 +136,7 @@ class _RelaxedNumber(RelaxedProgramme):
         self._moved: dict[float, Transcription] = {}
 
     def start(self, unknowns: np.ndarray, share: float) -> np.ndarray:
-        """Return the beat as it is: another number makes another beat."""
+        """Return the beat and the number as they are, because with another number this beat would not close."""
         return np.clip(np.append(unknowns / self._programme.unknowns.scale, share), self.lower, self.upper)
 
     def _at(self, scaled: np.ndarray) -> Transcription:
@@ -166,7 +166,7 @@ class _RelaxedNumber(RelaxedProgramme):
 
 
 def relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> RelaxedProgramme:
-    """Return the programme in which one number of a problem is moved as little as it must."""
+    """Return the programme that moves one number of a problem as little as possible."""
     if change.name in PATH_NAMES or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
         return _RelaxedLimit(problem, change, options)
     return (_RelaxedNumber if change.sign == "=" else _RelaxedBound)(problem, change, options)
@@ -175,9 +175,9 @@ def relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> Re
 def least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
 ) -> tuple[float, np.ndarray] | None:
-    """Return by how much of its scale a number must move for beats to close, and the unknowns of one that does.
+    """Return the least move of a number, over its scale, with which beats close, and the unknowns of one, if any.
 
-    An orbit is sought where the number has moved far; from there it is moved back until it can go no further.
+    First the number is moved far, until a beat closes; then it is moved back as far as possible.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is said where searches led to no orbit: the beat that comes closest, what it lacks, what would fly."""
+"""The result if no start leads to an orbit: the closest wingbeat, its deficits, and the changes that fly."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from wingbeat.orbits.status import Status
 
 @dataclass(frozen=True)
 class Ending:
-    """How a search ended, and without an orbit what is short at the closest beat and which changes fly."""
+    """How the solver ended; without an orbit, the closest wingbeat's deficits and the changes that fly."""
 
     status: Status
     message: str
@@ -32,15 +32,15 @@ def without_orbit(
     advise: bool,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Corrected, Ending | None]:
-    """Return the beat that comes closest to an orbit and what fails; if it closes, the orbit that it leads to.
+    """Return the closest wingbeat and what fails; if it leads to an orbit after all, return that orbit.
 
     Parameters
     ----------
-    programme : the programme that was searched.
-    found : where the searches ended, none of them an orbit.
-    threads : changes that are looked at at a time.
+    programme : of the problem.
+    found : where the local searches ended, none of them an orbit.
+    threads : changes tried at a time.
     advise : whether to look for changes that fly.
-    progress : called with (searches done, searches in all), each change one more.
+    progress : called with (starts done, starts in all); each change counts as one more.
     """
     nearest = nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
@@ -54,7 +54,7 @@ def without_orbit(
     if raised is not None:
         return _below(programme, *raised)
     changes = least_changes(programme, near, nearest, threads, report) if advise and not nearest.closes else []
-    # A change of next to nothing is none: the searches missed what was there.
+    # If a negligible change suffices, the local searches missed an orbit.
     nothing = programme.options.diagnosis.nothing
     leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= nothing]
     led = [search(programme.uncorrected(), lead) for lead in leads]
@@ -77,7 +77,7 @@ def without_orbit(
 
 
 def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
-    """Return the beat that came closest to an orbit where searches ended, and only whether it closes."""
+    """Return the candidate closest to an orbit, and only whether it closes."""
     closing = [c for c in found if c.closed]
     if closing:
         return _uncertified(closing, len(found))
@@ -87,7 +87,7 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
 
 
 def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, Ending]:
-    """Return the beat that closes best, of those that do but are no optima."""
+    """Return the candidate that closes best; it is no certified optimum."""
     nearest = min(closing, key=lambda c: c.violation)
     return certified(nearest.programme.uncorrected(), nearest.scaled), _no_optimum("close", searches)
 
@@ -102,7 +102,7 @@ def _starts(count: int) -> str:
 
 
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:
-    """Return the orbit that one at a raised bound of the frequency leads to, or that one and what to change."""
+    """Search from the orbit at a raised bound of the frequency; if that fails, return this orbit and the change."""
     problem, beat = programme.problem, orbit.programme.physical(orbit.scaled)
     lower = first_certified(programme, [search(programme.uncorrected(), beat)])
     if lower is not None:

@@ -1,4 +1,4 @@
-"""Many orbit problems, spread over processes; of problems alike, the later ones start from the answers before."""
+"""Many orbit problems, spread over processes; a later problem starts from the solutions of similar ones."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _MOST_PROCESSES = 1024
 
 
 class Part(NamedTuple):
-    """Problems of one kind that are solved one after the other, and answers of others to begin with."""
+    """Problems of one kind that are solved in sequence, and solutions of others to begin with."""
 
     problems: list[OrbitProblem]
     known: list[Known]
 
 
-# A solution, and what it tells of other problems if it is certified.
+# A solution and, if it is certified, what it contributes to predictions.
 Answer = tuple[Solution, Known | None]
 
 
@@ -46,22 +46,22 @@ def find_orbits(
     advise: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> Iterator[Solution]:
-    """Yield the solution of each problem, in their order; a failed search is data as in `find_orbit`.
+    """Yield the solution of each problem, in their order; a failure is a result, as in `find_orbit`.
 
-    Of problems that differ in numbers only, the first are searched as in `find_orbit`. The first search of a later
-    one starts from what their answers predict; if that leads to no certified orbit, it does not count. Of many that
-    are alike some go first and predict the rest, which is shared out.
+    Among problems that differ in numbers only, the first are solved as in `find_orbit`. The first start of a later
+    one is predicted from their solutions; it does not count unless it leads to a certified orbit. In a large group
+    some problems go first and predict the rest, which is distributed over the processes.
 
     Parameters
     ----------
     problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
     starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem.
-    processes : how many Python processes share the work; with 1 it is done in this one. The answers are the same.
+    processes : how many Python processes share the work; 1 means this process. The results do not depend on it.
     progress : called with (problems done, problems in all).
 
     Raises
     ------
-    InvalidInputError : a problem that is none, starts, seed, most_starts or processes out of range.
+    InvalidInputError : something that is not a problem, starts, seed, most_starts or processes out of range.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
@@ -77,7 +77,7 @@ def find_orbits(
 
 
 def check_processes(faults: FaultList, processes: Any) -> None:
-    """Note a fault unless it is a whole number of processes."""
+    """Add a fault unless it is a whole number of processes in range."""
     faults.whole("processes", processes, 1, _MOST_PROCESSES)
 
 
@@ -107,7 +107,7 @@ def _by_groups(
     problems: Sequence[OrbitProblem],
     groups: Sequence[Group],
 ) -> Iterator[tuple[int, Solution]]:
-    """Yield index and solution of each problem: those of a group that go first, then the parts that they help."""
+    """Yield index and solution of each problem: first those that go first in a group, then the parts they help."""
     known: list[list[Known]] = [[] for _ in groups]
     first = [Part([problems[i] for i in group.first], []) for group in groups]
     for group, learned, answers in zip(groups, known, solve(first), strict=True):
@@ -129,7 +129,7 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 def _solve_part(
     part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool, options: SolverOptions
 ) -> Iterator[Answer]:
-    """Solve the problems of a part in turn, each helped by the answers before."""
+    """Solve the problems of a part in sequence, each with the help of the solutions before."""
     numbers = [numbers_of(problem) for problem in part.problems]
     answers = Answers(part.known, numbers, options.continuation)
     for i, problem in enumerate(part.problems):
@@ -148,7 +148,7 @@ def best_of_guesses(
     guesses: Sequence[tuple[np.ndarray, ReducedHessian | None]],
     options: SolverOptions = DEFAULTS,
 ) -> Solution | None:
-    """Return the best certified orbit next to what answers predict, or None."""
+    """Return the best certified orbit next to predicted unknowns, or None."""
     near = (correct_guess(problem, guess, like, options) for guess, like in guesses)
     return min((found for found in near if found is not None), key=lambda found: found.objective, default=None)
 
@@ -163,12 +163,12 @@ def find_with_known(
     explain: bool = True,
     options: SolverOptions = DEFAULTS,
 ) -> Solution:
-    """Return the best of a certified orbit that other answers led to, if any, and what the other searches find.
+    """Return the better of a known certified orbit, if any, and the best that the other starts find.
 
     Parameters
     ----------
     problem, starts, seed, most_starts, advise, explain, options : as in `find_orbit`.
-    known : takes the place of one search; with it there is an orbit, so most_starts and advice do not matter.
+    known : takes the place of one start; with it there is an orbit, so `most_starts` and `advise` have no effect.
     """
     if known is None:
         return find_orbit(problem, starts, seed, None, 1, most_starts, advise, explain, options)

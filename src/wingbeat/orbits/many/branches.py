@@ -1,4 +1,4 @@
-"""Branches of orbits along speed: every optimum found is continued both ways, and jumps are known as jumps."""
+"""Branches of orbits along speed: each optimum is continued both ways, and jumps are not taken for branches."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ R = TypeVar("R")
 
 
 class BranchLink(NamedTuple):
-    """Optimum `lower` of one speed and `upper` of the next are one branch, with `steps` from one to the other."""
+    """Optimum `lower` of one speed and `upper` of the next are one branch, `steps` steps apart."""
 
     interval: int
     lower: int
@@ -34,14 +34,14 @@ class BranchLink(NamedTuple):
 
 
 class Landing(NamedTuple):
-    """Where continuing an optimum led: the optimum there, if any, and in how many steps; 0 if by a jump."""
+    """The optimum to which a continuation led, if any, and the number of steps, 0 after a jump."""
 
     optimum: Solution | None
     steps: int
 
 
 class Branches(NamedTuple):
-    """The optima of each speed, the best first, and their links; where there is none the one failed search."""
+    """The optima of each speed, best first, and their links; a speed without an orbit has its failed solution."""
 
     optima: tuple[tuple[Solution, ...], ...]
     links: tuple[BranchLink, ...]
@@ -56,15 +56,16 @@ def trace(
     threads: int | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Branches:
-    """Search at every speed, continue every optimum found to the speeds beside it, and so on until nothing is new.
+    """Solve at every speed and continue each optimum to the neighbouring speeds until nothing is new.
 
     Parameters
     ----------
-    problem : what is asked at each speed; its own speed does not count.
+    problem : the problem; its own speed has no effect.
     speeds : increasing [m/s].
-    starts, seed : of the searches at each speed; a speed at which nothing is certified gets twice as many.
-    progress : called with (tasks done, tasks known of).
-    threads : tasks at a time, as many as there are cores if not given; the answer does not depend on it.
+    starts, seed : starts at the first and the last speed, fewer between, and their seed; a speed at which nothing
+        is certified gets twice as many.
+    progress : called with (tasks done, tasks known).
+    threads : tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
@@ -76,7 +77,7 @@ def trace(
 
 
 class _BranchTracer:
-    """What is known so far. Tasks of a round do not know of one another, so their order changes nothing."""
+    """The optima and links found so far. Tasks of a round are independent, so their order changes nothing."""
 
     def __init__(
         self,
@@ -118,7 +119,7 @@ class _BranchTracer:
         return self._sorted(failed)
 
     def _each(self, work: Callable[[T], R], items: Sequence[T]) -> list[R]:
-        """Return what `work` makes of each item."""
+        """Return the result of `work` for each item."""
         found = []
         known = self._done + len(items)
         for result in self._pool.map(work, items):
@@ -129,7 +130,7 @@ class _BranchTracer:
         return found
 
     def _add(self, place: int, optimum: Solution) -> int:
-        """Return the index of an optimum among those met at its speed."""
+        """Add an optimum to those of its speed unless it is known; return its index."""
         for index, other in enumerate(self._met[place]):
             if np.abs(optimum.place - other.place).max() <= self._options.search.same_optimum:
                 if optimum.objective < other.objective:
@@ -139,7 +140,7 @@ class _BranchTracer:
         return len(self._met[place]) - 1
 
     def _grow(self) -> None:
-        """Continue optima up and down, in rounds, until all have been."""
+        """Continue optima up and down, in rounds, until all are continued."""
         while any([self._round(self._due(1)), self._round(self._due(-1)), self._round(self._between_best())]):
             pass
 
@@ -161,7 +162,7 @@ class _BranchTracer:
         return carry(self._met[place][index], self._problems[place + way])
 
     def _due(self, way: int) -> list[tuple[int, int, int]]:
-        """Return the optima that nothing links to the next speed that way yet."""
+        """Return the tasks of the optima that have no link to the next speed in one direction yet."""
         linked = {(i, low) if way > 0 else (i + 1, high) for i, low, high in self._links}
         return [
             (place, index, way)
@@ -175,7 +176,7 @@ class _BranchTracer:
         ]
 
     def _between_best(self) -> list[tuple[int, int, int]]:
-        """Return what is untried between the best of neighbouring speeds that are not linked."""
+        """Return the untried tasks between the best optima of neighbouring speeds that are not linked."""
         tasks = []
         for place in range(len(self._met) - 1):
             if not self._met[place] or not self._met[place + 1]:
@@ -186,7 +187,7 @@ class _BranchTracer:
         return [task for task in tasks if task not in self._tried]
 
     def _sorted(self, failed: dict[int, Solution]) -> Branches:
-        """Return what is known with the optima of each speed in order, and each with what was done at its speed."""
+        """Return the branches, with the optima of each speed in order and the number of starts at that speed."""
         optima, ranks = [], []
         for place, met in enumerate(self._met):
             order = sorted(range(len(met)), key=lambda k: met[k].objective)
@@ -211,8 +212,8 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
 
     Returns
     -------
-    The certified orbit there and the number of steps. If the family ends on the way: where a search from its end
-    leads, if that is to an orbit, and 0.
+    The certified orbit there and the number of steps. If the branch ends on the way: the orbit to which a
+    local search from its end leads, if any, and 0.
     """
     options = optimum.options.continuation
     speed, last = optimum.problem.speed, problem.speed
@@ -221,7 +222,7 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
     hessian: ReducedHessian | None = None
     steps = 0
     while abs(step) >= options.least_speed_step:
-        # A rest too short to be a step of its own goes with this one.
+        # A remainder too short to be a step of its own is added to this one.
         ends = abs(last - speed - step) < options.least_speed_step
         step = last - speed if ends else step
         there = problem if ends else dataclasses.replace(problem, speed=speed + step)
@@ -244,7 +245,7 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
 def _next_to(
     programme: Transcription, guess: np.ndarray, like: ReducedHessian | None
 ) -> tuple[Candidate | None, ReducedHessian | None]:
-    """Return the optimum next to a guess, by Newton's method or else a search, and what helps with the next one."""
+    """Return the optimum next to a guess, by Newton's method or else a local search, and its curvature if known."""
     scaled = programme.scaled(guess)
     newton = NewtonKKT(programme, scaled, like)
     near = newton.converge(programme, scaled)
@@ -257,14 +258,14 @@ def _next_to(
 
 
 def unknowns_at(place: np.ndarray, problem: OrbitProblem) -> np.ndarray:
-    """Return the unknowns at a place in the optimiser's scale, see `Solution.place`."""
+    """Return the unknowns of a problem at a `Solution.place`."""
     unknowns = place * problem.unknowns().scale
     unknowns[1:3] += problem.speed, problem.climb
     return unknowns
 
 
 def place_of(candidate: Candidate) -> np.ndarray:
-    """Return where an uncertified candidate is, in the same terms."""
+    """Return the place of an uncertified candidate, as `Solution.place`."""
     problem = candidate.programme.problem
     unknowns = candidate.programme.physical(candidate.scaled).copy()
     unknowns[1:3] -= problem.speed, problem.climb

@@ -1,4 +1,4 @@
-"""Problems in a row, each a little different from the last: answers are handed on to the neighbours and back."""
+"""A series of problems, each a little different from the last; solutions pass to the neighbours and back."""
 
 from __future__ import annotations
 
@@ -26,21 +26,22 @@ def find_series(
     advise: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Solution]:
-    """Solve problems in a row, such as speeds in order, each searched from its neighbours' answers, too.
+    """Solve a series of problems, such as speeds in order, each also from its neighbours' solutions.
 
-    One search from a stock wingbeat finds whichever family of orbits is near. Handed up and down the row, the best
-    family found anywhere reaches wherever it leads. Problems must have the same free parameters.
+    A start from a stock wingbeat finds whichever family of orbits is near. Passed up and down the series, the best
+    family found anywhere spreads as far as it exists. Problems must have the same free parameters.
 
     Parameters
     ----------
-    problems : in such an order that neighbours are alike.
-    starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem before answers are handed on.
-    processes : how many Python processes share these searches. The answers are the same.
-    progress : called with (problems searched, problems in all).
+    problems : in an order in which neighbours are similar.
+    starts, seed, most_starts, advise, options : as in `find_orbit`, for each problem before solutions are passed
+        on.
+    processes : how many Python processes share these starts. The results do not depend on it.
+    progress : called with (problems solved, problems in all).
 
     Returns
     -------
-    The solutions; `starts` of each counts the searches made for it.
+    The solutions; `starts` of each includes those from its neighbours.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def find_series(
 
 
 def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return one's own answer, or that of a search from a neighbour's if it is better, and whether it is."""
+    """Return a problem's own solution, or a better one from a neighbour's, and whether it is better."""
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - own.options.continuation.improvement * abs(own.objective)

@@ -1,4 +1,4 @@
-"""What a curve of best orbits tells of itself: where it changes branch, meets other bounds, or has gaps."""
+"""Marks on a curve of best orbits: where it changes branch, where the active bounds change, and gaps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
 
 
 class Mark(NamedTuple):
-    """Something that happens to the best orbit between two neighbouring speeds [m/s], in a few words."""
+    """A change of the best orbit between two neighbouring speeds [m/s]; `what` describes it."""
 
     kind: str
     lower_speed: float
@@ -24,10 +24,10 @@ class Mark(NamedTuple):
 
 
 def marks_of(branches: Branches) -> list[Mark]:
-    """Return what happens from speed to speed along the best orbits.
+    """Return the changes of the best orbit from speed to speed.
 
-    ``gap``: one side has no certified orbit. ``branch``: the best of one side is not continued into the best of the
-    other, so that unknowns jump. ``bounds``: other bounds are active.
+    ``gap``: one side has no certified orbit. ``branch``: no continuation leads from the best orbit of one side to
+    that of the other, so that unknowns jump. ``bounds``: other bounds are active.
     """
     marks = []
     for interval, (below, above) in enumerate(_neighbours(branches)):
@@ -46,7 +46,7 @@ def marks_of(branches: Branches) -> list[Mark]:
 
 
 def unmarked_jumps(branches: Branches, marks: list[Mark]) -> list[tuple[float, float]]:
-    """Return the intervals over which unknowns change by more than their continuation can, and no mark says so.
+    """Return the intervals without a mark over which unknowns change by more than a continuation can.
 
     A continuation in n steps changes no unknown by more than n times `max_step`, in the optimiser's scale.
     """
@@ -63,9 +63,9 @@ def unmarked_jumps(branches: Branches, marks: list[Mark]) -> list[tuple[float, f
 
 
 def families(branches: Branches) -> list[list[int]]:
-    """Return the number of the family that each optimum of each speed is of, in the order of their best objective.
+    """Return the family number of each optimum of each speed; families are in the order of their best rank.
 
-    A family has one optimum at a speed; where two are continued into one, the shorter way goes on.
+    A family has one optimum at a speed. Where two are continued into one, that with fewer steps continues.
     """
     labels = [[-1] * len(optima) for optima in branches.optima]
     count = 0
@@ -100,7 +100,7 @@ def _link_of_best(branches: Branches, interval: int) -> BranchLink | None:
 
 
 def _how_it_changes(branches: Branches, interval: int) -> str:
-    """Say whether two families cross, and where, or one of them ends."""
+    """Return whether two families cross, and where, or one of them ends."""
     ways = {j.lower: j.upper for j in branches.links if j.interval == interval}
     back = {upper: lower for lower, upper in ways.items()}
     below, above = branches.optima[interval : interval + 2]

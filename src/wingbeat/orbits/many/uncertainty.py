@@ -1,4 +1,4 @@
-"""How far an answer is known: spreads of what goes in, carried to what comes out, to first order and by samples."""
+"""Uncertainty of an optimum: spreads of parameters, propagated to first order and by samples."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ _UNIFORM = 1 / math.sqrt(12)
 
 
 class ParameterSpread(NamedTuple):
-    """What is not known of some parameters: deviations from their values, independent of all other spreads.
+    """Random deviations of some parameters from their values, independent of all other spreads.
 
-    ``plausible`` is the lowest and highest deviation of one parameter, all between as likely; without it the
-    deviations are normal, of mean 0 and of `covariance`, shape (P, P).
+    ``plausible`` is the lowest and the highest deviation of one parameter, with a uniform distribution between
+    them. Without it the deviations are normal, of mean 0 and of `covariance`, shape (P, P).
     """
 
     name: str
@@ -47,20 +47,26 @@ class ParameterSpread(NamedTuple):
 
 
 def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
-    """Return the spread of a parameter over its plausible range, drawn in about its value to a share of it."""
+    """Return the uniform spread over a parameter's plausible range, shrunk about its value to a share of it."""
     assert parameter.plausible is not None
     low, high = (share * (end - parameter.value) for end in parameter.plausible)
     return ParameterSpread(parameter.path, (parameter,), np.array([[((high - low) * _UNIFORM) ** 2]]), (low, high))
 
 
 class ErrorBar(NamedTuple):
-    """A quantity with its standard deviation, and how much of that is due to each spread, largest first.
+    """A quantity with its standard deviation, to first order, and the part that is due to each spread.
 
-    The squares of `due_to` add up to that of `deviation`. `shift` is how far the mean lies from `value`, since not
-    every value is in the middle of its range.
+    First order is a straight line through the optimum. Only samples show whether that is accurate over whole
+    ranges; without them, rely on `ranking` alone: which spreads matter most.
 
-    First order is a straight line through the optimum. Only draws can tell whether it will do over whole ranges;
-    until they have, `ranking` is what can be said: which spreads matter most.
+    Attributes
+    ----------
+    quantity : its name.
+    unit : of the quantity.
+    value : of the quantity at the optimum [`unit`].
+    deviation : standard deviation; its square is the sum of the squares of `due_to` [`unit`].
+    shift : mean less `value`, since not every parameter's value is in the middle of its range [`unit`].
+    due_to : standard deviation due to each spread, by its name, the largest first [`unit`].
     """
 
     quantity: str
@@ -84,12 +90,13 @@ class ErrorBar(NamedTuple):
 def first_order(
     slopes: Sequence[Sensitivity], spreads: Sequence[ParameterSpread], quantity: str, unit: str, value: float
 ) -> ErrorBar:
-    """Carry spreads to a quantity by its derivatives.
+    """Propagate spreads to a quantity by its derivatives.
 
     Parameters
     ----------
     slopes : derivatives by every parameter of the spreads.
-    quantity : name of one of those that were differentiated.
+    spreads : of parameters.
+    quantity : name of one of the differentiated quantities.
     unit, value : of the quantity.
     """
     by_path = {s.parameter.path: s.quantities[quantity] for s in slopes}
@@ -103,9 +110,14 @@ def first_order(
 
 
 class Samples(NamedTuple):
-    """Orbits of drawn parameters.
+    """Orbits of n random draws of P parameters, with Q quantities.
 
-    Deviations, shape (n, P), in the order of `paths`; quantities, (n, Q); which draws are certified, (n,).
+    Attributes
+    ----------
+    paths : names of the parameters, as `Parameter.path`.
+    deviations : of the parameters from their values, in this order and in their units, shape (n, P).
+    quantities : in the order requested and in their units, shape (n, Q); not-a-number for draws without an orbit.
+    certified : whether a draw has a certified orbit, shape (n,).
     """
 
     paths: tuple[str, ...]
@@ -126,19 +138,19 @@ def sample_orbits(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Samples:
-    """Solve a problem with its parameters drawn from their spreads, again and again.
+    """Solve a problem for random draws of its parameters.
 
-    Every draw is corrected from where the slopes predict its optimum, and so belongs to the same family of orbits.
-    Where that leads to none it is searched.
+    Each draw is corrected from the optimum that the derivatives predict, and so belongs to the same family of
+    orbits. If that leads to no orbit, a local search from there follows, then one start.
 
     Parameters
     ----------
     problem, unknowns : the orbit problem and its optimum.
     slopes : its sensitivities by the spreads' parameters.
     spreads : what to draw from.
-    quantities : read off every certified orbit; NaN where there is none.
+    quantities : computed for each certified orbit; not-a-number without one.
     count : number of draws.
-    seed : of the draws, and of the searches.
+    seed : of the draws, and of the starts.
     processes, progress, options : as in `solve_orbits`.
     """
     generator = np.random.default_rng(seed)
@@ -162,7 +174,7 @@ def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: n
 def _read_off(
     drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int, options: SolverOptions
 ) -> list[float]:
-    """Return quantities of the orbit of one draw, not-a-number where there is none."""
+    """Return quantities of the orbit of one draw, not-a-number if there is none."""
     problem, guess = drawn
     found = correct_guess(problem, guess, options=options) or search_near(problem, guess, options=options)
     if found is None:

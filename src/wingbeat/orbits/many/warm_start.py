@@ -1,4 +1,4 @@
-"""Which problems of a batch are alike, and what the answers of some predict of another's."""
+"""Which problems of a batch are similar, and what solved ones predict for the others."""
 
 from __future__ import annotations
 
@@ -24,10 +24,11 @@ class Group(NamedTuple):
 def group_similar(
     problems: Sequence[OrbitProblem], options: ContinuationOptions = DEFAULTS.continuation
 ) -> list[Group]:
-    """Return the problems in groups that differ in numbers only, all in an order to learn from.
+    """Return groups of problems that differ in numbers only, each in an order that favours predictions.
 
-    A group is of one species and one coefficient model, by name; its parts have neighbouring numbers. Each order
-    goes on with what is farthest from all before. Groups depend on the problems alone, not on who solves them.
+    A group has one species and one coefficient model, by name; its parts have neighbouring numbers. In each order
+    the next problem is the farthest from all before. Groups depend on the problems alone, not on the number of
+    processes.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
@@ -48,7 +49,7 @@ def group_similar(
 
 
 def kind(problem: OrbitProblem) -> Hashable:
-    """Return what problems share that differ in numbers only."""
+    """Return a value that is equal for problems that differ in numbers only."""
     leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
     shapes = tuple(np.shape(leaf) for leaf in leaves)
     names = (
@@ -62,9 +63,10 @@ def kind(problem: OrbitProblem) -> Hashable:
 
 
 def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
-    """Return where problems of one kind are, from their mean, in as few directions as they differ in.
+    """Return coordinates of problems of one kind about their mean, shape (problems, directions).
 
-    Distances are those between the numbers that describe them, each over its largest; shape (problems, directions).
+    There are as many directions as the problems differ in. Distances are those between the numbers that describe
+    them, each over its largest.
     """
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
@@ -74,15 +76,15 @@ def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
 
 
 def numbers_of(problem: OrbitProblem) -> np.ndarray:
-    """Return the numbers that tell a problem from others of its kind."""
+    """Return the numbers that distinguish a problem from others of its kind."""
     leaves = jax.tree_util.tree_leaves((problem.model, problem.species.wingbeat))
     bounds = list(problem.bounds.values())
-    # What a coefficient model has none of is not-a-number.
+    # Numbers that a coefficient model lacks are not-a-number.
     return np.nan_to_num(np.concatenate([np.ravel(a) for a in (*leaves, problem.speed, problem.climb, bounds)]))
 
 
 def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarray]:
-    """Halve where the numbers differ most, until the parts are small enough."""
+    """Halve along the direction with the largest range until the parts are small enough."""
     if members.size <= most:
         return [members]
     here = places[members]
@@ -92,7 +94,7 @@ def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarra
 
 
 def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
-    """Return so many members from the middle on, each the farthest from those before it."""
+    """Return `count` members from the middle on, each the farthest from those before it."""
     here = places[members] - places[members].mean(axis=0)
     order, away = [], np.full(members.size, np.inf)
     nearest = np.linalg.norm(here, axis=1).argmin()
@@ -109,8 +111,8 @@ class Known(NamedTuple):
 
     Parameters
     ----------
-    numbers : that tell it from others of its kind.
-    unknowns : its answer.
+    numbers : that distinguish it from others of its kind.
+    unknowns : of its optimum.
     active : the bounds active there.
     reduced_hessian : the curvature at the optimum.
     """
@@ -122,12 +124,12 @@ class Known(NamedTuple):
 
 
 class Answers:
-    """Answers of problems of one kind, and what the nearest of them predict of those to come.
+    """Solutions of problems of one kind, and predictions from the nearest of them for problems to come.
 
     Parameters
     ----------
-    known : solved before.
-    coming : the numbers of those to come, which are then known by their place among them.
+    known : problems solved before.
+    coming : the numbers of the problems to come, which are named by their index.
     options : of the prediction.
     """
 
@@ -143,15 +145,15 @@ class Answers:
         self._at = list(range(len(known)))
 
     def add(self, place: int, known: Known) -> None:
-        """Remember the answer of a problem that was to come."""
+        """Add the solution of a problem that was to come."""
         self._at.append(self._before + place)
         self._known.append(known)
 
     def predict(self, place: int) -> list[tuple[np.ndarray, ReducedHessian | None]]:
-        """Predict unknowns from the answers with the same bounds active, with the curvature of the nearest.
+        """Predict unknowns from solutions with the same active bounds, with the curvature of the nearest.
 
-        Where families meet, the nearest answers differ in their active bounds, and each family predicts its own.
-        The list is empty where too little is known of one of them.
+        Where families meet, the nearest solutions differ in their active bounds, and each family makes its own
+        prediction. The list is empty if one of them has too few solutions.
         """
         away = self._places[self._at] - self._places[self._before + place]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
@@ -169,7 +171,7 @@ class Answers:
 
 
 def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.ndarray:
-    """Return the value at 0 of a parabola through values, nearest first, or of a line where they are too few."""
+    """Return the value at 0 of a parabola through values, nearest first, or of a line if they are too few."""
     directions = away.shape[1]
     columns = np.hstack([np.ones((len(away), 1)), away])
     one, other = np.triu_indices(directions)

@@ -1,4 +1,4 @@
-"""Defect correction: from the search's optimum of a slightly wrong flight to one that the certifier closes."""
+"""Defect correction: from the optimum of the solver's coarse flight to one that the certifier closes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from wingbeat.orbits.nlp.transcription import Transcription
 
 @dataclass(frozen=True)
 class Corrected:
-    """A candidate brought to the certifier's closure, and what the certifier says of it."""
+    """A candidate corrected until the certifier closes it, as far as possible, and its certificate."""
 
     scaled: np.ndarray
     wingbeat: Wingbeat
@@ -35,7 +35,7 @@ class Corrected:
     def is_orbit(self, closure_tolerance: float | None = None) -> bool:
         """Whether it closes, keeps to its limits along the path, and is an optimum.
 
-        The tolerance is that of a certificate if not given.
+        The default tolerance is that of a certificate.
         """
         options = self.programme.options
         closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance
@@ -48,17 +48,17 @@ class Corrected:
 
 
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
-    """Fly a candidate by the certifier and take its residual off the closure until the certifier's own is gone.
+    """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The search's few steps find the optimum of a slightly wrong flight. Its closure is given the derivative and the
-    value of a finer flight, then round by round the value that the certifier finds, and the optimum is followed.
+    The optimum of the solver's coarse flight is slightly wrong. Its closure takes the derivative and the value of a
+    finer flight, then in each round the value that the certifier finds, and Newton's method follows the optimum.
     """
     programme = programme.uncorrected()
     return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)
 
 
 def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: np.ndarray) -> Corrected:
-    """Correct a candidate in a programme not corrected yet, as `correct` does, with a given Newton's method."""
+    """Correct a candidate as `correct` does, with a given Newton's method; the programme is not corrected yet."""
     options = programme.options.certificate
     for _ in range(options.linearisations):
         programme = programme.linearised_at(scaled, options.fine_blocks)
@@ -87,7 +87,7 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
             break
         programme = programme.matched_to(scaled, here.certificate)
         if closes:
-            # A bound that is active in the search's few steps may let go in a finer flight, or another become so.
+            # In a finer flight an active bound may become inactive, or another one active.
             scaled = optimise(programme, scaled, options.iterations, options.tolerance)[0]
             newton = NewtonKKT(programme, scaled)
             updates += 1
@@ -97,7 +97,7 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
 
 
 def first_certified(programme: Transcription, found: list[Candidate]) -> Corrected | None:
-    """Return the best candidate that the certifier closes, if any."""
+    """Return the best candidate that can be certified, if any."""
     for candidate in sorted((c for c in found if c.is_optimum), key=lambda c: c.objective):
         corrected = correct(candidate.programme, candidate.scaled)
         programme.count_certifying(corrected.programme.certify_seconds)
@@ -128,12 +128,12 @@ def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -
 
 
 def certified(programme: Transcription, scaled: np.ndarray) -> Corrected:
-    """Fly unknowns by the certifier as they are."""
+    """Fly unknowns with the certifier, without correcting them."""
     wingbeat, certificate = _fly(programme, scaled)
     residual = programme.problem.closure(certificate.end, programme.physical(scaled), wingbeat.frequency)
     return Corrected(scaled, wingbeat, certificate, residual, programme)
 
 
 def size(residual: np.ndarray) -> float:
-    """Return the largest part of a residual, infinite where it is not a number."""
+    """Return the largest part of a residual, infinite if a part is not a number."""
     return float(np.abs(np.nan_to_num(residual, nan=np.inf)).max())

@@ -1,7 +1,7 @@
 """Least squares within bounds by the Levenberg-Marquardt method, with an active set of bounds in each step.
 
-There are few unknowns, costly residuals, and bounds that are met at the answer. SciPy's reflective method keeps
-inside of those; it takes twice the flights, and spends a third of its time on its own arithmetic.
+There are few unknowns, costly residuals, and bounds that are active at the solution. SciPy's reflective method
+stays strictly inside the bounds; it takes twice the flights, and spends a third of its time on its own arithmetic.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ def least_squares(
     upper: np.ndarray,
     options: LeastSquaresOptions,
 ) -> np.ndarray:
-    """Return where, within bounds, the sum of the squares of residuals is least.
+    """Return the unknowns within bounds that minimise the sum of the squares of residuals.
 
     Parameters
     ----------
-    residuals, jacobian : as functions of the unknowns; they may be wild or not-a-number away from the start.
+    residuals, jacobian : as functions of the unknowns; they may be huge or not-a-number away from the start.
     start : unknowns to start from, moved within the bounds.
     lower, upper : the bounds.
     options : when it ends, and how its steps are damped.
@@ -65,7 +65,7 @@ def _size(curvature: np.ndarray) -> float:
 
 
 def _squares(residuals: np.ndarray) -> float:
-    # A flight that tumbles off overflows in what is squared; such a step is not taken.
+    # The squares of a diverging flight overflow; such a step is rejected.
     with np.errstate(over="ignore", invalid="ignore"):
         return float(residuals @ residuals)
 
@@ -78,7 +78,7 @@ def _model(jacobian: np.ndarray, residuals: np.ndarray) -> tuple[np.ndarray, np.
 def _step(
     curvature: np.ndarray, gradient: np.ndarray, damping: float, low: np.ndarray, high: np.ndarray, turns: int
 ) -> np.ndarray:
-    """Return the damped step that is best within its bounds, by the active-set method in so many turns at most."""
+    """Return the best damped step within its bounds, by an active-set method of at most `turns` iterations."""
     damped = curvature + damping * np.eye(gradient.size)
     step = np.zeros(gradient.size)
     at_low, at_high = low >= 0, high <= 0

@@ -1,4 +1,4 @@
-"""One local search: from a start to a periodic orbit of locally least objective."""
+"""One local search: from a start to a periodic orbit that minimises the objective locally."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from wingbeat.orbits.problem.problem import CLOSURE_SCALE, PATH_NAMES
 
 
 class Programme(Protocol):
-    """A nonlinear programme in scaled unknowns, as SLSQP wants it."""
+    """A nonlinear programme in scaled unknowns, as SLSQP takes it."""
 
     lower: np.ndarray
     upper: np.ndarray
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
-        """Return what must vanish."""
+        """Return the equality constraints, which must vanish."""
         ...
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
@@ -28,7 +28,7 @@ class Programme(Protocol):
         ...
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return what must not be negative."""
+        """Return the inequality constraints, which must not be negative."""
         ...
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
@@ -36,7 +36,7 @@ class Programme(Protocol):
         ...
 
     def objective(self, scaled: np.ndarray) -> float:
-        """Return what is minimised."""
+        """Return the value that is minimised."""
         ...
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
@@ -46,7 +46,7 @@ class Programme(Protocol):
 
 @dataclass(frozen=True)
 class Candidate:
-    """Where a local search ended, in the optimiser's scale, and the programme with the last flights made."""
+    """Where a local search ended, in the optimiser's scale, and the programme with its last flights."""
 
     programme: Transcription
     scaled: np.ndarray
@@ -57,15 +57,15 @@ class Candidate:
 
     @property
     def is_optimum(self) -> bool:
-        """Whether it is closed and optimal, as far as the search's few steps tell."""
+        """Whether it is closed and optimal, by the solver's coarse flight."""
         return self.closed and self.optimal
 
 
 def search(programme: Transcription, start: np.ndarray, *, restore: bool = False) -> Candidate:
-    """Search from unknowns `start` with SLSQP; one that stalls is brought nearer to closure and tried once more.
+    """Search from unknowns with SLSQP; if it stalls, restore closure and search once more.
 
-    With `restore` it is brought nearer before the first try, too. A stall is mostly a spoilt BFGS matrix, or a
-    start from which full Newton steps leave the region where the quadratic model means anything.
+    With `restore`, closure is restored before the first search too. Most stalls come from a poor BFGS matrix, or
+    from a start whose full Newton steps leave the region where the quadratic model is valid.
     """
     options = programme.options.search
     scaled = programme.scaled(start)
@@ -77,7 +77,7 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
                 break
         scaled, optimal = optimise(programme, scaled, options.iterations, options.tolerance, Patience.of(programme))
         closed = is_closed(programme, scaled, options.closure_tolerance)
-        # SLSQP also stops where rounding lets it go no further; what counts is whether the conditions hold there.
+        # SLSQP also stops where rounding prevents progress; what counts is whether the conditions hold there.
         optimal = optimal or (closed and is_optimal(programme, scaled))
         if closed and optimal:
             break
@@ -85,7 +85,7 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
 
 
 def refine(programme: Transcription, start: np.ndarray, iterations: int | None = None) -> Candidate:
-    """Search once from unknowns that are taken to be near an orbit, and briefly: if they are, that is enough."""
+    """Run one short local search from unknowns that are assumed to be near an orbit."""
     options = programme.options.search
     scaled, optimal = optimise(
         programme,
@@ -98,7 +98,7 @@ def refine(programme: Transcription, start: np.ndarray, iterations: int | None =
 
 
 def as_candidate(programme: Transcription, scaled: np.ndarray, optimal: bool = False) -> Candidate:
-    """Judge unknowns in the optimiser's scale; `optimal` is what the search that led to them says of itself."""
+    """Return unknowns as a candidate; `optimal` is whether the search that led to them converged."""
     closed = is_closed(programme, scaled, programme.options.search.closure_tolerance)
     return _candidate(programme, scaled, closed, optimal or (closed and is_optimal(programme, scaled)))
 
@@ -115,13 +115,13 @@ def violation(programme: Programme, scaled: np.ndarray) -> float:
 
 
 def is_closed(programme: Programme, scaled: np.ndarray, tolerance: float) -> bool:
-    """Say whether closure and inequalities hold, to a tolerance in the user's units."""
+    """Return whether closure and inequalities hold, to a tolerance in the user's units."""
     residual = np.abs(programme.closure(scaled) * CLOSURE_SCALE).max()
     return bool(residual <= tolerance and programme.inequalities(scaled).min() >= -tolerance)
 
 
 def is_optimal(programme: Transcription, scaled: np.ndarray) -> bool:
-    """Say whether the optimality conditions hold."""
+    """Return whether the optimality conditions hold."""
     return optimality(programme, scaled) <= programme.options.search.optimality_tolerance
 
 
@@ -141,20 +141,20 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
 
 @dataclass(frozen=True)
 class Patience:
-    """A search has diverged if it is farther than this from closure after so many flights."""
+    """A local search has diverged if its violation has always exceeded `closure` in so many flights."""
 
     flights: int
     closure: float
 
     @classmethod
     def of(cls, programme: Transcription) -> Patience:
-        """Return that of the options of a programme."""
+        """Return the patience that a programme's options set."""
         options = programme.options.search
         return cls(options.diverged_flights, options.diverged_closure)
 
 
 class _DivergedError(Exception):
-    """A search that comes to no closure."""
+    """A local search has diverged."""
 
 
 def optimise(
@@ -171,7 +171,7 @@ def optimise(
     programme : the programme.
     scaled : where to start.
     iterations, tolerance : of SLSQP.
-    patience : a search that has diverged is given up where it was nearest to closure; none if not given.
+    patience : when a local search has diverged; it then ends at its least violation. It never does if not given.
     """
     nearest, least, flights = scaled, np.inf, 0
 
@@ -208,7 +208,7 @@ def optimise(
 
 
 def active_bounds(programme: Transcription, scaled: np.ndarray) -> tuple[str, ...]:
-    """Return the names of the unknowns at a bound, and of the limits of the whole path that are active."""
+    """Return the names of the unknowns at a bound, of the active path limits and of the active constraints."""
     tolerance = programme.options.search.bound_tolerance
     unknowns = zip(programme.unknowns.names, scaled, programme.lower, programme.upper, strict=False)
     names = [
@@ -227,7 +227,7 @@ def active_bounds(programme: Transcription, scaled: np.ndarray) -> tuple[str, ..
 def optimality(programme: Transcription, scaled: np.ndarray) -> float:
     """Return the largest residual of the Karush-Kuhn-Tucker conditions, in the optimiser's scale.
 
-    The multipliers are the best in least squares: free for the closure, of the right sign for active bounds.
+    The multipliers fit best in least squares: free for the closure, of the right sign for active bounds.
     """
     tolerance = programme.options.search.bound_tolerance
     closure = programme.closure_jacobian(scaled)
@@ -238,6 +238,6 @@ def optimality(programme: Transcription, scaled: np.ndarray) -> float:
     multipliers = np.linalg.lstsq(normals, gradient)[0]
     if (multipliers[len(closure) :] < 0).any():
         least = np.repeat([-np.inf, 0.0], [len(closure), multipliers.size - len(closure)])
-        with np.errstate(invalid="ignore"):  # where it multiplies nothing with infinity
+        with np.errstate(invalid="ignore"):  # it multiplies zero by infinity
             multipliers = lsq_linear(normals, gradient, bounds=(least, np.inf)).x
     return float(np.abs(normals @ multipliers - gradient).max())

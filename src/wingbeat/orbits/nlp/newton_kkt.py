@@ -1,7 +1,7 @@
-"""Newton's method on the optimality conditions, with the active bounds held: the last digits of an optimum.
+"""Newton's method on the optimality conditions, with a fixed active set: the last digits of an optimum.
 
-A search ends where its quasi-Newton matrix says that it is done, which costs many flights per digit in directions
-along which the objective hardly changes. Here the curvature along the few free directions is measured once.
+A local search ends by its quasi-Newton matrix, which takes many flights per digit along directions in which the
+objective hardly changes. Here the curvature along the few free directions is measured once.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from wingbeat.orbits.nlp.transcription import Transcription
 
 
 class ReducedHessian(NamedTuple):
-    """The Lagrangian's curvature at one optimum, for optima near by with the same active set.
+    """The Lagrangian's curvature at one optimum, for optima nearby with the same active set.
 
     Parameters
     ----------
     free : which unknowns are at no bound, shape (n,).
     active : which inequalities are active.
-    basis : directions of the free unknowns that keep what is active, in columns.
+    basis : directions of the free unknowns that change no active condition, in columns.
     matrix : the Lagrangian's second derivative along them.
     """
 
@@ -32,18 +32,18 @@ class ReducedHessian(NamedTuple):
 
 
 class NewtonKKT:
-    """Newton's method from one optimum to that of a slightly changed problem, with what is active at the first.
+    """Newton's method from one optimum to that of a slightly changed problem, with the active set of the first.
 
     Parameters
     ----------
     programme : the first problem.
     scaled : its optimum.
-    like : curvature found near by. It is used where the same is active; else the curvature is measured.
+    like : curvature of an optimum nearby, used if its active set is the same; else the curvature is measured.
 
     Attributes
     ----------
     free, active : which unknowns are at no bound, and which inequalities are active.
-    fits : whether there are enough unknowns for the conditions, and a curvature that holds the optimum.
+    fits : whether there are enough unknowns for the conditions, and the measured curvature is positive definite.
     """
 
     def __init__(self, programme: Transcription, scaled: np.ndarray, like: ReducedHessian | None = None) -> None:
@@ -53,7 +53,7 @@ class NewtonKKT:
         self.free = (scaled - programme.lower > reach) & (programme.upper - scaled > reach)
         self.active = programme.inequalities(scaled) <= tolerance
         _, jacobian = self._conditions(programme, scaled)
-        # Fewer unknowns than conditions cannot meet them.
+        # Fewer unknowns than conditions cannot satisfy them.
         self.fits = jacobian.shape[0] <= jacobian.shape[1] and bool(np.isfinite(jacobian).all())
         if not self.fits:
             return
@@ -67,7 +67,7 @@ class NewtonKKT:
 
     @property
     def reduced_hessian(self) -> ReducedHessian | None:
-        """The curvature, for a problem near by; none where the method does not fit."""
+        """The curvature, for a problem nearby; None if the method does not fit."""
         return ReducedHessian(self.free, self.active, self._basis, self._hessian) if self.fits else None
 
     def _has_active_set_of(self, other: ReducedHessian) -> bool:
@@ -98,7 +98,8 @@ class NewtonKKT:
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
         """Return a point from which the next step is shorter than `near`, or None as `converge` does.
 
-        That step is not made: one from known answers to the optimum of a search's few steps would lead away.
+        That step is not taken: from a prediction by certified optima, it would lead to the optimum of the coarse
+        flight, which is farther from the certified one.
         """
         steps = self._steps(programme, scaled)
         return next((here for here, step in steps if np.abs(step).max() <= near), None)
@@ -106,22 +107,22 @@ class NewtonKKT:
     def converge(
         self, programme: Transcription, scaled: np.ndarray, step_tolerance: float | None = None
     ) -> np.ndarray | None:
-        """Return the optimum next to a point, or None where the method leads to none within the bounds.
+        """Return the optimum next to a point, or None if the method finds none within the bounds.
 
-        It ends with a step shorter than the tolerance, that of the options if not given, or where nothing is left
-        to be gained.
+        It ends with a step shorter than the tolerance, by default that of the options, or when residuals and
+        gradient are as small as rounding permits.
         """
         still = self._options.step_tolerance if step_tolerance is None else step_tolerance
         for here, step in self._steps(programme, scaled):
             there = here + step
             if np.abs(step).max() <= still and not _is_outside(programme, there):
-                # None where a limit is exceeded that was not active before.
+                # No optimum if it exceeds a limit that is not in the active set.
                 exceeded = programme.inequalities(there).min() < -programme.options.search.bound_tolerance
                 return None if exceeded else there
         return None
 
     def _steps(self, programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield each iterate and its next step, while they keep to the bounds."""
+        """Yield each iterate and its next step, while the iterates stay within the bounds."""
         options = self._options
         before: tuple[np.ndarray, ...] | None = None
         for _ in range(options.iterations if self.fits else 0):
@@ -132,7 +133,7 @@ class NewtonKKT:
                 return
             gradient = programme.objective_gradient(scaled)[self.free]
             null_space = self._null_space(jacobian)
-            # Conditions of another rank leave other directions free, of which the curvature says nothing.
+            # If the rank changes, so do the free directions, and their curvature is unknown.
             if null_space.basis.shape != self._basis.shape:
                 return
             step = np.zeros(scaled.size)
@@ -157,7 +158,7 @@ class NewtonKKT:
                 return
 
     def _update(self, tangential: np.ndarray, change: np.ndarray) -> None:
-        """Take into the curvature how a step along the null space changed the Lagrangian's gradient (BFGS)."""
+        """Update the curvature by the change of the Lagrangian's gradient along a tangential step (BFGS)."""
         expected = self._hessian @ tangential
         if tangential @ change > self._options.curvature_share * (tangential @ expected):
             by_step = np.outer(change, change) / (tangential @ change)
@@ -169,12 +170,12 @@ def _is_outside(programme: Transcription, scaled: np.ndarray) -> bool:
 
 
 class NullSpace:
-    """Linear conditions ``jacobian @ step = values``, factored once: what they leave free, and what they fix.
+    """Null space and pseudo-inverse of linear conditions ``jacobian @ step = values``, factored once.
 
     Parameters
     ----------
     jacobian : the conditions, shape (conditions, n).
-    rank_tolerance : conditions whose size is less than this share of the largest say the same twice.
+    rank_tolerance : singular values below this share of the largest count as zero.
 
     Attributes
     ----------
@@ -189,9 +190,9 @@ class NullSpace:
         self._inverse = right[:rows][independent].T @ (left[:, independent] / sizes[independent]).T
 
     def least_norm_step(self, values: np.ndarray) -> np.ndarray:
-        """Return the shortest step that meets the conditions."""
+        """Return the shortest step that satisfies the conditions."""
         return self._inverse @ values
 
     def multipliers(self, gradient: np.ndarray) -> np.ndarray:
-        """Return the weights of the conditions that come nearest to a gradient."""
+        """Return the weights with which the conditions' gradients fit a gradient best."""
         return self._inverse.T @ gradient

@@ -20,7 +20,7 @@ class Outputs:
     ----------
     count : values of objective and constraints together.
     of_objective : how many of them, the first, are the objective's.
-    minimises_peaks : whether the objective has several.
+    minimises_peaks : whether the objective has several values.
     limits : of the constraints' values, shape (count - of_objective,).
     """
 
@@ -37,7 +37,7 @@ class Outputs:
 
     @property
     def undefined(self) -> tuple[np.ndarray, np.ndarray]:
-        """Values and derivatives where there is no flight: not-a-number."""
+        """Values and derivatives of a diverged flight: not-a-number, and zero."""
         return np.full(self.count, np.nan), np.zeros((self.count, 4 + len(self._problem.free)))
 
     def of(self, unknowns: np.ndarray, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
@@ -46,7 +46,7 @@ class Outputs:
         return self._functions.values(beat), self._functions.derivatives(beat, changes)
 
     def of_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
-        """Return the values for what the certifier flew."""
+        """Return the values for a certified flight."""
         wingbeat = self._problem.wingbeat(unknowns)
         beat = flown_beat(
             self._problem.model, wingbeat, certificate.phase, certificate.states[:, 2:], self._velocity
@@ -54,14 +54,14 @@ class Outputs:
         return self._functions.values(beat, sampled=True)
 
     def values_of(self, index: int) -> range:
-        """Return which of the constraints' values belong to one of them."""
+        """Return the indices of one constraint among the constraints' values."""
         counts = self._functions.constraint_counts
         return range(sum(counts[:index]), sum(counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
-        """Return which constraints have an active value, given which inequalities after the path's are active."""
+        """Return the constraints with an active value; `active` flags the inequalities after those of the path."""
         return [i for i in range(len(self._problem.subject_to)) if active[self.values_of(i)].any()]
 
     def active_constraints(self, active: np.ndarray) -> list[str]:
-        """Return the constraints that are at their limits, in words; `active` as for `with_active`."""
+        """Return the texts of the constraints that are at their limits; `active` as for `with_active`."""
         return [str(self._problem.subject_to[i]) for i in self.with_active(active)]

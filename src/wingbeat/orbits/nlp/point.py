@@ -1,4 +1,4 @@
-"""What the programme evaluates at one point, and the correction that a finer flight gives it."""
+"""The programme's values at one point, and their correction by a finer flight."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 
 
 class Point(NamedTuple):
-    """Values and derivatives at one point of the search, in the optimiser's scale.
+    """Values and derivatives at one point, in the optimiser's scale.
 
-    ``path`` is how far body pitch stays above its lower and below its upper bound [rad], as flown, then how far the
-    stroke stays inside its limits.
+    ``path`` holds the margins of body pitch above its lower and below its upper bound [rad], then those of the
+    stroke.
     """
 
     closure: np.ndarray
@@ -25,7 +25,7 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Correction:
-    """What a finer flight says near one point: each quantity is less its offset, and its slope away from there."""
+    """Correction by a finer flight near one point: subtract an offset, add a slope away from the point."""
 
     anchor: np.ndarray
     closure_offset: np.ndarray
@@ -42,7 +42,7 @@ class Correction:
 
 
 def with_column(point: Point) -> Point:
-    """Return the point with one more unknown, on which nothing that was flown depends."""
+    """Return the point with one more unknown, on which the flight does not depend."""
     wider = {
         name: np.pad(value, [(0, 0)] * (value.ndim - 1) + [(0, 1)])
         for name, value in point._asdict().items()

@@ -16,9 +16,9 @@ _UPRIGHT = 0.5 * math.pi
 
 
 class StrokeLimits:
-    """How far the stroke of a problem stays inside its limits, as rows of the search.
+    """Margins of a problem's stroke within its limits, as rows of the inequalities.
 
-    Where nothing that is free shapes the stroke, or wings may cross, there are none.
+    There are none if no free parameter shapes the stroke, or wings may cross.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class StrokeLimits:
         self._limits = np.array([*[clearance] * 2 * PARTS, low, low, -high, -high])
 
     def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far inside its limit each row of a flight is, and the derivative by the free parameters.
+        """Return the margin of each row for a flight, and the derivative by the free parameters.
 
         Corners are in wing lengths, flap angles in radians.
         """

@@ -14,11 +14,12 @@ from wingbeat.orbits.nlp.outputs import Outputs
 from wingbeat.orbits.nlp.point import Correction, Point, with_column
 from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.problem import CLOSURE_SCALE, OrbitProblem, Unknowns
+from wingbeat.orbits.problem.problem import CLOSURE_SCALE, OrbitProblem
+from wingbeat.orbits.problem.unknowns import Unknowns
 
-# Sums of a flight's numbers beyond this overflow when squared, or soon will.
+# Larger sums of a flight's numbers overflow when squared, or soon will.
 _OVERFLOW = 1e12
-# Flights remembered: that of the point at hand, and of the points that a difference or a line search started from.
+# Number of cached flights: that of the current point, and those from which a difference or a line search started.
 _REMEMBERED = 4
 # Bounds of the epigraph variable, in the objective's scale.
 _UNBOUNDED = 1e6
@@ -26,7 +27,7 @@ _PITCH_LIMITS = (("body_pitch", ">="), ("body_pitch", "<="))
 
 
 class _Clock:
-    """Time that has gone into something [s]."""
+    """A sum of times [s]."""
 
     seconds = 0.0
 
@@ -34,24 +35,23 @@ class _Clock:
 class Transcription:
     """Closure, inequalities and objective of a problem as functions of scaled unknowns, each flight flown once.
 
-    To minimise the largest value of a series there is one more unknown, the last: the epigraph variable, which none
-    of the series' peaks may exceed. A programme does not change; `linearised_at` and `matched_to` return the
-    corrected one.
+    To minimise the largest value of a series, the last unknown is the epigraph variable, an upper limit of the
+    series' peaks. A programme does not change; `linearised_at` and `matched_to` return the corrected one.
 
     Parameters
     ----------
     problem : the orbit problem.
     options : of the solvers.
-    blocks : how many times `STEPS` steps a flight has.
+    blocks : a flight has this multiple of `STEPS` steps.
     unknowns : replace the problem's own bounds and scales, for a point just outside of them.
 
     Attributes
     ----------
     lower, upper : bounds of the scaled unknowns, shape (n,).
-    outputs : objective and constraints that are outputs of the wingbeat; none if there are no such.
+    outputs : objective and constraints that are outputs of the wingbeat; None if there are none.
     has_epigraph : whether the last unknown is the epigraph variable.
     path_limits : name and sign of each limit along the path, of body pitch and of the stroke.
-    certify_seconds : that the certifier has taken for this programme and those corrected from it.
+    certify_seconds : time of the certifier for this programme and those corrected from it [s].
     """
 
     def __init__(
@@ -73,8 +73,8 @@ class Transcription:
         self.lower = np.append(self.unknowns.lower, [-_UNBOUNDED] * self.has_epigraph) / scale
         self.upper = np.append(self.unknowns.upper, [_UNBOUNDED] * self.has_epigraph) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
-        # Searches for least frequency diverge on the smooth peak (11 orbits of a study's 14, all 14 without it);
-        # optima of outputs come to lie between two samples and need it.
+        # With the smooth peak, starts for least frequency diverge (11 orbits of a study's 14, all 14 without it).
+        # Optima of outputs lie between two samples and need it.
         self._peak = highest_sample if self.outputs is None else peak_weights
         self._stroke = StrokeLimits(problem, options.search.plane_clearance)
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
@@ -95,7 +95,7 @@ class Transcription:
         return Correction.none(self.lower.size, len(self.path_limits), outputs)
 
     def uncorrected(self) -> Transcription:
-        """Return the same programme uncorrected, for another search at the same time; flights are remembered."""
+        """Return the same programme uncorrected, for another local search in parallel; it keeps cached flights."""
         other = copy.copy(self)
         other._correction = self._no_correction
         other._points = dict(self._points)
@@ -109,7 +109,7 @@ class Transcription:
 
     @property
     def certify_seconds(self) -> float:
-        """Time that the certifier has taken for this programme and those corrected from it [s]."""
+        """Time of the certifier for this programme and those corrected from it [s]."""
         return self._clock.seconds
 
     def count_certifying(self, seconds: float) -> None:
@@ -136,7 +136,7 @@ class Transcription:
         return 0 if self.outputs is None else self.outputs.of_objective
 
     def point(self, scaled: np.ndarray) -> Point:
-        """Return values and derivatives as the search's few steps find them."""
+        """Return values and derivatives of the flight from one point."""
         key = scaled[: self.unknowns.lower.size].tobytes()
         if key not in self._points:
             unknowns = self.physical(scaled)
@@ -146,7 +146,7 @@ class Transcription:
         return self._points[key]
 
     def _point_of(self, flown: Flown, unknowns: np.ndarray) -> Point:
-        # A flight that tumbles off may overflow here; what is wild is cut below.
+        # A diverging flight may overflow here; `_cut` limits its numbers.
         with np.errstate(over="ignore", invalid="ignore"):
             return self._cut(flown, unknowns)
 
@@ -163,7 +163,7 @@ class Transcription:
             tame = tame and abs(outputs.sum()) + abs(outputs_jacobian.sum()) < _OVERFLOW
             outputs_jacobian = outputs_jacobian * scale
         if not tame:
-            # A flight that tumbles off to infinity must still be a number for the line search to back away from.
+            # The line search needs finite numbers to back away from a diverging flight.
             flight, most = (closure, jacobian, pitch, pitch_jacobian, outputs, outputs_jacobian), self._largest
             cut = (np.clip(np.nan_to_num(a, nan=most), -most, most) for a in flight)
             closure, jacobian, pitch, pitch_jacobian, outputs, outputs_jacobian = cut
@@ -194,11 +194,11 @@ class Transcription:
         return self.point(scaled).outputs - by.outputs_offset + by.outputs_slope @ (scaled - by.anchor)
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return how far all that has a limit is inside it; negative where it is exceeded.
+        """Return the margin of everything that has a limit, negative if the limit is exceeded.
 
-        First body pitch on the path above its lower and below its upper bound [rad], then the limits of the stroke,
-        both as named by `path_limits`, then the constraints in their scale, then the epigraph variable above each
-        peak that is minimised.
+        First come body pitch above its lower and below its upper bound [rad] and then the stroke, as named by
+        `path_limits`; then the constraints in their scale; last the epigraph variable above each peak that is
+        minimised.
         """
         path = self.point(scaled).path - self._correction.path_offset
         if self.outputs is None:
@@ -209,7 +209,7 @@ class Transcription:
         return np.concatenate([path, constraints, below])
 
     def pitch_margins(self, pitch: np.ndarray) -> np.ndarray:
-        """Return how far a path of body pitch stays inside its lower and upper bound [rad]."""
+        """Return the margins of a path of body pitch within its lower and upper bound [rad]."""
         return self._inside(self._peak(-pitch) @ pitch, self._peak(pitch) @ pitch)
 
     def _inside(self, lowest: Any, highest: Any) -> np.ndarray:
@@ -228,7 +228,7 @@ class Transcription:
         return np.concatenate([point.path_jacobian, -outputs[self._minimised :], below])
 
     def active_conditions(self, scaled: np.ndarray, active: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return what must vanish, closure and the active inequalities, and the derivative."""
+        """Return closure and the active inequalities, all of which must vanish, and their derivative."""
         values = np.concatenate([self.closure(scaled), self.inequalities(scaled)[active]])
         by_inequalities = self.inequalities_jacobian(scaled)[active]
         return values, np.concatenate([self.closure_jacobian(scaled), by_inequalities])
@@ -271,7 +271,7 @@ class Transcription:
         )
 
     def certified_inequalities(self, scaled: np.ndarray, certificate: Certificate) -> np.ndarray:
-        """Return how far body pitch, the stroke and the constraints are inside their limits for the certifier."""
+        """Return the margins of body pitch, the stroke and the constraints in the certified flight."""
         path = np.append(self.pitch_margins(certificate.pitch), self.point(scaled).path[2:])
         if self.outputs is None:
             return path
@@ -297,12 +297,12 @@ class Transcription:
 
     @property
     def _parameter(self) -> int:
-        """Which of the unknowns the objective is, where it is one."""
+        """Index of the objective among the unknowns, if it is one of them."""
         return self.unknowns.names.index(self.problem.minimise.parameter)
 
 
 def highest_sample(values: np.ndarray) -> np.ndarray:
-    """Return the weights that give the highest of samples."""
+    """Return the weights that select the highest sample."""
     weights = np.zeros(len(values))
     weights[values.argmax()] = 1.0
     return weights

@@ -10,19 +10,20 @@ from wingbeat.orbits.options.checks import check_options
 
 @dataclass(frozen=True)
 class NewtonOptions:
-    """Options of Newton's method on the optimality conditions, in the optimiser's scale.
+    """Options of Newton's method on the optimality conditions.
 
     Parameters
     ----------
-    iterations : at most.
-    step_tolerance : after a step shorter than this, the next step counts as zero.
-    difference_step : of the quotient that measures the curvature along the null space.
-    residual_tolerance, gradient_tolerance : residuals and a reduced gradient this small are as
-        good as the next step could make them.
-    rank_tolerance : conditions below this share of the largest count as dependent.
-    normal_share : a step measures the curvature along the null space if its normal part is shorter than this share.
-    curvature_share : and if the curvature exceeds this share of the expected one.
-    diverged : a larger violation ends the method.
+    iterations : largest number of iterations.
+    step_tolerance : the method ends with a step shorter than this, in the optimiser's scale.
+    difference_step : step of the differences that measure the curvature along the null space [optimiser's scale].
+    residual_tolerance, gradient_tolerance : a residual and a reduced gradient this small, in the optimiser's scale,
+        are as good as the next step could make them.
+    rank_tolerance : singular values below this share of the largest count as zero.
+    normal_share : a step updates the curvature along the null space if its normal part is at most this share of its
+        tangential part.
+    curvature_share : and if the curvature along the step exceeds this share of the expected one.
+    diverged : a larger violation, in the optimiser's scale, ends the method.
     """
 
     iterations: int = 10
@@ -46,18 +47,22 @@ class CertificateOptions:
     Parameters
     ----------
     closure_tolerance : a certified orbit closes to this [m, rad, m/s, rad/s].
-    limit_tolerance : body pitch, the stroke and constraints may exceed their limits by this, in their scales.
-    aimed_closure : target of the correction, stricter than the tolerance so that rounding does not decide.
+    limit_tolerance : body pitch, the stroke and constraints may exceed their limits by this [rad, wing lengths, the
+        constraint's scale].
+    aimed_closure : target of the correction, stricter than the tolerance so that rounding does not decide [m, rad,
+        m/s, rad/s].
     rtol : relative tolerance of the certifying flight (Dopri8).
     rough_rtol : relative tolerance of flights that only correct. They are accurate to 1e-8 and take half the time.
     fine_blocks : a corrected flight has this multiple of the steps of the solver's flights.
-    linear_range : range of validity of the derivative of a finer flight, in the optimiser's scale.
+    linear_range : range of validity of a finer flight's derivative, in the optimiser's scale.
     linearisations : largest number of derivatives of finer flights.
-    linearised_step : step at which the optimum is close enough before the derivative is updated.
+    linearised_step : step, in the optimiser's scale, at which the optimum is close enough before the derivative is
+        updated.
     corrections : largest number of certifying flights.
     trial_corrections, trial_reduction : after this many corrections the residual must have shrunk to this share.
     bound_updates : how often the active bounds are determined again if a wingbeat closes but is not optimal.
-    iterations, tolerance : of SLSQP where Newton's method fails, and its tolerance of the objective.
+    iterations, tolerance : of SLSQP, which replaces Newton's method where that fails, and its tolerance of the
+        objective.
     newton : the method that follows the optimum while its closure is corrected.
     """
 

@@ -1,4 +1,4 @@
-"""What every options class checks when it is made."""
+"""The checks that every options class makes."""
 
 from __future__ import annotations
 

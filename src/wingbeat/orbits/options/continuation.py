@@ -1,4 +1,4 @@
-"""Options of all that begins from a known answer: along speed, in series and batches, and of derivatives."""
+"""Options of methods that start from a known optimum: continuation, series, batches, derivatives."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class ContinuationOptions:
     Parameters
     ----------
     max_step : an orbit within this distance of another, in the optimiser's scale, may be its continuation. It is 2
-        degrees of flap amplitude and of body pitch, 0.9 Hz, 0.15 m/s. Orbits farther apart are of one branch only
-        if orbits between them lead from one to the other.
+        degrees of flap amplitude and of body pitch, 0.9 Hz, 0.15 m/s. Orbits farther apart belong to one branch
+        only if orbits between them lead from one to the other.
     first_speed_step, least_speed_step : steps of speed [m/s]. A branch ends if the smallest step cannot continue
         it.
     step_growth : the next step is at most this multiple of the last.
@@ -27,10 +27,11 @@ class ContinuationOptions:
     near_closure : unknowns with a smaller residual, in the optimiser's scale, are close to an orbit.
     sweeps : largest number of passes along a series, up and down.
     improvement : a neighbour's result must be better by this share to replace a problem's own.
-    batch_size : number of problems solved in sequence, each using those before; few enough to distribute a
-        batch out over processes.
-    batch_first : of more similar problems than that, this many are solved first and help all others.
-    near_share : results nearer than this share of the farthest one in use have equal weight in a prediction.
+    batch_size : number of problems solved in sequence, each using those before; few enough to spread a batch over
+        processes.
+    batch_first : in a larger group of similar problems, this many are solved first and help all others.
+    near_share : solutions nearer than this share of the farthest one in use have about equal weight in a
+        prediction.
     rounding : relative differences between numbers that come from rounding.
     """
 
@@ -60,10 +61,11 @@ class SensitivityOptions:
 
     Parameters
     ----------
-    fine_blocks : the flights have so many times the steps of a search's; they are right to 1e-5.
+    fine_blocks : a flight has this multiple of the steps of the solver's flights. It is accurate to 1e-5.
     step : of central differences, as a share of a parameter's size.
-    step_tolerance : of Newton's method that follows the optimum, so that what should vanish does.
-    room : how far steps may go outside of the bounds, in the unknowns' scale.
+    step_tolerance : Newton's method, which finds the optimum of these flights, ends with a step shorter than this,
+        in the optimiser's scale.
+    room : how far difference steps may leave the bounds, in the optimiser's scale.
     """
 
     fine_blocks: int = 6

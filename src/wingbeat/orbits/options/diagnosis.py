@@ -1,4 +1,4 @@
-"""Options of what is found out where there is no orbit."""
+"""Options of the diagnosis of a problem without an orbit."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ class DiagnosisOptions:
     ----------
     nearest_ends : end points of starts from which the closest wingbeat is computed.
     ends_apart : two end points count as different if an unknown differs by this share of its range.
-    deficit : least squares that find the beat with the least deficit.
-    trial_evaluations : evaluations for each end point, before only the best continues.
-    violation_weight : a residual of 1 in the optimiser's scale of a balance that must hold counts as much as
-        so many weights that are short.
-    kept_closure : a residual below this, in the optimiser's scale, counts as zero.
+    deficit : least squares that find the wingbeat with the smallest deficit.
+    trial_evaluations : evaluations for each end point before only the best continues.
+    violation_weight : weight of the conditions that must hold: a residual of 1 in the optimiser's scale counts as
+        much as a deficit of so many times the vehicle's weight.
+    kept_closure : a condition holds if its residual is below this, in the optimiser's scale.
     least_gravity : smallest gravity that defines the weight with which forces are compared [m/s2].
-    nothing : a share of the weight below this counts as zero.
+    nothing : a deficit below this share of the weight, or a change below this share of its scale, counts as zero.
     mentioned : deficits above this share of the largest are reported.
     near_bound : a wingbeat nearer to a bound than this share of its range counts as at the bound.
     reported : largest number of reported changes.
-    slack : the smallest change is multiplied by this. At the smallest itself there is only one orbit, and it is
-        hard to certify.
+    slack : the smallest change is widened to this multiple. At the smallest itself there is only one orbit, which
+        is hard to certify.
     widened : steps of the last digit by which a change is widened until an orbit is certified.
     difference_step : of derivatives by a number of the vehicle or the flight, as a share of its scale.
-    far_iterations, back_iterations : of the search with the number moved far, and of each that moves it back.
-    back_times : how often it is moved back, each time from the last end point.
+    far_iterations, back_iterations : iterations of SLSQP with the number moved far, and each time it is moved back.
+    back_times : how often it is moved back at most, each time from the last end point.
     raised_bounds : multiples of the lower bound of frequency that are tried where the minimum may be at it.
     raised_starts : starts for each of these bounds.
     """
@@ -68,16 +68,17 @@ class ChangeOptions:
     Parameters
     ----------
     large_angle : a change of an angle by this counts as much as a change of another number by 100 % [rad].
-    limit_factor : factor by which a limit is raised or lowered.
+    limit_factor : a limit moves by at most this multiple of itself.
     lightest : the lightest body, as a share of its mass.
-    faster : largest increase of speed, as a share of the problem's.
+    faster : largest increase of speed, as a share of the problem's speed or of `low_speed`, whichever is larger.
     slowest : slowest speed if the problem contains a cost of transport, as a share of the problem's.
-    wide_frequency : the ends of the range of frequencies move to so many times themselves, or divided by it. Bounds
-        of a scaling law used outside its data were 9 times too low (a bat of 10 kg).
-    raised_frequency : shares of the upper end by which it is raised first.
-    beyond : a number is first moved by this multiple of the deficit.
+    wide_frequency : the upper bound of frequency may rise to this multiple, or to 200 Hz if that is more; the lower
+        bound may fall to its inverse, or to 0.1 Hz if that is less. Bounds of a scaling law used outside its data
+        were 9 times too low (a bat of 10 kg).
+    raised_frequency : increases of the upper bound of frequency that are tried first, as shares of it.
+    beyond : mass, climb and shoulder are first moved by this multiple of the deficit, as a share of their scale.
     chords : largest shift of the shoulder [chords].
-    low_speed : what counts as a large change of a speed near 0 [m/s].
+    low_speed : a change of speed or climb by this much is large if the speed is lower [m/s].
     """
 
     large_angle: float = math.radians(60.0)

@@ -9,19 +9,21 @@ from wingbeat.orbits.options.checks import check_options
 
 @dataclass(frozen=True)
 class LeastSquaresOptions:
-    """Options of the Levenberg-Marquardt method within bounds; dampings and steps as Nielsen proposes them.
+    """Options of the Levenberg-Marquardt method within bounds, with Nielsen's rule for the damping.
 
     Parameters
     ----------
     evaluations : largest number of evaluations of the residuals.
-    tolerance : it ends where a step lessens the sum of squares by less than this share.
-    step_tolerance : a shorter step, in the optimiser's scale, ends it.
-    damping, least_damping : initial and smallest damping, divided by the largest curvature. Without the smallest,
-        fewer residuals than unknowns fix no step.
-    shrink, growth : of the damping after a step that is taken, at most, and after the first that is not.
+    tolerance : the method ends when a step reduces the sum of squares by less than this share.
+    step_tolerance : a step shorter than this, in the optimiser's scale, also ends it.
+    damping, least_damping : initial and smallest damping, as ratios to the largest curvature. Without the smallest,
+        the step would not be unique if there are fewer residuals than unknowns.
+    shrink, growth : an accepted step multiplies the damping at least by the former ratio. The first rejected step
+        multiplies it by the latter, each further one by twice the ratio before.
     accepted : a step that gains less than this share of the linear model's prediction is rejected.
     trusted : only a step that gains more than this share may be the last.
-    bound_changes : bounds that one step may meet or leave, over the number of unknowns.
+    bound_changes : largest number of bounds that become active or inactive in one step, over the number of
+        unknowns.
     """
 
     evaluations: int = 150

@@ -1,4 +1,4 @@
-"""Options of the searches for an orbit."""
+"""Options of the solver's starts and of its local searches."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ class SearchOptions:
 
     Parameters
     ----------
-    starts : of a problem that minimises the frequency within the species' bounds. With 6 none of 480 answers of the
-        built-in animals was more than 0.5 % above the best of 80 random starts.
-    starts_of_outputs : where the objective or a limit is an output of the wingbeat. Such problems have more optima:
-        6 starts gave 1.5 times the bat's lowest frequency within a power limit at 10 m/s, 12 found it.
-    starts_of_many_optima : where bounds are the user's own, or a peak is minimised. With a flap amplitude of 50 deg
-        at most, 12 missed the bat's least frequency at 10 m/s by 3 %, 24 did not; of 30 random starts 4 led to the
-        bat's least peak pitch torque at 14 m/s, which 12 missed by half.
+    starts : of a problem that minimises the frequency within the species' bounds. With 6, none of 480 optima of the
+        built-in species was more than 0.5 % above the best of 80 random starts.
+    starts_of_outputs : if the objective or a limit is an output of the wingbeat. Such problems have more optima: 6
+        starts gave 1.5 times the bat's lowest frequency within a power limit at 10 m/s, 12 found it.
+    starts_of_many_optima : if bounds are the user's own, or a peak is minimised. With a flap amplitude of 50 deg at
+        most, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %, 24 did not. Of 30 random starts, 4 led
+        to the bat's lowest peak pitch torque at 14 m/s, which 12 starts missed by half.
     most_starts : as long as none can be certified, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
     random_margin : distance of random starts from the bounds, as a share of the range.
     random_below, random_above : their largest distance from the stock start in body pitch, u, w [rad, m/s, m/s] and
         pitch rate [rad/s].
-    random_octaves : how far they go below and above the stock start's frequency.
+    random_octaves : how far they go below and above the stock start's frequency [octaves].
     start_spread : distance of additional starts from the best optimum, in the optimiser's scale.
     iterations, tolerance : of SLSQP, and its tolerance of the objective.
     local_iterations : iterations from the result of a neighbouring problem.
@@ -38,18 +38,18 @@ class SearchOptions:
     optimality_tolerance : largest residual of the optimality conditions, in the optimiser's scale.
     bound_tolerance : an unknown closer to a bound than this share of its range is at the bound; likewise the limits
         along the path, in their own scale.
-    diverged_closure, diverged_flights : a start with a larger residual after this many flights has
-        diverged. Of 376 starts that found an orbit, 2 had.
+    diverged_closure, diverged_flights : a local search has diverged if its violation, in the optimiser's scale,
+        exceeds the former in each of so many flights. Of 376 starts that found an orbit, 2 had.
     restoration : least squares that bring a start close to closure before the objective counts.
-    restored_closure : a start whose residual stays larger, in the optimiser's scale, is abandoned.
-    same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some
-        wingbeats can change a little at hardly any cost, and it is chance where a start stops among them.
+    restored_closure : a start whose residual is still larger, in the optimiser's scale, is abandoned.
+    same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
+        can change a little at hardly any cost, and where a local search stops among them is chance.
     uncorrected_error : an optimum whose objective is more than this share above a certified one is no better. Of
         200 frequencies nearly all changed by less than 0.0025 when they were corrected.
     plane_clearance : strip corners keep this share of the wing's length from the plane of symmetry. It is ten times
         the other tolerances: 3 micrometres of 0.3 m.
-    largest_residual : residuals of diverging flights are limited to this, so that a line search can shorten its
-        step.
+    largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line
+        search can shorten its step.
     """
 
     starts: int = 6

@@ -19,10 +19,10 @@ class SolverOptions:
 
     Parameters
     ----------
-    search : of the searches from several starts.
+    search : of the starts and the local searches.
     certificate : of the correction of an optimum, and of the flight that certifies it.
     continuation : along speed, and from problem to problem.
-    diagnosis, changes : where there is no orbit: what is short, and which changes are tried.
+    diagnosis, changes : without an orbit: of the balance that fails, and of the changes that are tried.
     sensitivity : of derivatives of an optimum.
 
     Raises

@@ -1,12 +1,12 @@
-"""The families of wingbeats that searches start in."""
+"""The families of wingbeats in which the solver starts."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
-# Times the stock frequency. From 2 to 4 every pigeon and nearly every bat of +-30 % was found by one search; at 1 a
-# third of the bats strayed, and took three times the flights.
+# Multiple of the stock frequency. From 2 to 4, one start found every pigeon and nearly every bat of +-30 %; at 1 a
+# third of the bats' starts diverged, and took three times the flights.
 _BRISK = 2.5
 
 
@@ -15,11 +15,11 @@ class StartFamily(NamedTuple):
 
     Parameters
     ----------
-    flap_mean : offset from the middle of its bounds, in shares of half its range; default that of the stock
-        wingbeat.
-    pitch_mean, pitch_amplitude : likewise [rad].
+    flap_mean : offset from the middle of its bounds, as a share of half its range; default the stock wingbeat's
+        value.
+    pitch_mean, pitch_amplitude : their values; default those of the stock wingbeat [rad].
     flap_amplitude, frequency : multiples of those of the stock wingbeat.
-    nose_up : body pitch [rad], with an upright stroke plane.
+    nose_up : nose-up rotation of the body from the body pitch at which the stroke plane is upright [rad].
     """
 
     flap_mean: float | None = None
@@ -32,7 +32,7 @@ class StartFamily(NamedTuple):
 
 _QUIET, _PITCHING, _STEEP = math.radians(3.0), math.radians(15.0), math.radians(30.0)
 # Each is the best start into its family of up to 108 tried for 110 vehicles of +-40 %. Wings that hardly pitch and
-# beat below the body are found in 68 % of the cases from a wide and slow beat, in 55 % from a brisk one. Wide beats
+# beat below the body are found in 68 % of the cases from a wide and slow beat, in 55 % from a fast one. Wide beats
 # above a body whose nose is down are 30 % slower than any other for some bats.
 START_FAMILIES = (
     StartFamily(),

@@ -1,4 +1,4 @@
-"""The orbit problem of a wingbeat that was filmed: what was filmed is held, what was not trims the flight."""
+"""The orbit problem of a filmed wingbeat: what was filmed is fixed, the other parameters trim the flight."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species
 
-# How far what was filmed may be moved to trim the flight, where nothing else is free [rad].
+# How far filmed wing pitch may be moved to trim the flight, if too little else is free [rad].
 _TRIM_RANGE = math.radians(20.0)
 
 
@@ -23,7 +23,7 @@ class Filmed(Protocol):
 
     @property
     def held(self) -> frozenset[str]:
-        """The parameters of which an orbit may choose none."""
+        """Names of the parameters that an orbit must not change."""
         ...
 
 
@@ -43,10 +43,10 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
-    """Return what an orbit may choose, and bounds: the species' own free parameters that were not filmed.
+    """Return the free parameters, those of the species that were not filmed, and their bounds.
 
-    Forward and vertical speed take two. Where fewer are left, the mean of pitch and then its amplitude may move
-    from what was filmed, within the bounds returned.
+    Forward and vertical speed take two. If fewer are left, mean wing pitch and then its amplitude may move from
+    their filmed values, within the bounds returned.
     """
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
@@ -83,6 +83,6 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
     if "frequency" not in free:
         more.setdefault("minimise", "mean_positive_power")
     bounds |= more.pop("bounds", {})
-    # What was filmed is held: a limit of the stroke could only hide it. An orbit that crosses draws a warning.
+    # The filmed stroke is fixed: a limit could only hide where wings cross. Such an orbit draws a warning.
     more.setdefault("wings_may_cross", True)
     return OrbitProblem(filmed_species(beat, species), speed, free=free, bounds=bounds, **more)

@@ -1,4 +1,4 @@
-"""What must not be passed: limits of quantities and of the wingbeat, as values and as texts."""
+"""Limits of quantities and of wingbeat parameters, as values and as texts."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Constraint:
     Parameters
     ----------
     quantity : a `Quantity`, or the name of one.
-    limit : in the quantity's unit.
-    at_most : whether the limit is the largest value allowed; else the smallest. Of a series the largest value
-        counts: at most means at every instant, at least means at one instant or more.
+    limit : in the unit of the quantity.
+    at_most : whether the limit is an upper one; else a lower one. A limit of a series applies to its maximum: at
+        most holds at every instant, at least holds at one instant or more.
 
     Raises
     ------
@@ -49,11 +49,11 @@ _EXPRESSION = re.compile(rf"\s*([\w.+-]+(?:\([^()]*\))?)\s*(<=|>=)\s*({NUMBER})\
 
 
 def parse_constraint(text: str) -> Constraint:
-    """Return the constraint that a text such as ``peak_power<=30`` or ``body_pitch_range <= 10 deg`` says.
+    """Return the constraint in a text such as ``peak_power<=30`` or ``body_pitch_range <= 10 deg``.
 
     Raises
     ------
-    InvalidInputError : not of that form, an unknown quantity, degrees of no angle.
+    InvalidInputError : a text not of that form, an unknown quantity, degrees for a quantity that is no angle.
 
     >>> str(parse_constraint("peak_power <= 30"))
     'peak_power<=30'
@@ -75,7 +75,7 @@ def parse_constraint(text: str) -> Constraint:
 
 
 class WingbeatLimit(NamedTuple):
-    """A wingbeat parameter that is held (``=``), or kept at most or at least at a value, SI and radians."""
+    """A wingbeat parameter fixed at a value (``=``), or at most or at least at it, SI and radians."""
 
     name: str
     sign: str
@@ -86,9 +86,9 @@ _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
 
 
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
-    """Return what a text says of a wingbeat parameter, None if it is not about one.
+    """Return the limit of a wingbeat parameter in a text, or None.
 
-    A limit of the frequency that does not hold it is a constraint like any other.
+    A limit of the frequency that does not fix it is a constraint like any other.
 
     >>> parse_wingbeat_limit("frequency = 6").value
     6.0

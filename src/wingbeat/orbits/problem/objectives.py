@@ -62,7 +62,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class _Series:
-    """A series of the beat itself."""
+    """A series of the beat."""
 
     name: str
 
@@ -72,7 +72,7 @@ class _Series:
 
 @dataclass(frozen=True)
 class _Size(_Series):
-    """The size of a series, whatever its sign."""
+    """The absolute value of a series."""
 
     def __call__(self, beat: Beat) -> Any:
         return jnp.abs(getattr(beat, self.name))
@@ -80,7 +80,7 @@ class _Size(_Series):
 
 @dataclass(frozen=True)
 class _Cost:
-    """The mean of a power, of which the negative part gives back a share."""
+    """The mean of a power if a share of its negative work is returned."""
 
     power: str
     returned: float
@@ -152,7 +152,7 @@ def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
 
 
 def _exactly(number: float) -> str:
-    """Return the shortest text that is read back as the very number."""
+    """Return the shortest text that reads back as the same number."""
     return repr(float(number)).removesuffix(".0")
 
 
@@ -208,7 +208,7 @@ QUANTITIES = {
 }
 
 
-# What the command line calls for short.
+# Short names on the command line.
 _SHORT = {"power": "mean_power", "positive_power": "mean_positive_power"}
 
 
@@ -218,11 +218,11 @@ _SPRING_POWER = re.compile(rf"spring_power\(({NUMBER})(?:,\s*({NUMBER}))?\)")
 
 
 def named_quantity(name: str) -> Quantity:
-    """Return the quantity of a name.
+    """Return the quantity with a name.
 
     Raises
     ------
-    InvalidInputError : there is none.
+    InvalidInputError : no quantity has this name.
     """
     if found := _POWER_COST.fullmatch(str(name)):
         return PowerCost(float(found[1]))
@@ -238,12 +238,12 @@ def named_quantity(name: str) -> Quantity:
 
 
 def named_objective(name: str) -> Quantity:
-    """Return the objective of a name, which may be written with hyphens, as on the command line.
+    """Return the objective with a name, which may be written with hyphens, as on the command line.
 
     Raises
     ------
-    InvalidInputError : there is none.
+    InvalidInputError : no quantity has this name.
     """
     word, bracket, numbers = str(name).partition("(")
-    name = word.replace("-", "_") + bracket + numbers  # a minus in the brackets is one
+    name = word.replace("-", "_") + bracket + numbers  # a hyphen in the brackets is a minus sign
     return named_quantity(_SHORT.get(name, name))

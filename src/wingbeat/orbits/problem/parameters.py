@@ -1,4 +1,4 @@
-"""The numbers that an orbit hangs on and that the search does not choose: names, spreads, and how to change one."""
+"""The numbers of a problem that the solver does not choose: names, plausible ranges, and how to change one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
 
-# The way from a problem to one of its numbers: names of records, places in tuples.
+# Path from a problem to one of its numbers: names of fields, indices of tuples.
 Place = tuple[str | int, ...]
 
 
@@ -28,8 +28,8 @@ class Parameter(NamedTuple):
     path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
     unit : of the value, ``1`` if it has none.
     value : SI and radians, but as published where the name ends in ``_deg``.
-    size : a change of this size is a large one: the value's own, or where that is 0 one of its kind.
-    place : where the problem holds it.
+    size : a large change: the size of the value, or a typical size if the value is 0.
+    place : path from the problem to the number.
     plausible : lowest and highest plausible value, where the species file gives them.
     """
 
@@ -41,11 +41,11 @@ class Parameter(NamedTuple):
     plausible: tuple[float, float] | None = None
 
     def changed(self, problem: OrbitProblem, value: float) -> OrbitProblem:
-        """Return the problem with this number at another value, all else alike.
+        """Return the problem with this number at another value, all else unchanged.
 
         Raises
         ------
-        InvalidInputError : the impossible, as the records refuse it.
+        InvalidInputError : an impossible value.
         """
         return with_number(problem, self.place, value)
 
@@ -68,10 +68,10 @@ def with_number(record: Any, place: Place, value: float) -> Any:
 
 
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
-    """Return every number that the orbit hangs on: vehicle, held wingbeat, air, coefficients and velocity.
+    """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
-    Left out are the wrist, which does nothing until it jumps over a strip, laws of the wingbeat that are off, and
-    the numbers of coefficients that are not formulas.
+    It leaves out the wrist, which has no effect until it crosses a strip, parameters of motions that are off, and
+    the numbers of coefficient models that are not formulas.
 
     >>> from wingbeat.species import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
@@ -91,9 +91,9 @@ def _with_plausible(problem: OrbitProblem, parameter: Parameter) -> Parameter:
 
 
 def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, float] | None:
-    """Return the range that the species file gives; that of the whole mass is the body's, wings as they are.
+    """Return the species file's range; that of the whole mass becomes the body's, less the wings' mass.
 
-    A parameter that the species leaves free and the user holds is one that was measured: it has none.
+    A parameter that the species leaves free and the user fixes was measured: it has no range.
     """
     numbers = problem.species.numbers
     last = str(parameter.place[-1])
@@ -147,7 +147,7 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
     coefficients, place = problem.aero.coefficients, ("aero", "coefficients")
     for curve, field in _CURVES.items():
         terms = getattr(coefficients, field, None)
-        # Where the force acts at the quarter chord, nobody asks for the centre of pressure.
+        # With the force at the quarter chord, the centre of pressure has no effect.
         if terms is None or (curve == "centre" and problem.aero.force_point == "quarter-chord"):
             continue
         for name, value in vars(terms).items():

@@ -1,7 +1,7 @@
 """Quantities as functions of one beat: values with derivatives, in the optimiser's scale.
 
 A quantity that is a number has one value. A series has the largest value in each quarter of the beat; several
-series, in columns, have those of each.
+series, in columns, have one for each column and quarter.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.objectives import Quantity
 
-# Of a beat that only serves for its shapes.
+# Samples of a beat that serves for its shapes only.
 _SAMPLES = 1 + 2 * PARTS
 
 
@@ -47,7 +47,7 @@ def _changes(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any
 
 @dataclass(frozen=True)
 class _Lacking:
-    """A quantity with its sign turned, so that at least becomes at most; of a series the largest value counts."""
+    """The negative of a quantity, or of a series' maximum, which turns a lower limit into an upper one."""
 
     of: Callable[[Beat], Any]
 
@@ -70,11 +70,11 @@ class OutputFunctions:
         self.limits = np.repeat(limits, self.constraint_counts)
 
     def values(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
-        """Return the values, of a series the peaks of a smooth curve through it, or its highest samples.
+        """Return the values; of a series, the peaks of a smooth curve through it, or its highest samples.
 
         Raises
         ------
-        InvalidInputError : a quantity gives what is no number where the beat is finite.
+        InvalidInputError : a quantity is not finite although the beat is.
         """
         values = [np.asarray(a) for a in (_sampled_values if sampled else _values)(self._functions, beat)]
         for name, value in zip(self._names, values, strict=True):
@@ -97,7 +97,7 @@ def value_count(function: Callable[[Beat], Any], strips: int) -> int:
 
 @functools.lru_cache(256)
 def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
-    """Return what a quantity's function gives, as shapes without numbers."""
+    """Return what a quantity's function returns, as shapes without numbers."""
     return jax.eval_shape(function, _any_beat(strips))
 
 
@@ -110,7 +110,7 @@ def _any_beat(strips: int) -> Beat:
 
 
 def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]:
-    """Return what is wrong with the quantities' functions: they fail, or give neither a number nor a series."""
+    """Return the faults of quantities whose functions fail or return neither a number nor a series."""
     faults = []
     for quantity in quantities:
         where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python; `Beat` documents its argument"

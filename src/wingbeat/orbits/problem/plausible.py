@@ -1,4 +1,4 @@
-"""Searching inside what is plausible: bounds drawn in to the species' ranges, limits on what is read off a beat."""
+"""Plausible problems: bounds narrowed to the species' ranges, and limits on quantities of the beat."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from wingbeat.species.plausibility import JUDGED
 from wingbeat.vehicle import Air
 
 _WAY_OUT = "leave out 'plausible', or correct the range in the species file"
-# A held number or the Reynolds number may pass the end of a range by rounding.
+# A fixed number or the Reynolds number may exceed the end of a range by rounding.
 _ROUNDING = 1e-9
-# By what share of itself a limit lies inside the end of its range. Of three orbits held by a limit (bat at 5 m/s,
-# pigeon at 10 m/s) the record lay at most 7e-5 beyond it.
+# A limit is inside the end of its range by this share of it. For three orbits at such a limit (bat at 5 m/s, pigeon
+# at 10 m/s) the record exceeded it by at most 7e-5.
 _INSET = 2e-4
 
 
 def drawn_in(
     species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
 ) -> dict[str, tuple[float, float]]:
-    """Return the bounds of free parameters drawn in to their plausible ranges.
+    """Return the bounds of free parameters narrowed to their plausible ranges.
 
     Parameters
     ----------
-    species : whose ranges.
+    species : gives the ranges.
     free : names of the free parameters.
     bounds : of each, SI and radians.
-    faults : takes bounds that have nothing in common with what is plausible, and held parameters outside it.
+    faults : receives bounds that do not overlap with the plausible range, and fixed parameters outside theirs.
     """
     drawn = {}
     for name in free:
@@ -53,9 +53,9 @@ def drawn_in(
 
 
 def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
-    """Return the limits that keep what is read off the beat plausible at a speed [m/s].
+    """Return the limits that keep quantities of the beat plausible at a speed [m/s].
 
-    The Reynolds number is none of them: no wingbeat changes it, so a speed at which it is not plausible is a fault.
+    The Reynolds number has no limit: no wingbeat changes it, so a speed at which it is not plausible is a fault.
     """
     limits = []
     for name in JUDGED:
@@ -70,7 +70,7 @@ def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList
             continue
         for end, at_most in ((known.low, False), (known.high, True)):
             if end is not None:
-                # The record samples a certified beat elsewhere than the search does.
+                # The record samples a certified beat at other phases than the solver.
                 inset = _INSET * abs(end)
                 limits.append(Constraint(QUANTITIES[name], end - inset if at_most else end + inset, at_most))
     return tuple(limits)

@@ -1,4 +1,4 @@
-"""The orbit problem: which vehicle, which mean velocity, what is free within which bounds, what is least."""
+"""The orbit problem: vehicle, mean velocity, free parameters within bounds, objective and constraints."""
 
 from __future__ import annotations
 
@@ -20,36 +20,22 @@ from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_cons
 from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
+from wingbeat.orbits.problem.unknowns import Unknowns
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
 
-# What is bounded along the whole path: body pitch as flown, the flap angle of arm and hand as prescribed.
-PATH_NAMES = ("body_pitch", "flap")
+PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is that of arm and hand
 PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
-# A miss that matters, in the units of CLOSURE: makes the optimiser see numbers near one.
-CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
-# Free parameters that change when or how fast the wings go through the stroke, or turn the whole of it.
+CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])  # residuals that matter, in the units of CLOSURE
+# Free parameters that change when or how fast the wings move along the stroke, or turn the whole of it.
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
-# The fastest flight, and climb or descent, that a problem may ask for [m/s].
-FASTEST = FASTEST_CLIMB = 100.0
-# The same, as `FaultList.number` takes it.
+FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
 SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
 CLIMB_LIMITS: dict[str, Any] = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB, "unit": "m/s"}
-# The derivative of the pitch state at the start by itself.
-_START = np.eye(4)
+_START = np.eye(4)  # derivative of the initial pitch state by itself
 
 Bounds = Mapping[str, tuple[float, float]]
-
-
-@dataclass(frozen=True)
-class Unknowns:
-    """Names, bounds and scales of what the search varies: the pitch state at phase 0, then free parameters."""
-
-    names: tuple[str, ...]
-    lower: np.ndarray
-    upper: np.ndarray
-    scale: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -63,20 +49,18 @@ class OrbitProblem:
     climb : mean vertical velocity, up positive [m/s].
     aero : a `BladeElement`, which also sets strips and force point; or a coefficient model such as `SuFan()`, its
         name, the path of its file, or a JAX function of the angle of attack [rad] that returns (C_L, C_D).
-    free : names of the wingbeat parameters that are free; the species' own if not given.
+    free : names of the wingbeat parameters that are free; default those of the species.
     bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
         flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
         stays within the species' plausible ranges: they narrow the bounds, and each quantity of the flown wingbeat
         becomes a limit of `subject_to`.
-    minimise : the objective, a `Quantity` or the name of one; the frequency, as in the paper, if not given.
+    minimise : the objective, a `Quantity` or the name of one; default the frequency, as in the paper.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
-        wingbeat parameter holds it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
-
-    wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles out of their range.
-
-    By default the whole stroke keeps each wing on its own side. Where every parameter that shapes the stroke is
-    held, there is nothing to choose and an orbit that crosses draws a warning.
+        wingbeat parameter fixes it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
+    wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles leave their range. By
+        default each wing stays on its own side. If every parameter that shapes the stroke is fixed, an orbit that
+        crosses draws a warning.
 
     Raises
     ------
@@ -170,7 +154,7 @@ class OrbitProblem:
             faults.add("speed", self.speed, "has no Strouhal number", "in hover limit frequency and flap_amplitude")
 
     def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
-        """Hold a parameter at a value, or tighten its bounds."""
+        """Fix a parameter at a value, or tighten its bounds."""
         species, name = self.species, limit.name
         if limit.sign == "=":
             held = species.with_record(with_parameters(species.wingbeat, {name: limit.value}))
@@ -188,7 +172,7 @@ class OrbitProblem:
         return any(name not in _NOT_OF_THE_STROKE for name in self.free)
 
     def _draw_in(self, faults: FaultList) -> None:
-        """Draw the bounds in to what is plausible, and keep what is read off the beat within it."""
+        """Narrow the bounds to what is plausible, and limit quantities of the beat to it."""
         bounds = {**self.species.bounds, **self.bounds}
         free = self.free or self.species.free
         drawn = drawn_in(self.species, free, bounds, faults)
@@ -201,7 +185,11 @@ class OrbitProblem:
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
-        """Return the problem at another mean horizontal velocity [m/s]; plausible limits are those of that speed.
+        """Return the problem at another speed; with plausible bounds, the limits are those of that speed.
+
+        Parameters
+        ----------
+        speed : mean horizontal velocity [m/s].
 
         Raises
         ------
@@ -215,18 +203,18 @@ class OrbitProblem:
         return moved
 
     def _quantities(self) -> list[Quantity]:
-        """Return the outputs of the beat that objective and constraints are."""
+        """Return the objective and the constrained quantities that are outputs of the beat."""
         objective = [] if self.minimise.parameter else [self.minimise]
         return [*objective, *(constraint.quantity for constraint in self.subject_to)]
 
     @property
     def has_outputs(self) -> bool:
-        """Whether objective or constraints need the flown wingbeat, not only the unknowns."""
+        """Whether objective or constraints depend on the flown wingbeat, not only on the unknowns."""
         return bool(self._quantities())
 
     @property
     def asks_cost_of_transport(self) -> bool:
-        """Whether objective or a constraint is the cost of transport, which is undefined in hover."""
+        """Whether the objective or a constraint is the cost of transport, which is undefined in hover."""
         return "cost_of_transport" in {quantity.name for quantity in self._quantities()}
 
     @property
@@ -255,9 +243,8 @@ class OrbitProblem:
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if self.minimise.parameter and self.minimise.parameter not in free:
-            faults.add(
-                "free", free, f"fixes {self.minimise.parameter}, which is the objective", "minimise something else"
-            )
+            rule = f"fixes {self.minimise.parameter}, which is the objective"
+            faults.add("free", free, rule, "minimise something else")
         asked: Bounds = self.bounds
         for name, pair in asked.items():
             if name not in (*PATH_NAMES, *free):
@@ -272,7 +259,7 @@ class OrbitProblem:
         faults.raise_if_any()
 
     def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:
-        """Note a fault where a bound lets the search reach a wingbeat that cannot be."""
+        """Add a fault if the bounds contain an impossible wingbeat."""
         for value in pair:
             try:
                 with_parameters(self.species.wingbeat, {name: value})
@@ -287,17 +274,13 @@ class OrbitProblem:
 
     @functools.cached_property
     def model(self) -> FlightModel:
-        """The flight model: vehicle, air loads, air; joined once, for its coefficients take a flight's time."""
+        """The flight model of vehicle, air loads and air; cached, because its coefficients take a flight's time."""
         return FlightModel(self.vehicle, self.aero, self.air)
 
     def unknowns(self) -> Unknowns:
-        """Return names, bounds and scales of the unknowns.
-
-        The bounds of the initial velocities are wide: they exclude absurd values and are not meant
-        to be met.
-        """
+        """Return names, bounds and scales of the unknowns."""
         free, bounds = self.free, self.bounds
-        wander = 5.0 + 0.5 * self.speed
+        wander = 5.0 + 0.5 * self.speed  # wide: excludes absurd initial velocities only
         limits = [
             bounds["body_pitch"],
             (self.speed - wander, self.speed + wander),
@@ -310,27 +293,54 @@ class OrbitProblem:
         return Unknowns((*PITCH_STATE, *free), lower, upper, scale)
 
     def wingbeat(self, unknowns: np.ndarray) -> Wingbeat:
-        """Return the species' wingbeat with the free parameters taken from the unknowns."""
+        """Return the species' wingbeat with the free parameters taken from the unknowns.
+
+        Parameters
+        ----------
+        unknowns : pitch state at phase 0 and free parameters, SI and radians, shape (unknowns,).
+        """
         values = dict(zip(self.free, (float(v) for v in unknowns[4:]), strict=True))
         return with_parameters(self.species.wingbeat, values)
 
     def unknowns_of(self, state: np.ndarray, wingbeat: Wingbeat) -> np.ndarray:
-        """Return the unknowns of an initial state, as in `State`, and a wingbeat."""
+        """Return the unknowns of an initial state and a wingbeat.
+
+        Parameters
+        ----------
+        state, wingbeat : initial state as in `State`, shape (6,), and the wingbeat.
+        """
         return np.array([*state[2:], *(parameter(wingbeat, name) for name in self.free)], dtype=float)
 
     def frequency(self, unknowns: np.ndarray) -> float:
-        """Return the frequency that goes with the unknowns [Hz]."""
+        """Return the frequency that belongs to the unknowns [Hz].
+
+        Parameters
+        ----------
+        unknowns : as in `wingbeat`.
+        """
         if "frequency" in self.free:
             return float(unknowns[4 + self.free.index("frequency")])
         return self.species.wingbeat.frequency
 
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the residual of the state at the end of the period (m, m, rad, m/s, m/s, rad/s)."""
+        """Return the residual of the state at the end of the period, shape (6,) [m, m, rad, m/s, m/s, rad/s].
+
+        Parameters
+        ----------
+        end, unknowns : the state at the end, shape (6,), from x = z = 0, and the unknowns, as in `wingbeat`.
+        frequency : of the wingbeat [Hz].
+        """
         travelled = np.array([self.speed, self.climb]) / frequency
         return np.asarray(end) - np.concatenate([travelled, unknowns[:4]])
 
     def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the derivative of the residual from that of the end of the period."""
+        """Return the derivative of the residual by the unknowns, shape (6, unknowns).
+
+        Parameters
+        ----------
+        end_jacobian : derivative of the state at the end, shape (6, unknowns).
+        frequency : of the wingbeat [Hz].
+        """
         jacobian = np.array(end_jacobian)
         jacobian[2:, :4] -= _START
         if "frequency" in self.free:

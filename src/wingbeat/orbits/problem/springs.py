@@ -1,7 +1,7 @@
-"""Springs at the flap hinges: what they leave to the actuators, and which are best for a given beat.
+"""Springs at the flap hinges: the power that they leave to the actuators, and the best ones for a given beat.
 
-A linear spring between body and arm gives the torque ``-k (flap - rest)``, both wings together. Over a closed beat
-it neither gives nor takes work, so it moves power from where there is too much to where there is too little.
+A linear spring between body and arm gives the torque ``-k (flap - rest)``, both wings together. Its net work over a
+closed beat is zero, so it moves power from where there is too much to where there is too little.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 
-# A rest angle further away than this is no spring but a constant torque.
+# With a rest angle farther away, a spring is in effect a constant torque.
 _FARTHEST_REST = math.pi
 
 
@@ -33,9 +33,9 @@ class SpringCost:
 
 
 class Spring(NamedTuple):
-    """Springs of both flap hinges together: stiffness [N m/rad], rest angle [rad], what they leave [W].
+    """Springs of both flap hinges together: stiffness [N m/rad], rest angle [rad], the power that they leave [W].
 
-    Without stiffness there is no spring and the rest angle is None.
+    Stiffness 0 means no spring; the rest angle is then None.
     """
 
     stiffness: float
@@ -56,8 +56,8 @@ def _left(spring: Any, flap: Any, flap_rate: Any, power: Any) -> Any:
 def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
     """Return the springs that leave the least mean positive power to the actuators, for one closed beat.
 
-    What is left is convex in stiffness and in stiffness times rest angle, of both of which the power is a linear
-    function, so that SciPy's SLSQP finds the least there is; where many springs do as well, one of them. The rest
+    The power is linear in stiffness and in stiffness times rest angle, so its mean positive part is convex in both,
+    and SciPy's SLSQP finds the global minimum. If many springs are equally good, it returns one of them. The rest
     angle stays within half a turn.
 
     Parameters
@@ -74,7 +74,7 @@ def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
 
     series = tuple(np.asarray(a, dtype=float) for a in (flap, flap_rate, hinge_power))
     without = float(mean_positive(series[2], np))
-    # In numbers near one: of the spring that alone would take up a torque typical of this power.
+    # Scale: the stiffness of a spring that alone would take up a torque typical of this power.
     rate = np.abs(series[1]).max()
     size = np.abs(series[2]).max() / (rate * np.ptp(series[0])) if rate > 0.0 else 0.0
     if size == 0.0 or without == 0.0:

@@ -19,7 +19,7 @@ from pathlib import Path
 from bettering import Ipopt, by_restarts
 
 import wingbeat as wb
-from wingbeat.orbits.problem.objectives import QUANTITIES, named_quantity
+from wingbeat.orbits.problem.quantities import QUANTITIES, named_quantity
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import find_orbit
 

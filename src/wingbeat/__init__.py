@@ -47,12 +47,12 @@ if TYPE_CHECKING:
     from wingbeat.orbits.options.search import SearchOptions as SearchOptions
     from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
     from wingbeat.orbits.options.start_families import StartFamily as StartFamily
-    from wingbeat.orbits.problem import objectives as objectives
+    from wingbeat.orbits.problem import quantities as objectives  # noqa: F401
     from wingbeat.orbits.problem.filmed import filmed_problem as filmed_problem
     from wingbeat.orbits.problem.filmed import filmed_species as filmed_species
     from wingbeat.orbits.problem.limits import Constraint as Constraint
-    from wingbeat.orbits.problem.objectives import Quantity as Quantity
     from wingbeat.orbits.problem.problem import OrbitProblem as OrbitProblem
+    from wingbeat.orbits.problem.quantities import Quantity as Quantity
     from wingbeat.orbits.status import Status as Status
     from wingbeat.results.curve import Curve as Curve
     from wingbeat.results.curve import load_curve as load_curve
@@ -109,7 +109,7 @@ _HOME = {
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
-    "Quantity": "orbits.problem.objectives",
+    "Quantity": "orbits.problem.quantities",
     "Relaxation": "orbits.infeasible.relaxation",
     "Samples": "orbits.many.uncertainty",
     "SearchOptions": "orbits.options.search",
@@ -158,7 +158,7 @@ _HOME = {
 _MODULES = {
     "aero": "aero",
     "experiment": "experiment",
-    "objectives": "orbits.problem.objectives",
+    "objectives": "orbits.problem.quantities",
     "plots": "plots",
     "viewer": "viewer",
 }

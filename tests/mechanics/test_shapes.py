@@ -19,7 +19,7 @@ import wingbeat as wb
 from wingbeat import aero, mechanics
 from wingbeat._jax import shapes
 from wingbeat._jax.exported import StoredFunction
-from wingbeat.aero.coefficients import Kernel
+from wingbeat.aero.coefficient_model import Kernel
 from wingbeat.mechanics.flight_model import STATE_NAMES, motion_table
 from wingbeat.orbits import flight
 

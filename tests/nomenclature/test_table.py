@@ -13,8 +13,8 @@ from wingbeat.aero import BladeElement, SuFan
 from wingbeat.kinematics import PARAMETER_NAMES
 from wingbeat.nomenclature import NOMENCLATURE, cf, find, label_of, plain
 from wingbeat.nomenclature.series import GLIDE, SERIES
-from wingbeat.orbits.problem.objectives import QUANTITIES, Frequency
 from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
 from wingbeat.results.columns import flat
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE
 

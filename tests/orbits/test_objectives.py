@@ -10,7 +10,7 @@ from wingbeat.cli import main
 from wingbeat.orbits.nlp.local_search import search
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.problem.limits import parse_constraint
-from wingbeat.orbits.problem.objectives import QUANTITIES, named_objective, named_quantity
+from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, named_quantity
 from wingbeat.orbits.solve import certified_optimum, find_orbit
 from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.results.provenance import problem_from

@@ -13,8 +13,8 @@ from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_order
-from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import correct_guess, find_orbit
 from wingbeat.results.sensitivities import Comparison

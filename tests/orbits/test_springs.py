@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 
 import wingbeat as wb
 from wingbeat.orbits.problem.limits import parse_constraint
-from wingbeat.orbits.problem.objectives import QUANTITIES, named_objective
+from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective
 from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.results.provenance import problem_from

@@ -2,11 +2,12 @@
 
 from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement
 from wingbeat.aero.choosing import coefficients_of, load_coefficients
-from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import EXTENSIONS
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
-from wingbeat.aero.library import (
+from wingbeat.aero.model_file import load_model
+from wingbeat.aero.published import (
     LIBRARY,
     Byl,
     Dickinson,
@@ -18,7 +19,6 @@ from wingbeat.aero.library import (
     thin_aerofoil_lift,
     thin_aerofoil_moment,
 )
-from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import TableCoefficients, load_table
 
 __all__ = [

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
-from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 from wingbeat.errors import FaultList
 

@@ -13,7 +13,7 @@ import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
 from wingbeat._jax.config import jax, jnp, unchecked
-from wingbeat.aero.coefficients import CoefficientModel
+from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 if TYPE_CHECKING:

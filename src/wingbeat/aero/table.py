@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
-from wingbeat.aero.coefficients import CoefficientModel, Kernel
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.aero.extension import check_extension, extend
 from wingbeat.aero.table_checks import (
     OPTIONAL,

@@ -12,7 +12,7 @@ from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import species_names
 
 __all__ = ["Controls"]

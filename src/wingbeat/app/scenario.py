@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY, BladeElement, load_coefficients
 from wingbeat.errors import FaultList, FileError, InvalidInputError
-from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text

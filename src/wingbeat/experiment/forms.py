@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._jax.config import jax, unchecked
-from wingbeat.aero.coefficients import at_angles
+from wingbeat.aero.coefficient_model import at_angles
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.errors import FaultList
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 if TYPE_CHECKING:
-    from wingbeat.aero.coefficients import Kernel
+    from wingbeat.aero.coefficient_model import Kernel
 
 
 class BodyLoads(NamedTuple):

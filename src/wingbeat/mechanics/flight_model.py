@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 if TYPE_CHECKING:
-    from wingbeat.aero.coefficients import Kernel
+    from wingbeat.aero.coefficient_model import Kernel
 
 
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")

@@ -20,9 +20,9 @@ from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.problem.unknowns import Unknowns
 
 # Multiples of a step and weights of the values there: central differences, or one-sided ones where a number can

@@ -18,8 +18,8 @@ from wingbeat.orbits.infeasible.deficit import Deficit
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.status import Status
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import InvalidInputError
 from wingbeat.nomenclature import cf, plain_unit
-from wingbeat.orbits.problem.objectives import named_objective, named_quantity
+from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,8 +18,8 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat.orbits.many.branches import Branches
 from wingbeat.orbits.many.transitions import Mark, certified, families
-from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.results.storage import inputs_hash
 

@@ -6,8 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.problem.objectives import QUANTITIES
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species.plausibility import JUDGED
 
 __all__ = ["Statements", "is_judgement", "plausibility", "statements"]

@@ -19,8 +19,8 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.objectives import Quantity, named_objective, named_quantity
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_quantity
 from wingbeat.results.record import aero_record, vehicle_record
 from wingbeat.species import Species
 from wingbeat.species_schema import Number, Range

@@ -18,9 +18,9 @@ from wingbeat.orbits.many.uncertainty import (
     uniform_spread,
 )
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.objectives import Quantity, named_quantity
 from wingbeat.orbits.problem.parameters import Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status

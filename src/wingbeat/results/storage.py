@@ -13,41 +13,21 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.datasets import KIND
 from wingbeat.errors import FileError
 from wingbeat.files import write_atomically
+from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.plausibility import is_judgement, statements
 
 if TYPE_CHECKING:
     import xarray as xr
 
-# What a record holds, by kind; any other attribute is somebody else's, as the `history` of other tools.
-_TEXTS = ("status", "message", "species", "objective", "version")
-_TABLES = ("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints")
-_LISTS = (
-    "plausibility",
-    *("active_bounds", "failed_balance", "relaxations", "floquet_multipliers", "warnings"),
-    *("alpha_quarter_span", "alpha_three_quarter_span"),
-)
-_NUMBERS = (
-    *(
-        "speed",
-        "climb",
-        "optimality",
-        "starts",
-        "distinct_optima",
-        "starts_at_best",
-        "stable",
-        "solve_seconds",
-        "body_pitch_range",
-    ),
-    *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
-    *("objective_value", "cost_of_transport", "strouhal", "reduced_frequency", "reynolds"),
-)
+# What a record holds that is no number.
 _KINDS: dict[str, tuple[type, ...]] = {
-    **dict.fromkeys(_TABLES, (dict,)),
-    **dict.fromkeys(_LISTS, (list,)),
-    **dict.fromkeys(_NUMBERS, (int, float, type(None))),
-    **dict.fromkeys(_TEXTS, (str,)),
+    **dict.fromkeys(("status", "message", "species", "objective", "version"), (str,)),
+    **dict.fromkeys(("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints"), (dict,)),
+    **dict.fromkeys(("active_bounds", "failed_balance", "relaxations", "plausibility", "warnings"), (list,)),
+    **dict.fromkeys(("floquet_multipliers", "alpha_quarter_span", "alpha_three_quarter_span"), (list,)),
     "inputs": (dict,),
 }
+_NUMBER = (int, float, type(None))
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n",)
 
 
@@ -80,7 +60,9 @@ def parse_attributes(
         kind = attributes.get(KIND, "not from wingbeat")
         raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; give a file of `orbit -o`")
     try:
-        record = {name: _decode(name, value) for name, value in attributes.items() if name in _KINDS}
+        # Any other attribute is somebody else's, as the `history` of other tools.
+        own = {name: value for name, value in attributes.items() if name in _KINDS or name in NOMENCLATURE}
+        record = {name: _decode(name, value) for name, value in own.items()}
         inputs = record.pop("inputs")
         if attributes["inputs_hash"] != inputs_hash(inputs):
             raise ValueError("the inputs are not those of its solution")
@@ -92,15 +74,16 @@ def parse_attributes(
 
 
 def _encode(name: str, value: Any) -> Any:
-    if name in _TEXTS or (isinstance(value, int | float) and not isinstance(value, bool)):
+    if _KINDS.get(name) == (str,) or (isinstance(value, int | float) and not isinstance(value, bool)):
         return value
     return json.dumps(value)
 
 
 def _decode(name: str, value: Any) -> Any:
-    if name not in _TEXTS:
+    kind = _KINDS.get(name, _NUMBER)
+    if kind != (str,):
         value = json.loads(value) if isinstance(value, str) else value.item()
-    if not isinstance(value, _KINDS[name]) or (isinstance(value, float) and not math.isfinite(value)):
+    if not isinstance(value, kind) or (isinstance(value, float) and not math.isfinite(value)):
         raise ValueError(f"{name} is {value!r}")
     if name == "plausibility" and not is_judgement(value):
         raise ValueError(f"{name} lacks a key")

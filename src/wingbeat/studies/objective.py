@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
-from wingbeat.orbits.problem.objectives import Quantity, named_objective
+from wingbeat.orbits.problem.quantities import Quantity, named_objective
 
 __all__ = ["as_inputs", "from_inputs", "named"]
 

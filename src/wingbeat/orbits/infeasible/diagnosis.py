@@ -18,8 +18,8 @@ from wingbeat.orbits.nlp.defect_correction import correct
 from wingbeat.orbits.nlp.local_search import Candidate, refine, search
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import SolverOptions
-from wingbeat.orbits.problem.objectives import QUANTITIES, Frequency
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.objectives import Quantity
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.sensitivity import Sensitivity
 from wingbeat.orbits.solve import Progress, correct_guess, find_orbit, search_near
 from wingbeat.orbits.status import Status

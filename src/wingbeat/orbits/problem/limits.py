@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import ANGLES, FREE_NAMES
-from wingbeat.orbits.problem.objectives import NUMBER, Quantity, named_quantity
+from wingbeat.orbits.problem.quantities import NUMBER, Quantity, named_quantity
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.orbits.flight.beat import NUMBERS, Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.objectives import Quantity
+from wingbeat.orbits.problem.quantities import Quantity
 
 # Samples of a beat that serves for its shapes only.
 _SAMPLES = 1 + 2 * PARTS

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import FREE_NAMES, parameter
 from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.objectives import QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import Range, Species
 from wingbeat.species.plausibility import JUDGED
 from wingbeat.vehicle import Air

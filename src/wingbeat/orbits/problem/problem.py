@@ -17,9 +17,9 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
-from wingbeat.orbits.problem.objectives import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
+from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.unknowns import Unknowns
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle

@@ -239,4 +239,4 @@ def synthetic_film(
         angle = FILMED[name] == "deg"
         noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
         seen[name] = (np.degrees(true) if angle else true) + noise
-    return Film("synthetic film", phase, seen, float(wingbeat.frequency), synthetic=True)
+    return Film("film of a known wingbeat", phase, seen, float(wingbeat.frequency), synthetic=True)

@@ -117,7 +117,7 @@ def load_model(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     Parameters
     ----------
     path : the TOML file; angles in degrees.
-    extension, blend_width_deg : as of `FormulaCoefficients`.
+    extension, blend_width_deg : as in `FormulaCoefficients`.
 
     Raises
     ------

@@ -190,7 +190,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     Parameters
     ----------
     path : the CSV file; angles in degrees.
-    extension, blend_width_deg : as of `TableCoefficients`.
+    extension, blend_width_deg : as in `TableCoefficients`.
 
     Raises
     ------

@@ -39,7 +39,7 @@ def draw(
     source : the path of a model file, or a fit.
     count : how many models.
     seed : of the random numbers.
-    extension, blend_width_deg : as of `FormulaCoefficients`.
+    extension, blend_width_deg : as in `FormulaCoefficients`.
 
     Raises
     ------

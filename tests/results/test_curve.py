@@ -1,6 +1,7 @@
 """Curves along speed: certified, continued, every jump marked; characteristic speeds; files that come back."""
 
 import dataclasses
+import itertools
 import json
 
 import numpy as np
@@ -11,7 +12,7 @@ from wingbeat.cli import main
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.nomenclature import find, label_of
 from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
-from wingbeat.orbits.many.transitions import families, marks_of, unmarked_jumps
+from wingbeat.orbits.many.transitions import families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
@@ -22,6 +23,23 @@ SPEEDS = [5.0, 6.0, 7.0]
 
 def problem_at(name, **asked):
     return wb.OrbitProblem(wb.load_species(name), speed=6.0, **asked)
+
+
+def unmarked_jumps(branches, marks):
+    """Return the intervals without a mark over which unknowns change by more than a continuation can.
+
+    A continuation in n steps changes no unknown by more than n times `max_step`, in the optimiser's scale.
+    """
+    marked = {(m.lower_speed, m.upper_speed) for m in marks if m.kind in ("gap", "branch")}
+    steps = {link.interval: link.steps for link in branches.links if (link.lower, link.upper) == (0, 0)}
+    jumps = []
+    for interval, (below, above) in enumerate(itertools.pairwise(optima[0] for optima in branches.optima)):
+        ends = below.problem.speed, above.problem.speed
+        change = np.abs(above.place - below.place).max()
+        most = steps.get(interval, 0) * below.options.continuation.max_step * (1.0 + 1e-6)
+        if ends not in marked and not change <= most:
+            jumps.append(ends)
+    return jumps
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,6 @@ from __future__ import annotations
 import itertools
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from wingbeat.orbits.many.branches import Branches, BranchLink
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
@@ -43,23 +41,6 @@ def marks_of(branches: Branches) -> list[Mark]:
         if parts:
             marks.append(Mark(BOUNDS, *ends, "; ".join(parts)))
     return marks
-
-
-def unmarked_jumps(branches: Branches, marks: list[Mark]) -> list[tuple[float, float]]:
-    """Return the intervals without a mark over which unknowns change by more than a continuation can.
-
-    A continuation in n steps changes no unknown by more than n times `max_step`, in the optimiser's scale.
-    """
-    marked = {(m.lower_speed, m.upper_speed) for m in marks if m.kind in (GAP, BRANCH)}
-    jumps = []
-    for interval, (below, above) in enumerate(_neighbours(branches)):
-        ends = below.problem.speed, above.problem.speed
-        link = _link_of_best(branches, interval)
-        steps = 0 if link is None else link.steps
-        change = np.abs(above.place - below.place).max()
-        if ends not in marked and not change <= steps * below.options.continuation.max_step * (1.0 + 1e-6):
-            jumps.append(ends)
-    return jumps
 
 
 def families(branches: Branches) -> list[list[int]]:

@@ -75,7 +75,6 @@ class StoredFunction:
     def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False) -> None:
         functools.update_wrapper(self, function)
         self._function = function
-        self._static = static
         self._hot = hot
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()

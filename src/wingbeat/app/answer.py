@@ -81,7 +81,7 @@ class Answer:
     """
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
-        with box("section", "The result", "answer"):
+        with box("The result", "answer"):
             with tag("div", classes="acts"):
                 self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
             self._warnings = tag("ul", classes="warnings hidden", aria_label="Warnings")
@@ -107,7 +107,7 @@ class Influence:
     """What the answer depends on: a ranking of the numbers, and what bounds cost."""
 
     def __init__(self, ask: Callable[[], Any]) -> None:
-        with box("section", "Sensitivities", "influence"):
+        with box("Sensitivities", "influence"):
             tag("p", "Exact derivatives of the certified optimum by every number it depends on.", "note")
             with tag("div", classes="acts"):
                 button("Compute sensitivities", ask)

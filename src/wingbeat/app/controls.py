@@ -38,7 +38,7 @@ class Controls:
     def build_flight(self) -> None:
         """Make the controls that everybody wants first: animal and flight."""
         now = self._scenario
-        with box("section", "Animal and flight", "first"):
+        with box("Animal and flight", "first"):
             names = [(name, name) for name in species_names()]
             self._own = (_OWN, f"{now.species} (loaded file)") if now.species_file else None
             self._animal_place = tag("div")
@@ -58,7 +58,7 @@ class Controls:
     def build_loads(self) -> None:
         """Make the controls of air loads, search, bounds and numbers."""
         now = self._scenario
-        with box("section", "Air loads"):
+        with box("Air loads"):
             models, points = [[(name, name) for name in each] for each in (LIBRARY, FORCE_POINTS)]
             reach = [(name, name) for name in EXTENSIONS]
             self._fields["aero"] = choice_field("Model", models, now.aero, self._word("aero"))
@@ -73,7 +73,7 @@ class Controls:
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
             )
             self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
-        with box("section", "Solver"):
+        with box("Solver"):
             starts = "" if now.starts is None else str(now.starts)
             hint = "empty: the default number"
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)

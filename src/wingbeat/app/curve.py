@@ -35,7 +35,7 @@ class CurvePanel:
         self._speeds: list[float] = []
         self._points: list[dict[str, Any]] = []
         self._asked: Scenario | None = None
-        with box("section", "Along speed", "curve"):
+        with box("Along speed", "curve"):
             self._build()
 
     def _build(self) -> None:

@@ -26,7 +26,7 @@ class Pins:
         self._fly_beside, self._bring_back = fly_beside, bring_back
         self._answers: list[dict[str, Any]] = []
         self._ghost: dict[str, Any] | None = None
-        with box("section", "Pinned results", "pins"):
+        with box("Pinned results", "pins"):
             self._note = tag("p", "Pin a result to compare it with the next one, or to show it as a ghost.", "note")
             self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 

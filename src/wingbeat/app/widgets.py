@@ -47,11 +47,11 @@ def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any
     return made
 
 
-def box(name: str, title: str, classes: str = "", level: int = 2) -> Any:
+def box(title: str, classes: str = "") -> Any:
     """Return a section named by its heading; what follows in its ``with`` block stands below."""
-    section = tag(name, classes=f"box {classes}")
+    section = tag("section", classes=f"box {classes}")
     with section:
-        heading = tag(f"h{level}", title)
+        heading = tag("h2", title)
     section.props["aria-labelledby"] = heading.html_id
     heading.props["id"] = heading.html_id
     return section
@@ -180,9 +180,7 @@ def text_field(label: str, value: str, act: Callable[[str], Any], *, hint: str =
     return _hearing(_field(label, "", hint, "", make, wide=True), act)
 
 
-def choice_field(
-    label: str, options: Sequence[tuple[str, str]], value: str, act: Callable[[str], Any], *, hint: str = ""
-) -> Field:
+def choice_field(label: str, options: Sequence[tuple[str, str]], value: str, act: Callable[[str], Any]) -> Field:
     """Return a field for one of several (value, label)."""
 
     def make() -> Any:
@@ -192,7 +190,7 @@ def choice_field(
                 tag("option", text, value=key)
         return control
 
-    return _hearing(_field(label, "", hint, "", make, wide=True), act)
+    return _hearing(_field(label, "", "", "", make, wide=True), act)
 
 
 def slider(label: str, value: float, least: float, most: float, step: float, act: Callable[[str], Any]) -> Any:

@@ -34,10 +34,10 @@ _NOISE = 3.0
 Array = NDArray[np.float64]
 
 
-def design(phase: Any, order: int) -> Array:
-    """Return the columns 1, cos, sin, .. of a Fourier series, shape (n, 1 + 2 order)."""
-    turns = 2 * math.pi * np.asarray(phase)[:, None] * np.arange(1, order + 1)
-    waves = np.stack([np.cos(turns), np.sin(turns)], axis=-1).reshape(len(turns), 2 * order)
+def _design(phase: Any) -> Array:
+    """Return the columns 1, cos, sin, .. of a Fourier series, shape (n, 17)."""
+    turns = 2 * math.pi * np.asarray(phase)[:, None] * np.arange(1, HIGHEST_ORDER + 1)
+    waves = np.stack([np.cos(turns), np.sin(turns)], axis=-1).reshape(len(turns), 2 * HIGHEST_ORDER)
     return np.hstack([np.ones((len(turns), 1)), waves])
 
 
@@ -66,7 +66,7 @@ class FilmedLaw(NamedTuple):
         ----------
         phase : phases of the film, shape (n,).
         """
-        columns = design(phase, HIGHEST_ORDER)
+        columns = _design(phase)
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
 
 
@@ -74,7 +74,7 @@ def _fit_law(phase: Array, values: Array) -> FilmedLaw:
     """Fit a periodic smoothing spline of the weight of greatest restricted likelihood."""
     from scipy.optimize import minimize_scalar
 
-    count, columns = len(values), design(phase, HIGHEST_ORDER)
+    count, columns = len(values), _design(phase)
     orders = np.repeat(np.arange(2, HIGHEST_ORDER + 1), 2)
     penalty = np.concatenate([np.zeros(_PLAIN), orders**2 * (orders**2 - 1.0) ** 2])
     square, right = columns.T @ columns, columns.T @ values

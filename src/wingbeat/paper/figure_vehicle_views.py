@@ -23,6 +23,7 @@ _GROUND = {"facecolor": "w", "linewidth": 0, "pad": 0.6, "alpha": 0.8}
 _WORDS: dict[str, Any] = {"fontsize": FONT_SMALL, "ha": "center", "va": "center"}
 # Half of the side of every view to scale [m]: room for either animal's wing.
 _REACH = 0.31
+_HALF_HEIGHT = 0.28
 
 
 def _plane(at: Posture, sides: Sequence[int]) -> np.ndarray:
@@ -81,11 +82,11 @@ def _arrow(axes: Axes, start: Any, vector: Any, color: str, words: str, apart: f
     axes.autoscale_view()
 
 
-def _to_scale(axes: Axes, xlabel: str, ylabel: str, title: str, half_height: float = 0.28) -> None:
+def _to_scale(axes: Axes, xlabel: str, ylabel: str, title: str) -> None:
     dress(axes, xlabel, ylabel)
-    axes.set(aspect="equal", xlim=(-_REACH, _REACH), ylim=(-half_height, half_height))
-    ticks = np.array([-0.2, 0.0, 0.2])
-    axes.set(xticks=ticks, yticks=ticks[np.abs(ticks) < half_height], autoscale_on=False)
+    axes.set(aspect="equal", xlim=(-_REACH, _REACH), ylim=(-_HALF_HEIGHT, _HALF_HEIGHT))
+    ticks = [-0.2, 0.0, 0.2]
+    axes.set(xticks=ticks, yticks=ticks, autoscale_on=False)
     axes.set_title(title, fontsize=FONT_SMALL, pad=3)
 
 

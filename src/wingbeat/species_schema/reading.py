@@ -136,7 +136,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     result.common_name = _line(raw.get("common_name"))
     result.scientific_name = _line(raw.get("scientific_name"))
     result.numbers = _numbers(raw, (), faults)
-    _note_missing(raw, result.numbers, faults)
+    _note_missing(raw, faults)
     result.free = _bounds(raw, FREE, result.written, faults)
     result.path = _bounds(raw, PATH, result.written, faults)
     result.plausible = _plausible(raw, faults)
@@ -213,7 +213,7 @@ def _numbers(raw: dict[str, Any], prefix: tuple[str, ...], faults: FaultList) ->
     return numbers
 
 
-def _note_missing(raw: dict[str, Any], numbers: Numbers, faults: FaultList) -> None:
+def _note_missing(raw: dict[str, Any], faults: FaultList) -> None:
     for key in KEYS:
         if key.required and all(_leaf(raw, path) is None for path in key.spellings):
             section = _leaf(raw, key.path.rpartition(".")[0])

@@ -145,7 +145,6 @@ class _Queue:
     def __init__(self, waiting: Iterator[Waiting], engine: Engine, points: int) -> None:
         self._waiting = waiting
         self._lost: deque[_Job] = deque()
-        self._ahead: deque[_Job] = deque()
         self._engine = engine
         self._left = points
         self._seconds: float | None = None

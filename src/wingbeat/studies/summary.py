@@ -32,8 +32,3 @@ class Summary:
     def waiting(self) -> int:
         """Points without an answer."""
         return self.count("waiting")
-
-    @property
-    def all_certified(self) -> bool:
-        """Whether every point has a certified orbit."""
-        return self.count("converged") == self.total

@@ -81,6 +81,24 @@ def suggest(word: str, known: Iterable[str], *, most: int = 3, otherwise: str | 
     return f"use one of {', '.join(known)}" if otherwise is None else otherwise
 
 
+def first_line(error: BaseException) -> str:
+    """Return an error's kind and the first line of its message.
+
+    >>> first_line(KeyError("mass"))
+    "KeyError: 'mass'"
+    """
+    return f"{type(error).__name__}: {error}".split("\n")[0]
+
+
+def system_reason(error: Exception) -> str:
+    """Return the system's words for what failed, in lower case, without the path, which messages name themselves.
+
+    >>> system_reason(FileNotFoundError(2, "No such file or directory", "bat.toml"))
+    'no such file or directory'
+    """
+    return (getattr(error, "strerror", None) or str(error)).lower()
+
+
 # The rule for counts and seeds; where their range is known, `FaultList.whole` says it too.
 WHOLE = "must be a whole number"
 

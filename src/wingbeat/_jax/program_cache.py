@@ -16,7 +16,7 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, system_reason
 from wingbeat.files import write_atomically
 
 __all__ = ["cache_folder", "keep_program", "kept_program", "program_folder"]
@@ -107,7 +107,7 @@ def _private(folder: Path) -> Path | None:
         elif os.name == "posix" and stat.S_IMODE(found.st_mode) & 0o077:
             folder.chmod(0o700)
     except (OSError, ValueError) as error:
-        reason = (getattr(error, "strerror", None) or str(error)).lower()
+        reason = system_reason(error)
         return _without(f"cannot make the folder {str(folder)!r}: {reason}")
     return folder
 

@@ -165,10 +165,7 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
     try:
         traced, shapes = jax.make_jaxpr(function, return_shape=True)(jax.ShapeDtypeStruct((), jnp.float64))
     except Exception as error:  # whatever the function raises
-        reason = str(error).strip().split("\n")[0][:120]
-        faults.add(
-            _WHERE, name, f"is not a function that JAX can trace ({type(error).__name__}: {reason})", _TRACEABLE
-        )
+        faults.add(_WHERE, name, f"is not a function that JAX can trace ({_reason(error)})", _TRACEABLE)
         faults.raise_if_any()
         raise
     pair = list(shapes) if isinstance(shapes, tuple | list) else []

@@ -13,7 +13,7 @@ from wingbeat.app.formatting import refusals
 from wingbeat.app.links import from_plain
 from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
-from wingbeat.errors import FileError, InvalidInputError
+from wingbeat.errors import FileError, InvalidInputError, first_line
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
@@ -186,7 +186,7 @@ def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
     try:
         answer = answer_of(orbit, None, begun)
     except Exception as error:  # whatever can be wrong with what somebody wrote into a file
-        reason = f"{type(error).__name__}: {error}".split("\n")[0][:200]
+        reason = first_line(error)[:200]
         raise FileError(f"cannot show the orbit in {label!r}: it is damaged ({reason}); solve it again") from None
     scenario, why_not = scenario_of(orbit)
     return {"answer": answer, "scenario": scenario, "why_not": why_not}

@@ -25,7 +25,7 @@ from wingbeat.app.downloads import DOWNLOADS, Downloads
 from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
 from wingbeat.app.page import Page
 from wingbeat.app.uploads import MOST_BYTES, clean_label
-from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.errors import Fault, InvalidInputError, system_reason
 from wingbeat.workers.fair_pool import FairPool
 from wingbeat.workers.leftovers import Leftover
 
@@ -111,7 +111,7 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         listening = socket.create_server((host, port), family=family)
     except (OSError, TypeError, UnicodeError, ValueError) as error:  # the latter three of names that none can have
-        rule = f"cannot be opened: {(getattr(error, 'strerror', None) or str(error)).lower()}"
+        rule = f"cannot be opened: {system_reason(error)}"
         raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
     house = House(processes)
     with Leftover(house.close):  # the server ends by raising the signal again that stopped it

@@ -14,7 +14,7 @@ from cyclopts import Parameter, Token
 
 from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
 from wingbeat.aero.model_file import FittedModel, read_model
-from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
 from wingbeat.results.provenance import NotInFileError
 from wingbeat.results.saving import check_result_name
@@ -128,7 +128,7 @@ def unpacking(path: Path) -> Iterator[None]:
     except NotInFileError as error:
         raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error}, in Python") from None
     except (LookupError, TypeError, ValueError, AttributeError) as error:
-        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        reason = first_line(error)
         raise FileError(
             f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve it again"
         ) from None

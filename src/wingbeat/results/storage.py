@@ -11,7 +11,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.datasets import KIND
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, system_reason
 from wingbeat.files import write_atomically
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.plausibility import is_judgement, statements
@@ -120,7 +120,7 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
         with open(path, "rb") as file:
             start = file.read(8)
     except (OSError, ValueError) as error:
-        reason = (getattr(error, "strerror", None) or str(error)).lower()
+        reason = system_reason(error)
         raise FileError(f"cannot read {shown}: {reason}; check the path") from None
     if start not in _SIGNATURES:
         raise FileError(f"cannot read {shown}: it is not a NetCDF-4 file; give a file of `orbit -o`")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, system_reason
 
 __all__ = ["is_locked", "only_one"]
 
@@ -56,7 +56,7 @@ def only_one(store: Path) -> Iterator[None]:
         try:
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+            reason = system_reason(error)
             fix = "copy the study to a folder that you can write to"
             raise FileError(f"cannot write beside {str(store)!r}: {reason}; {fix}") from None
         try:

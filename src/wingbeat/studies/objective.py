@@ -6,7 +6,7 @@ import functools
 from pathlib import Path
 from typing import Any
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, first_line
 from wingbeat.files import read_text
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 
@@ -55,7 +55,7 @@ def _run(name: str, file: str, code: str) -> Quantity:
     try:
         exec(compile(code, file, "exec"), space)
     except (Exception, SystemExit) as error:  # whatever a user's file raises
-        reason = f"{type(error).__name__}: {error}".split("\n")[0]
+        reason = first_line(error)
         faults.add(where, file, f"cannot be run: {reason}", "correct the file; it may import wingbeat and jax")
         faults.raise_if_any()
     found: Any = space.get(name)

@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, system_reason
 from wingbeat.studies.database import DamagedStoreError
 from wingbeat.studies.pages import whole_answers
 from wingbeat.studies.plan import Plan
@@ -67,7 +67,7 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
         _remove(path)  # what is left: the index of the log
         os.rename(fresh, path)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = system_reason(error)
         fix = "copy the study to a folder that you can write to"
         raise FileError(f"cannot write beside {str(path)!r}: {reason}; {fix}") from None
     finally:

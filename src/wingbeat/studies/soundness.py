@@ -10,7 +10,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, system_reason
 from wingbeat.studies.database import APPLICATION, FORM, TABLES, refusal
 from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, table_digest
 from wingbeat.studies.lock import is_locked
@@ -52,7 +52,7 @@ def check_files(path: Path, mine: bool) -> None:
         with open(path, "rb") as file:
             head = file.read(100)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = system_reason(error)
         raise FileError(f"cannot open the store {str(path)!r}: {reason}; check its permissions") from None
     if fault is None and head.startswith(_MAGIC):
         alike = all(head[at : at + len(held)] == held for at, held in _HEAD.items())

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from wingbeat.errors import first_line
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
 
@@ -260,8 +261,7 @@ class FairPool:
             event = Event(*message)
             if event.kind == "failed":
                 traceback.print_exception(event.value)  # the server's log has all of it, its visitor a line
-                words = f"{type(event.value).__name__}: {event.value}".split("\n")[0][:300]
-                event = Event("failed", words)
+                event = Event("failed", first_line(event.value)[:300])
             if event.kind == "leaving":
                 leaves = True
             elif event.ends:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.errors import Fault, InvalidInputError, first_line
 from wingbeat.orbits.flight.beat import NUMBERS, Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
@@ -117,7 +117,7 @@ def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]
         try:
             found = _given_by(quantity.of, strips)
         except Exception as error:  # whatever a user's function raises
-            reason = f"fails: {type(error).__name__}: {error}".split("\n")[0]
+            reason = f"fails: {first_line(error)}"
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))
             continue
         shape = getattr(found, "shape", None)

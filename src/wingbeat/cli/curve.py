@@ -12,7 +12,9 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
+    SPECIES,
     AirLoadOptions,
+    Climb,
     Output,
     Settings,
     Whole,
@@ -31,13 +33,13 @@ from wingbeat.results.curve import solve_curve
 
 
 def curve(
-    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    species: Annotated[str, SPECIES],
     *,
     speeds: Annotated[
         list[str],
         Parameter(consume_multiple=True, negative=(), help="Speeds [m/s]: 3:20:1, or 0 3:20:1 with hover."),
     ],
-    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    climb: Climb = 0.0,
     air: AirLoadOptions = DEFAULT_AIR_LOADS,
     within_plausible: WithinPlausible = False,
     minimise: Annotated[

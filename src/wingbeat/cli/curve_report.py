@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.cli.streams import plain_console
 from wingbeat.paper.measured_powers import published_for
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
@@ -33,12 +34,10 @@ def drawn(curve: Curve) -> Figure:
 
 def print_curve(curve: Curve) -> None:
     """Print one line a speed with what happens between, then characteristic speeds, then warnings."""
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    # Names and messages come from files: what looks like markup in them is text.
-    console = Console(markup=False, highlight=False, emoji=False)
+    console = plain_console()
     record = curve.record()
     points = record["points"]
     climb = f", climbing {record['climb']:.4g} m/s" if record["climb"] else ""

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
+    SPECIES,
     AirLoadOptions,
     Output,
     Payload,
@@ -23,6 +24,7 @@ from wingbeat.cli.options import (
     species_with,
 )
 from wingbeat.cli.ranges import parse_range
+from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList
 from wingbeat.mechanics.glide import Glide
 from wingbeat.nomenclature import NOMENCLATURE, for_people
@@ -41,7 +43,7 @@ _HEADS |= {"body": "body_pitch", "wing": "wing_pitch", "flap": "flap", "tail": "
 
 
 def glide(
-    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    species: Annotated[str, SPECIES],
     *,
     alpha: Annotated[str, Parameter(help="Angles of attack at the wing's root [deg], start:stop:step.")] = "1:30:1",
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
@@ -89,12 +91,10 @@ def glide(
 
 
 def _print(polar: GlidePolar) -> None:
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    # Names come from files, and as markup [deg] would vanish.
-    console = Console(markup=False, highlight=False, emoji=False)
+    console = plain_console()
     table = Table(box=None, pad_edge=False)
     for head, name in _HEADS.items():
         unit = for_people(NOMENCLATURE[name].unit)[1] or "-"

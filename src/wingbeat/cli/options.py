@@ -30,6 +30,8 @@ def _whole(type_: type, tokens: Sequence[Token]) -> int:
         raise ValueError(f'"{text}" is not a whole number') from None
 
 
+SPECIES = Parameter(help="Name of a species, or path of a species file.")
+Climb = Annotated[float, Parameter(help="Mean climb rate [m/s].")]
 Whole = Annotated[int, Parameter(converter=_whole)]
 Settings = Annotated[
     list[str] | None,

@@ -22,7 +22,9 @@ from wingbeat.cli.filmed import (
 from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
+    SPECIES,
     AirLoadOptions,
+    Climb,
     Output,
     Payload,
     Settings,
@@ -56,10 +58,10 @@ _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "to
 
 
 def orbit(
-    species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
+    species: Annotated[str | None, SPECIES] = None,
     *,
     speed: Annotated[float | None, Parameter(help="Mean forward speed [m/s]; 0 is hover.")] = None,
-    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    climb: Climb = 0.0,
     air: AirLoadOptions = DEFAULT_AIR_LOADS,
     flap_amplitude_max: Annotated[
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")

@@ -10,6 +10,7 @@ from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.cli.streams import plain_console
 from wingbeat.datasets import KIND
 from wingbeat.results.curve import curve_from
 from wingbeat.results.power import power_account
@@ -26,16 +27,13 @@ def show(
 
     Angles are printed in degrees; with --json in radians, as everywhere in files.
     """
-    from rich.console import Console
-
     dataset = read_result(file)
     account = power_account(dataset) if power else None
     if dataset.attrs[KIND] == "curve":
         curve = curve_from(dataset, file)
         print(json_format.dumps(curve.record(), indent=2, allow_nan=False)) if json else print_curve(curve)
         return
-    # Names and messages come from files: what looks like markup in them is text.
-    console = Console(markup=False, highlight=False, emoji=False)
+    console = plain_console()
     is_orbit = dataset.attrs[KIND] == "orbit"
     record = parse_attributes(dataset.attrs, file)[0] if is_orbit else flight_summary(dataset, file)
     if account is not None:

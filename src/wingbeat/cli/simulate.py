@@ -16,6 +16,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
+    SPECIES,
     AirLoadOptions,
     Output,
     Settings,
@@ -41,7 +42,7 @@ _BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_
 
 
 def simulate(
-    species: Annotated[str | None, Parameter(help="Name of a species, or path of a species file.")] = None,
+    species: Annotated[str | None, SPECIES] = None,
     *,
     beats: Annotated[Whole, Parameter(help="Number of wingbeats.")] = 5,
     samples: Annotated[Whole, Parameter(help="Samples per wingbeat.")] = 128,

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App, Parameter
 
+from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FileError
 
 if TYPE_CHECKING:
-    from rich.console import Console
     from rich.table import Table
 
     from wingbeat.species import Species
@@ -156,13 +156,6 @@ def _summary(animal: Species) -> dict[str, Any]:
     }
 
 
-def _console() -> Console:
-    from rich.console import Console
-
-    # Names and sources come from files: what looks like markup in them is text.
-    return Console(markup=False, highlight=False, emoji=False)
-
-
 def _table(title: str, *columns: str) -> Table:
     from rich import box
     from rich.table import Table
@@ -186,7 +179,7 @@ def _print_list(everyone: list[Species]) -> None:
             outside.append(animal.name)
         speeds = f"{low:.1f} to {high:.1f}"
         table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}", speeds)
-    console = _console()
+    console = plain_console()
     console.print(table)
     if outside:
         names = ", ".join(outside)
@@ -196,7 +189,7 @@ def _print_list(everyone: list[Species]) -> None:
 
 
 def _print_species(animal: Species) -> None:
-    console = _console()
+    console = plain_console()
     names = [name for name in (animal.common_name, animal.scientific_name) if name]
     console.print(f"{animal.name}{': ' if names else ''}{', '.join(names)}")
     sources: dict[str, int] = {}

@@ -6,9 +6,12 @@ import io
 import os
 import sys
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["StdoutError", "drop_stdout", "prepare_streams"]
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["StdoutError", "drop_stdout", "plain_console", "prepare_streams"]
 
 
 class StdoutError(Exception):
@@ -67,3 +70,10 @@ def drop_stdout() -> None:
     """Point standard output at nothing, so that the flush at exit does not fail again."""
     with suppress(OSError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+def plain_console() -> Console:
+    """Return standard output for tables: names and messages of files may look like markup, and are text."""
+    from rich.console import Console
+
+    return Console(markup=False, highlight=False, emoji=False)

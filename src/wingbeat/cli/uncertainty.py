@@ -10,7 +10,7 @@ from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.influence import in_words, ranked_in_words
-from wingbeat.cli.options import DEFAULT_AIR_LOADS, AirLoadOptions, Settings, Whole, species_with
+from wingbeat.cli.options import DEFAULT_AIR_LOADS, SPECIES, AirLoadOptions, Climb, Settings, Whole, species_with
 from wingbeat.cli.progress import progress_bar
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
@@ -20,10 +20,10 @@ from wingbeat.workers.affinity import core_count
 
 
 def uncertainty(
-    species: Annotated[str, Parameter(help="Name of a species, or path of a species file.")],
+    species: Annotated[str, SPECIES],
     *,
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
-    climb: Annotated[float, Parameter(help="Mean climb rate [m/s].")] = 0.0,
+    climb: Climb = 0.0,
     air: AirLoadOptions = DEFAULT_AIR_LOADS,
     minimise: Annotated[str, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = "frequency",
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,

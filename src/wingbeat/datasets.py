@@ -11,6 +11,13 @@ if TYPE_CHECKING:
 
 # The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
 KIND = "wingbeat_kind"
+# The body's state in the world, as data sets and records name it.
+STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
+
+
+def climb_text(climb: float) -> str:
+    """Return what a title says of a climb rate [m/s] behind the speed; nothing of level flight."""
+    return f", climbing {climb:.4g} m/s" if climb else ""
 
 
 def flown(dataset: xr.Dataset) -> np.ndarray:

@@ -20,7 +20,7 @@ from wingbeat import aero, mechanics
 from wingbeat._jax import shapes
 from wingbeat._jax.exported import StoredFunction
 from wingbeat.aero.coefficient_model import Kernel
-from wingbeat.mechanics.flight_model import STATE_NAMES, motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits import flight
 
 PIGEON = wb.load_species("pigeon")
@@ -158,7 +158,7 @@ def traced(name, *args, **static):
 def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     model, wingbeat = flown
     phases, q = np.linspace(0.0, 1.0, 5), np.zeros((5, 5))
-    state = wb.State(*(np.zeros(5) for _ in STATE_NAMES))
+    state = wb.State(*(np.zeros(5) for _ in wb.State._fields))
     traced("mechanics.flight_loads.flight_loads", model, wingbeat, state, phases)
     traced("mechanics.wing_points.strip_corners", model, wingbeat, state, phases)
     traced("mechanics.flights._fly", model, wingbeat, np.zeros(6), phases, np.array(1e-10))

@@ -8,6 +8,7 @@ from typing import Any
 
 from wingbeat.errors import Fault
 from wingbeat.nomenclature import NOMENCLATURE, for_people
+from wingbeat.results.rows import mass_of
 from wingbeat.species_schema import Number, display
 
 __all__ = [
@@ -77,7 +78,7 @@ def from_shown(text: str, unit: str, several: bool) -> float | tuple[float, ...]
 def tiles(record: dict[str, Any]) -> list[tuple[str, str, str, str]]:
     """Return the headline numbers of a record: label, number, unit, and all digits."""
     vehicle, power = record["vehicle"], record.get("mean_positive_power")
-    mass = vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]
+    mass = mass_of(vehicle)
     frequency = record["wingbeat"]["frequency"]
     amplitude = math.degrees(record["wingbeat"]["flap_amplitude"])
     cost = record.get("cost_of_transport")

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.cli.streams import plain_console
+from wingbeat.datasets import climb_text
 from wingbeat.paper.measured_powers import published_for
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
@@ -40,7 +41,7 @@ def print_curve(curve: Curve) -> None:
     console = plain_console()
     record = curve.record()
     points = record["points"]
-    climb = f", climbing {record['climb']:.4g} m/s" if record["climb"] else ""
+    climb = climb_text(record["climb"])
     certified = len(points) - len(record["gaps"])
     console.print(
         f"{record['species']}{climb}, minimum {record['objective'].replace('_', ' ')}: "

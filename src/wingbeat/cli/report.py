@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.cli.power_report import power_groups
-from wingbeat.datasets import KIND
+from wingbeat.datasets import KIND, STATE_NAMES
 from wingbeat.errors import FileError
 from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import Rows, orbit_groups, power_rows, state_rows, wingbeat_rows
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 __all__ = ["flight_summary", "print_flight", "print_orbit", "read_result"]
-
-_STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
 
 def read_result(path: str | PathLike[str]) -> xr.Dataset:
@@ -71,7 +69,7 @@ def flight_summary(dataset: xr.Dataset, path: str | PathLike[str]) -> dict[str, 
             name: float(np.trapezoid(reached[column].values, phase) / np.ptp(phase)) if len(phase) > 1 else None
             for name, column in (("mean_power", "hinge_power"), ("mean_actuator_power", "actuator_power"))
         }
-        ends = [{name: float(reached[name][i]) for name in _STATE} if len(phase) else None for i in (0, -1)]
+        ends = [{name: float(reached[name][i]) for name in STATE_NAMES} if len(phase) else None for i in (0, -1)]
     except (KeyError, ValueError) as error:
         raise FileError(
             f"cannot read {os.fspath(path)!r} as a flight: it is damaged ({error}); fly it again"

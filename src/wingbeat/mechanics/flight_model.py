@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from wingbeat.aero.coefficient_model import Kernel
 
 
-STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
-
-
 class State(NamedTuple):
     """The body's state in the world, numbers or arrays of one shape.
 
@@ -53,7 +50,7 @@ def check_state(state: State) -> None:
     InvalidInputError : some number is not finite.
     """
     faults = FaultList()
-    for name in STATE_NAMES:
+    for name in State._fields:
         faults.number(f"initial_state.{name}", getattr(state, name))
     faults.raise_if_any()
 

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.energy_claims import BATS_NEED
 from wingbeat.paper.flight_claims import ARM, BAT_MEASURED, HAND, station_series
@@ -106,7 +106,7 @@ def drag_costs_thrust(evidence: Evidence) -> TestResult:
     theirs = evidence.orbit("bat", "dickinson").problem.aero.coefficients
     coefficients = dataclasses.replace(problem.aero.coefficients, drag_terms=theirs.drag_terms)
     model = FlightModel(problem.vehicle, dataclasses.replace(problem.aero, coefficients=coefficients), problem.air)
-    states = np.column_stack([flight[name] for name in ("x", "z", "body_pitch", "u", "w", "pitch_rate")])
+    states = np.column_stack([flight[name] for name in State._fields])
     swapped = evaluate(model, orbit.wingbeat, flight["phase"].values, states)
     change = np.asarray(swapped.air_force)[:, 0] - flight["force_x"].values
     mean = beat_mean(change) / (problem.vehicle.mass * problem.air.gravity)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
 from wingbeat.nomenclature import axis_label
 from wingbeat.style import ALARM, BLUE, GREEN, PAGE, VERMILION, drawing, new_figure
@@ -91,10 +92,10 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
 def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
     aero = json.loads(about["aero"])
-    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
     limits = "".join(f", {text}" for text in json.loads(about["constraints"]))
     minimised = about["objective"].replace("_", " ")
-    return f"{about['species']}{climb}: minimum {minimised}{limits}; {aero['coefficients']}, {aero['extension']}"
+    animal = about["species"] + climb_text(about["climb"])
+    return f"{animal}: minimum {minimised}{limits}; {aero['coefficients']}, {aero['extension']}"
 
 
 def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str) -> None:

@@ -6,9 +6,11 @@ import json
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements
+from wingbeat.results.rows import mass_of
 from wingbeat.style import ALARM, FONT, GOOD, PAGE, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
@@ -78,7 +80,7 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
     faults.raise_if_any()
     try:
         vehicle, air, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat"))
-        weight = (vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]) * air["gravity"]
+        weight = mass_of(vehicle) * air["gravity"]
         title = _orbit_title if kind == "orbit" else _flight_title
         return title(dataset, f"{beat['frequency']:.4g} Hz"), weight
     except (KeyError, TypeError, ValueError) as error:
@@ -90,8 +92,7 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
 def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
     about = dataset.attrs
     aero, bounds = json.loads(about["aero"]), json.loads(about["active_bounds"])
-    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
-    first = f"{about['species']} at {about['speed']:.4g} m/s{climb}, {frequency}"
+    first = f"{about['species']} at {about['speed']:.4g} m/s{climb_text(about['climb'])}, {frequency}"
     loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips per wing"
     second = f"{loads}; minimised: {about['objective']}; at the bound of {', '.join(bounds) or 'nothing'}"
     if about["status"] == "converged":

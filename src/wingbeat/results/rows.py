@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from wingbeat.datasets import STATE_NAMES
 from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
 
 __all__ = [
@@ -20,7 +21,6 @@ __all__ = [
 
 Rows = list[tuple[str, str]]
 
-_STATE = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 # Values that switch off the laws beyond the paper's; such rows are left out.
 _OFF: dict[str, Any] = {
     **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
@@ -104,7 +104,12 @@ def wingbeat_rows(beat: dict[str, Any]) -> Rows:
 
 def state_rows(state: dict[str, Any]) -> Rows:
     """Return the numbers of a state."""
-    return [(_label(name), _of(state, name)) for name in state if name in _STATE]
+    return [(_label(name), _of(state, name)) for name in state if name in STATE_NAMES]
+
+
+def mass_of(vehicle: dict[str, Any]) -> float:
+    """Return the mass of a record's vehicle [kg]: body and both wings."""
+    return vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]
 
 
 def power_label(name: str) -> str:
@@ -116,11 +121,10 @@ def power_rows(record: dict[str, Any]) -> Rows:
     """Return means and peaks of power, also per mass if the record holds the mass."""
     hinges = ("mean_power", "mean_positive_power", "peak_power")
     vehicle = record.get("vehicle")
-    mass = vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"] if vehicle else None
+    mass = mass_of(vehicle) if vehicle else None
     rows = []
     for name in (*hinges, "mean_actuator_power", "peak_actuator_power"):
         if name in record:
-            # The animal's mass is that of body and wings together.
             unit = plain_unit("positive_power_per_mass")
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), _of(record, name) + each))

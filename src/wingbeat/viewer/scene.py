@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import KIND, at_station, flown
+from wingbeat.datasets import KIND, at_station, climb_text, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body
@@ -103,7 +103,7 @@ def _summary(dataset: xr.Dataset, frequency: float) -> str:
     about = dataset.attrs
     if about[KIND] != "orbit":
         return f"simulated from {float(dataset['u'][0]):.3g} m/s, {frequency:.3g} Hz"
-    climb = f", climbing {about['climb']:.3g} m/s" if about["climb"] else ""
+    climb = climb_text(about["climb"])
     loads = json.loads(about["aero"])["coefficients"]
     status = "" if about["status"] == "converged" else f"; NOT CERTIFIED ({about['status']})"
     return f"{about['species']} at {about['speed']:.3g} m/s{climb}, {loads}, {frequency:.3g} Hz{status}"

@@ -27,7 +27,7 @@ from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.solution import Optimum, Solution, better_of, families
-from wingbeat.orbits.starts import start_point, usual_starts
+from wingbeat.orbits.starts import start_count, start_point
 from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import core_count
 
@@ -77,7 +77,7 @@ def find_orbit(
     ------
     InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
-    starts = usual_starts(problem, options.search) if starts is None else starts
+    starts = start_count(problem, starts, options.search)
     most = options.search.most_starts if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()

@@ -26,6 +26,11 @@ def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search
     return options.starts_of_outputs if problem.has_outputs else options.starts
 
 
+def start_count(problem: OrbitProblem, starts: int | None, options: SearchOptions = DEFAULTS.search) -> int:
+    """Return the number of starts as given, or the default of the problem."""
+    return usual_starts(problem, options) if starts is None else starts
+
+
 def start_beside(
     problem: OrbitProblem, best: np.ndarray, index: int, seed: int, options: SearchOptions = DEFAULTS.search
 ) -> np.ndarray:

@@ -17,7 +17,7 @@ from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
-from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.starts import start_count
 
 if TYPE_CHECKING:
     pass
@@ -58,7 +58,7 @@ def solve_orbit(
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    starts = usual_starts(problem, options.search) if starts is None else starts
+    starts = start_count(problem, starts, options.search)
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
@@ -123,5 +123,5 @@ def solve_orbits(
     """
     solve = find_series if in_order else find_orbits
     found = solve(problems, starts, seed, processes, progress, most_starts, advise, options)
-    asked = (usual_starts(problem, options.search) if starts is None else starts for problem in problems)
+    asked = (start_count(problem, starts, options.search) for problem in problems)
     return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]

@@ -15,7 +15,7 @@ from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, correct_guess, find_beside, find_orbit
-from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
 from wingbeat.workers.process_map import process_map
 
@@ -133,7 +133,7 @@ def _solve_part(
     numbers = [numbers_of(problem) for problem in part.problems]
     answers = Answers(part.known, numbers, options.continuation)
     for i, problem in enumerate(part.problems):
-        count = usual_starts(problem, options.search) if starts is None else starts
+        count = start_count(problem, starts, options.search)
         known = best_of_guesses(problem, answers.predict(i), options)
         best = find_with_known(problem, known, count, seed, most_starts, advise, options=options)
         answer = None

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from numbers import Real
-from typing import Any
+from typing import Any, TypeGuard
 
 
 @dataclass(frozen=True)
@@ -97,6 +97,11 @@ def system_reason(error: Exception) -> str:
     'no such file or directory'
     """
     return (getattr(error, "strerror", None) or str(error)).lower()
+
+
+def is_number(value: object) -> TypeGuard[int | float]:
+    """Say whether a value is a number as TOML and JSON write them; true and false are none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 # The rule for counts and seeds; where their range is known, `FaultList.whole` says it too.

@@ -14,7 +14,7 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
-from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
+from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError, is_number
 
 __all__ = ["from_json", "from_plain", "from_query", "to_json", "to_plain", "to_query"]
 
@@ -205,7 +205,7 @@ def _value(text: str) -> float | list[Any] | None:
 
 
 def _finite(value: Any) -> float | None:
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not is_number(value):
         return None
     try:
         number = float(value)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.errors import is_number
 from wingbeat.results.columns import result_unit
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def _value(value: Any) -> Any:
         return _value([{"name": key, "value": item} for key, item in value.items()])
     if isinstance(value, list):
         return _listed(value)
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else value
+    return float(value) if is_number(value) else value
 
 
 def _listed(items: list[Any]) -> np.ndarray:

@@ -11,7 +11,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.datasets import KIND
-from wingbeat.errors import FileError, system_reason
+from wingbeat.errors import FileError, is_number, system_reason
 from wingbeat.files import write_atomically
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.plausibility import is_judgement, statements
@@ -74,7 +74,7 @@ def parse_attributes(
 
 
 def _encode(name: str, value: Any) -> Any:
-    if _KINDS.get(name) == (str,) or (isinstance(value, int | float) and not isinstance(value, bool)):
+    if _KINDS.get(name) == (str,) or is_number(value):
         return value
     return json.dumps(value)
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from wingbeat.errors import WHOLE, FaultList, suggest
+from wingbeat.errors import WHOLE, FaultList, is_number, suggest
 from wingbeat.files import read_text, toml_tables
 from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
@@ -240,7 +240,7 @@ def number(value: Any) -> Any:
     """Return a number as a float, so that 1 and 1.0 are one; anything else, and what no float holds, as it is."""
     with suppress(OverflowError):
         # Adding 0 takes the sign off a zero.
-        return float(value) + 0.0 if isinstance(value, int | float) and not isinstance(value, bool) else value
+        return float(value) + 0.0 if is_number(value) else value
     return value
 
 

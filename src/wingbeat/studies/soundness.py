@@ -82,7 +82,7 @@ def check_contents(connection: sqlite3.Connection, path: Path) -> None:
     try:
         _check_kind(connection, path)
         _check_structure(connection)
-        _check_tables(connection, dict(connection.execute("SELECT name, value FROM about")))
+        _check_tables(connection, read_about(connection))
     except _Damaged as fault:
         raise refusal(path, str(fault)) from None
     finally:
@@ -101,6 +101,11 @@ def _stamp(path: Path) -> tuple[tuple[int, int, int], ...]:
     return tuple(stamp for stamp in found if stamp[1])
 
 
+def read_about(connection: sqlite3.Connection) -> dict[str, str]:
+    """Return what a store says of itself."""
+    return dict(connection.execute("SELECT name, value FROM about"))
+
+
 def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
     """Refuse another program's database, and stores of another wingbeat."""
     if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION:
@@ -109,7 +114,7 @@ def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
         raise FileError(
             f"{str(path)!r} is a database, but not a store of a study; move it away or rename the study"
         )
-    about = dict(connection.execute("SELECT name, value FROM about"))
+    about = read_about(connection)
     theirs = f"{about.get('numerical_version')} (wingbeat {about.get('made_by')})"
     if about.get("form") == "1" and "digest" not in about:
         raise FileError(

@@ -17,7 +17,7 @@ from wingbeat.studies.database import APPLICATION, FORM, TABLES, closing, connec
 from wingbeat.studies.digests import POINT_COLUMNS, Fingerprint, about_digest, row_digest
 from wingbeat.studies.pages import PAGE
 from wingbeat.studies.plan import Plan
-from wingbeat.studies.soundness import PLAN_TABLES, check_contents, check_files, digest_of
+from wingbeat.studies.soundness import PLAN_TABLES, check_contents, check_files, digest_of, read_about
 from wingbeat.studies.units import FAILED, Outcome, Task, Unit
 
 __all__ = ["Row", "Store", "Waiting"]
@@ -57,7 +57,7 @@ class Store:
     def __init__(self, path: Path, connection: sqlite3.Connection) -> None:
         self.path = path
         self._connection = connection
-        self._about = dict(connection.execute("SELECT name, value FROM about"))
+        self._about = read_about(connection)
         self._last = (-1, "")
 
     @classmethod

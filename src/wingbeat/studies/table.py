@@ -11,7 +11,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import FaultList, WingbeatError, install_extra
+from wingbeat.errors import FaultList, WingbeatError, install_extra, is_number
 from wingbeat.files import write_atomically
 from wingbeat.nomenclature import cf, label_of, plain_unit
 from wingbeat.results.columns import flat
@@ -55,7 +55,7 @@ def frame_of(store: Store) -> pd.DataFrame:
     frame = pd.DataFrame.from_records(rows, columns=list(order))
     for name in frame.columns:
         # Nulls of a record are nothing known: not-a-number beside numbers.
-        if frame[name].dtype == object and all(v is None or _is_number(v) for v in frame[name]):
+        if frame[name].dtype == object and all(v is None or is_number(v) for v in frame[name]):
             frame[name] = frame[name].astype(float)
     return frame
 
@@ -67,10 +67,6 @@ def varied_numbers(frame: pd.DataFrame, paths: Iterable[str]) -> list[str]:
         items = [name for name in names if name.startswith(f"{path}.") and name.rpartition(".")[2].isdigit()]
         found += [path] if path in names else [name for name in items if len(set(frame[name])) > 1]
     return [name for name in found if frame[name].dtype.kind in "fiu"]
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:

@@ -4,8 +4,14 @@ Records, data sets, studies, figures, pages and the explorer use it. Units are S
 readers, `plain` writes ``m/s`` and `for_people` converts to degrees.
 """
 
-from wingbeat.nomenclature.lookup import attributes_of, axis_label, find, label_of, plain_unit
-from wingbeat.nomenclature.table import NOMENCLATURE
+from wingbeat.nomenclature.lookup import (
+    NOMENCLATURE,
+    attributes_of,
+    axis_label,
+    find,
+    label_of,
+    plain_unit,
+)
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import cf, for_people, plain
 

@@ -1,15 +1,23 @@
-"""Look up a dotted name, as in records, studies and ``--set``, in the table of names."""
+"""The table of names, and how to look up a dotted name in it, as in records, studies and ``--set``.
+
+A name whose last part means several things has the part before it too, as ``wing.mass``.
+"""
 
 from __future__ import annotations
 
 import re
 
-from wingbeat.nomenclature.table import NOMENCLATURE
+from wingbeat.nomenclature.answers import ANSWER, BEAT, STUDY
+from wingbeat.nomenclature.given import AERO, GIVEN, RUN, WINGBEAT
+from wingbeat.nomenclature.series import GLIDE, SERIES
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import plain
 
 __all__ = ["attributes_of", "axis_label", "find", "label_of", "plain_unit"]
 
+NOMENCLATURE: dict[str, Term] = {
+    term.name: term for term in (*SERIES, *GLIDE, *GIVEN, *WINGBEAT, *BEAT, *AERO, *RUN, *ANSWER, *STUDY)
+}
 _AXES = ("x", "y", "z")
 # A part before or after a name that says which of its numbers is meant.
 _ABOUT = {

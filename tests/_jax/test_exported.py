@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 
+from wingbeat._jax import config
 from wingbeat._jax import exported as exporting
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
@@ -99,11 +100,18 @@ def test_an_option_that_xla_does_not_know_changes_nothing(monkeypatch, tmp_path)
         ("--xla_backend_extra_options=xla_cpu_x", "--xla_backend_extra_options=xla_cpu_x"),
     ],
 )
-def test_flags_of_the_users_own_are_kept(mine, kept):
+def test_flags_of_the_users_own_are_kept(monkeypatch, mine, kept):
+    monkeypatch.setenv("XLA_FLAGS", mine)
+    config._configure()
+    assert kept in os.environ["XLA_FLAGS"]
+    assert os.environ["XLA_FLAGS"].count("xla_backend_extra_options") == 1
+
+
+def test_flags_are_set_as_jax_is_first_met():
     code = "import wingbeat._jax.config, os; print(os.environ['XLA_FLAGS'])"
-    environment = os.environ | {"XLA_FLAGS": mine}
+    environment = os.environ | {"XLA_FLAGS": "--xla_cpu_enable_fast_math=false"}
     found = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
     )
-    assert kept in found.stdout
-    assert found.stdout.count("xla_backend_extra_options") == 1
+    assert found.stdout.startswith("--xla_cpu_enable_fast_math=false --xla_backend_extra_options=")
+    assert "small_while_loop" in found.stdout

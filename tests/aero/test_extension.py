@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
+from tests.helpers.coefficients import coefficients, value_slope_curvature
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
@@ -38,23 +39,6 @@ any_angle = st.floats(allow_nan=False, allow_infinity=False)
 widths = st.sampled_from([0.01, 0.3, 1.0, 3.0])
 
 
-def coefficients(kernel, alpha):
-    """Return the kernel's C_L, C_D and x_cp as one array."""
-    return jnp.stack([*kernel.lift_drag(alpha), kernel.centre_of_pressure(alpha)])
-
-
-SLOPES = jax.jacfwd(coefficients, argnums=1)
-CURVATURES = jax.jacfwd(SLOPES, argnums=1)
-# The kernel is an argument, so that the models of one form share what is compiled.
-COMPILED = [jax.jit(jax.vmap(f, (None, 0))) for f in (coefficients, SLOPES, CURVATURES)]
-
-
-def derivatives(model):
-    """Return the coefficients, their slopes and curvatures as functions of angles (n,), each (n, 2 or 3)."""
-    kernel, many = model.kernel(), 3 if model.has_centre_of_pressure else 2
-    return [lambda alpha, f=f: np.array(f(kernel, np.asarray(alpha, dtype=float)))[:, :many] for f in COMPILED]
-
-
 @seed(0)
 @settings(deadline=None, max_examples=200)
 @given(alpha=any_angle, width=widths, name=st.sampled_from(sorted(MODELS)))
@@ -74,14 +58,17 @@ def test_mirrored_is_exactly_odd_and_even(alpha, width, name):
 @given(alpha=st.floats(0.0, math.pi), width=widths, name=st.sampled_from(sorted(MODELS)))
 def test_mirrored_plate_from_behind(alpha, width, name):
     model = MODELS[name]("mirrored", width)
-    behind = math.pi - alpha
+    three = np.array([alpha, math.pi - alpha, alpha - math.pi])
     # The angle from behind is rounded once: within a blend of 0.01 degrees the slopes are large.
-    assert model.lift(behind) == pytest.approx(-model.lift(alpha), abs=1e-12)
-    assert model.drag(behind) == pytest.approx(model.drag(alpha), abs=1e-12)
-    assert model.lift(alpha - math.pi) == pytest.approx(model.lift(alpha), abs=1e-12)
-    assert model.drag(alpha - math.pi) == pytest.approx(model.drag(alpha), abs=1e-12)
+    here, behind, below = model.lift(three).tolist()
+    assert behind == pytest.approx(-here, abs=1e-12)
+    assert below == pytest.approx(here, abs=1e-12)
+    here, behind, below = model.drag(three).tolist()
+    assert behind == pytest.approx(here, abs=1e-12)
+    assert below == pytest.approx(here, abs=1e-12)
     if model.has_centre_of_pressure:
-        assert model.centre_of_pressure(behind) == pytest.approx(1 - model.centre_of_pressure(alpha), abs=1e-12)
+        here, behind, _ = model.centre_of_pressure(three).tolist()
+        assert behind == pytest.approx(1 - here, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -168,29 +155,27 @@ def test_every_extension_is_the_mirrored_one_at_positive_angles(extension):
 @pytest.mark.parametrize("width", [0.5, 1.0, 3.0])
 def test_twice_continuously_differentiable_at_every_join(name, extension, width):
     """Value, slope and curvature from either side of each edge, by one-sided limits of exact derivatives."""
-    functions = derivatives(MODELS[name](extension, width))
+    model = MODELS[name](extension, width)
     edges = np.deg2rad([join + side * width for join in JOINS_DEG for side in (-1, 0, 1)])
     step = 1e-9
     with_gap = [(edge - step, edge + step) for edge in edges if abs(edge) < math.pi - 2 * step]
     left, right = np.array(with_gap).T
     scale = [1.0, 1.0 / math.radians(width), 1.0 / math.radians(width) ** 2]
-    for order, function in enumerate(functions):
+    for order, rows in enumerate(value_slope_curvature(model, [*left, *right, math.pi, -math.pi])):
+        on_the_left, on_the_right = rows[: left.size], rows[left.size : -2]
         # The third derivative may jump; over 2e-9 rad it moves the second by far less than this.
-        np.testing.assert_allclose(function(left), function(right), rtol=0, atol=2e-6 * scale[order])
-    end = np.array([math.pi])
-    for order, function in enumerate(functions):
-        np.testing.assert_allclose(function(end), function(-end), rtol=0, atol=1e-9 * scale[order])
+        np.testing.assert_allclose(on_the_left, on_the_right, rtol=0, atol=2e-6 * scale[order])
+        np.testing.assert_allclose(rows[-2], rows[-1], rtol=0, atol=1e-9 * scale[order])
 
 
 @pytest.mark.parametrize(("name", "extension"), ALL)
 def test_no_jump_in_value_or_slope_on_a_fine_grid(name, extension):
-    value, first, second = derivatives(MODELS[name](extension))
     alpha = np.linspace(-math.pi, math.pi, 200_001)
     step = alpha[1] - alpha[0]
-    for function, derivative in ((value, first), (first, second)):
+    value, first, second = value_slope_curvature(MODELS[name](extension), alpha)
+    for values, slopes in ((value, first), (first, second)):
         # Were there a jump, the step across it would not be the derivative's.
-        slopes = derivative(alpha)
-        steps = np.diff(function(alpha), axis=0)[1:-1]
+        steps = np.diff(values, axis=0)[1:-1]
         trapezia = 0.5 * step * (slopes[2:-1] + slopes[1:-2])
         changes = np.abs(np.diff(slopes, axis=0))
         bound = step * np.maximum.reduce([changes[:-2], changes[1:-1], changes[2:]]) + 1e-12
@@ -199,17 +184,19 @@ def test_no_jump_in_value_or_slope_on_a_fine_grid(name, extension):
 
 @pytest.mark.parametrize(("name", "extension"), ALL)
 def test_derivatives_are_those_of_central_differences(name, extension):
-    value, first, second = derivatives(MODELS[name](extension))
     rng = np.random.default_rng(1)
     alpha = np.concatenate([rng.uniform(-3.1, 3.1, 200), np.deg2rad(rng.uniform(-0.9, 0.9, 50))])
     edges = np.deg2rad([join + side for join in JOINS_DEG for side in (-1, 0, 1)])
     alpha = alpha[np.abs(alpha[:, None] - edges).min(axis=1) > 5e-4]
     h = 1e-4
-    for function, derivative in ((value, first), (first, second)):
-        near = [function(alpha + i * h) for i in (-2, -1, 1, 2)]
+    # One row for each step from the angles, none first.
+    moved = alpha + h * np.array([0, -2, -1, 1, 2])[:, None]
+    orders = value_slope_curvature(MODELS[name](extension), moved)
+    value, first, second = (rows.reshape(*moved.shape, -1) for rows in orders)
+    for (_, *near), derivative in ((value, first[0]), (first, second[0])):
         fourth_order = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * h)
         scale = np.abs(fourth_order).max()
-        np.testing.assert_allclose(derivative(alpha), fourth_order, rtol=1e-6, atol=1e-8 * max(scale, 1.0))
+        np.testing.assert_allclose(derivative, fourth_order, rtol=1e-6, atol=1e-8 * max(scale, 1.0))
 
 
 @pytest.mark.parametrize("degrees", [2.0, 17.0, 40.0, 88.0])
@@ -219,7 +206,7 @@ def test_su_fan_derivative_by_complex_step(degrees):
     lift = -0.44 * np.exp(-0.47 * a) + 1.19 * np.sin(np.deg2rad(1) * (1.74 * a + 20))
     drag = 1.04 + np.sin(np.deg2rad(1) * (1.72 * a - 70))
     centre = 0.247 + 0.016 * a**0.6 + 0.026 * a * np.exp(-0.11 * a)
-    slopes = SLOPES(SuFan().kernel(), alpha)
+    (slopes,) = value_slope_curvature(SuFan(), [alpha])[1]
     np.testing.assert_allclose(slopes, [part.imag / h for part in (lift, drag, centre)], rtol=1e-13)
 
 
@@ -244,7 +231,7 @@ HUGE = [
 @pytest.mark.parametrize(("name", "extension"), ALL)
 def test_no_nan_at_any_finite_angle(name, extension):
     model = MODELS[name](extension)
-    alpha = np.array([*HUGE, np.finfo(float).max])
+    alpha = np.resize([*HUGE, np.finfo(float).max], 301)  # as many as elsewhere here: compiled once
     assert np.isfinite(model.lift(alpha)).all()
     assert np.isfinite(model.drag(alpha)).all()
     assert not model.has_centre_of_pressure or np.isfinite(model.centre_of_pressure(alpha)).all()
@@ -254,26 +241,30 @@ def test_no_nan_at_any_finite_angle(name, extension):
 def test_no_nan_in_derivatives(name, extension):
     dense = np.deg2rad(np.arange(-720, 721) / 4)
     alpha = np.concatenate([[a for a in HUGE if abs(a) <= math.pi], dense])
-    for function in derivatives(MODELS[name](extension)):
-        assert np.isfinite(function(alpha)).all()
+    for rows in value_slope_curvature(MODELS[name](extension), alpha):
+        assert np.isfinite(rows).all()
 
 
 @pytest.mark.parametrize("extension", EXTENSIONS)
 def test_reverse_mode_twice_is_finite_at_the_joins(extension):
-    kernel = SuFan(extension).kernel()
+    model = SuFan(extension)
     alpha = np.deg2rad([*JOINS_DEG, 1.0, -1.0, 89.0, -89.0, 1e-9])
-    for read in (
-        lambda a: kernel.lift_drag(a)[0],
-        lambda a: kernel.lift_drag(a)[1],
-        kernel.centre_of_pressure,
-    ):
-        for derivative in (jax.grad(read), jax.grad(jax.grad(read))):
-            assert np.isfinite(jax.jit(jax.vmap(derivative))(alpha)).all()
+    _, *forward = value_slope_curvature(model, alpha)
+    for found, expected in zip(reverse_derivatives(model.kernel(), alpha), forward, strict=True):
+        assert np.isfinite(found).all()
+        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+
+
+@jax.jit
+def reverse_derivatives(kernel, alpha):
+    """Return slopes and curvatures of C_L, C_D and x_cp, both in reverse mode."""
+    slopes = jax.jacrev(coefficients, argnums=1)
+    return [jax.vmap(f, (None, 0))(kernel, alpha) for f in (slopes, jax.jacrev(slopes, argnums=1))]
 
 
 def test_slope_at_zero_is_that_of_the_blend():
     """It is not 0, which a derivative through |alpha| would give, and not the formula's 13.8."""
-    slope = jax.grad(lambda a: SuFan().kernel().lift_drag(a)[0])(0.0)
+    slope = value_slope_curvature(SuFan(), [0.0])[1][0, 0]
     h = 1e-4
     assert slope == pytest.approx((SuFan().lift(h) - SuFan().lift(-h)) / (2 * h), rel=1e-4)
     assert 8 < slope < 13.8

@@ -20,6 +20,7 @@ from wingbeat.experiment import fit_film, synthetic_film
 from wingbeat.results.provenance import problem_from
 
 PIGEON = wb.load_species("pigeon")
+SAMPLES = 128  # as in the tests of flights: models of one form then share what is traced
 ANGLES = np.linspace(-math.pi, math.pi, 37)
 
 
@@ -49,9 +50,9 @@ def table(tmp_path_factory):
 def spoken_of(model):
     """Return the numbers of a flight: what every function of a flight model sees of the air loads."""
     q, rates = np.array([0.0, 0.0, 0.1, 0.4, 0.2]), np.array([10.0, 0.5, 0.1, -20.0, 3.0])
-    flight = wb.simulate(model, PIGEON.wingbeat, wb.State(u=10.0), beats=1, samples=8)
+    flight = wb.simulate(model, PIGEON.wingbeat, wb.State(u=10.0), beats=1, samples=SAMPLES)
     driven = wb.simulate_torque_driven(model, PIGEON.wingbeat, q, rates, lambda t, _: jnp.zeros(2), [0.0, 0.01])
-    loads = wb.flight_loads(model, PIGEON.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 3))
+    loads = wb.flight_loads(model, PIGEON.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 2 * SAMPLES + 1))
     air = wb.air_forces(model, PIGEON.wingbeat, q, rates, 0.0)
     terms = wb.equations_of_motion(model, PIGEON.wingbeat, q, rates, 0.0)
     return [
@@ -130,7 +131,9 @@ def test_two_functions_of_one_name_are_two():
     assert OWN.aero.coefficients.name == other.aero.coefficients.name
     assert OWN.aero != other.aero
     for _ in range(2):  # the second time from memory
-        flown = [wb.simulate(p.model, PIGEON.wingbeat, wb.State(u=10.0), 1, 8).states[-1] for p in (OWN, other)]
+        flown = [
+            wb.simulate(p.model, PIGEON.wingbeat, wb.State(u=10.0), 1, SAMPLES).states[-1] for p in (OWN, other)
+        ]
         assert abs(flown[0] - flown[1]).max() > 0.01
     one, two = wb.solve_orbits([OWN, other], starts=1)
     assert one.wingbeat.frequency == pytest.approx(wb.solve_orbit(OWN, starts=1).wingbeat.frequency, rel=1e-6)
@@ -141,33 +144,37 @@ def test_two_functions_of_one_name_are_two():
 
 PROGRAM = """
 import sys, numpy as np, jax.numpy as jnp, wingbeat as wb
-gain = float(sys.argv[1])
-rows = jnp.asarray(np.linspace(0.0, 1.0, 3000)).at[1500].add(gain)
-def own(alpha):
-    return jnp.interp(alpha, jnp.linspace(-4.0, 4.0, 3000), rows), 0.5
+from wingbeat._jax.program_cache import cache_folder
+def lifts(gain):
+    rows = jnp.asarray(np.linspace(0.0, 1.0, 3000)).at[1500].add(gain)
+    def own(alpha):
+        return jnp.interp(alpha, jnp.linspace(-4.0, 4.0, 3000), rows), 0.5
+    model = wb.FlightModel(pigeon.vehicle, own)
+    return wb.flight_loads(model, pigeon.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 64)).lift.tobytes().hex()
 pigeon = wb.load_species("pigeon")
-flight = wb.simulate(wb.FlightModel(pigeon.vehicle, own), pigeon.wingbeat, wb.State(u=10.0), 1, 4)
-print(flight.states.tobytes().hex())
+for gain in sys.argv[1:]:
+    print(lifts(float(gain)), len([path for path in cache_folder().rglob("*") if path.is_file()]))
 """
 
 
 def test_programs_on_disk_know_functions_of_one_name_apart(tmp_path):
     """The functions differ in one number out of 3000; the first to come leaves its program in an empty cache."""
 
-    def ran(gain, cache):
+    def ran(cache, *gains):
         environment = os.environ | {"WINGBEAT_CACHE": str(tmp_path / cache)}
         done = subprocess.run(
-            [sys.executable, "-c", PROGRAM, gain], env=environment, capture_output=True, text=True
+            [sys.executable, "-c", PROGRAM, *gains], env=environment, capture_output=True, text=True
         )
         assert done.returncode == 0, done.stderr
-        return done.stdout
+        return [line.split() for line in done.stdout.splitlines()]
 
-    first, second = ran("0", "one"), ran("0.7", "one")
-    assert first != second
-    assert second == ran("0.7", "other")
-    count = len([path for path in (tmp_path / "one").rglob("*") if path.is_file()])
-    assert first == ran("0", "one")  # found again, not traced anew
-    assert len([path for path in (tmp_path / "one").rglob("*") if path.is_file()]) == count
+    ((first, kept),) = ran("one", "0")
+    found, other = ran("one", "0", "0.7")
+    assert found == [first, kept]  # found again, not traced anew
+    assert other[0] != first
+    assert int(other[1]) > int(kept)
+    ((alone, _),) = ran("other", "0.7")
+    assert other[0] == alone
 
 
 def test_a_function_goes_to_other_processes_if_it_has_a_place_in_a_module():

@@ -1,8 +1,7 @@
 """``wingbeat reduce`` and ``fit``: what they write, and every fault of a file in its words."""
 
+import importlib
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -204,18 +203,24 @@ def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):
     assert again.aero.coefficients == own
 
 
-STUDY, DATA = ROOT / "validation/measured_wings.py", ROOT / "../shared/data"
+DATA = ROOT / "../shared/data"
+
+
+@pytest.fixture
+def study(monkeypatch):
+    """The command line of the study of measured wings."""
+    monkeypatch.syspath_prepend(ROOT / "validation")
+    return importlib.import_module("measured_wings").main
 
 
 @pytest.mark.skipif(not DATA.is_dir(), reason="other people's measurements are not part of this repository")
-def test_the_study_of_measured_wings_writes_what_the_repository_holds(here):
-    subprocess.run([sys.executable, STUDY, "--data", DATA, "-o", "."], check=True, capture_output=True)
+def test_the_study_of_measured_wings_writes_what_the_repository_holds(study, here):
+    assert study(["--data", str(DATA), "-o", "."]) == 0
     page = Path("measured_wings.md").read_text()
     assert page == (ROOT / "docs/measured_wings.md").read_text()
     assert page.count("| gull F") == 9 + 18
 
 
-def test_the_study_says_what_is_missing(here):
-    found = subprocess.run([sys.executable, STUDY, "--data", "."], check=False, capture_output=True, text=True)
-    assert found.returncode == 2
-    assert "cannot find gull_wing_polar.csv, jackdaw_glide_wake.csv" in found.stderr
+def test_the_study_says_what_is_missing(study, here, capsys):
+    assert study(["--data", "."]) == 2
+    assert "cannot find gull_wing_polar.csv, jackdaw_glide_wake.csv" in capsys.readouterr().err

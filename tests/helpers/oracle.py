@@ -19,6 +19,12 @@ from tests.helpers.oracle_laws import prescribed, wing_angles
 
 X, Y, Z = np.eye(3)
 STILL = np.zeros(3)
+NEXT, AFTER = [1, 2, 0], [2, 0, 1]
+
+
+def cross(a, b):
+    """a x b along the last axis; NumPy's own takes five times as long, and half the time of this oracle."""
+    return a[..., NEXT] * b[..., AFTER] - a[..., AFTER] * b[..., NEXT]
 
 
 # --- Coefficients: mirrored extension, away from the blends
@@ -67,16 +73,16 @@ def dickinson(alpha):
 def _carry(base, spin, arm, arm_rate=STILL, arm_acceleration=STILL):
     """Velocity and acceleration at `arm` from `base`; the arm's own rates as seen in the turning frame."""
     (v, a), (w, w_dot) = base, spin
-    turn = np.cross(w, arm)
+    turn = cross(w, arm)
     v_new = v + turn + arm_rate
-    a_new = a + np.cross(w_dot, arm) + np.cross(w, turn) + 2.0 * np.cross(w, arm_rate) + arm_acceleration
+    a_new = a + cross(w_dot, arm) + cross(w, turn) + 2.0 * cross(w, arm_rate) + arm_acceleration
     return v_new, a_new
 
 
 def _spin_up(spin, axis, rate, acceleration):
     """Spin of a frame turning about `axis`, which is fixed in the frame of `spin`."""
     w, w_dot = spin
-    return w + rate * axis, w_dot + acceleration * axis + np.cross(w, rate * axis)
+    return w + rate * axis, w_dot + acceleration * axis + cross(w, rate * axis)
 
 
 class Wing:
@@ -114,13 +120,13 @@ class Wing:
         up = -math.cos(beta) * x_b + math.sin(beta) * z_b
         self.e_c0 = math.sin(beta) * x_b + math.cos(beta) * z_b
         e_arm = math.cos(phi) * Y + math.sin(phi) * up
-        n_arm = np.cross(self.e_c0, e_arm)
+        n_arm = cross(self.e_c0, e_arm)
         own = phi - fold * law
         e_own = np.cos(own) * Y + np.sin(own) * up
-        e_n0, tilt = np.cross(self.e_c0, e_own), theta * self.ratio
+        e_n0, tilt = cross(self.e_c0, e_own), theta * self.ratio
         e_arm = math.cos(sweep) * e_arm + math.sin(sweep) * self.e_c0
         self.e_s = math.cos(sweep) * e_own + math.sin(sweep) * self.e_c0
-        level = np.cross(self.e_s, e_n0)
+        level = cross(self.e_s, e_n0)
         self.e_c = np.cos(tilt) * level + np.sin(tilt) * e_n0
         self.e_n = -np.sin(tilt) * level + np.cos(tilt) * e_n0
 
@@ -162,28 +168,28 @@ class Wing:
         columns = [
             np.broadcast_to(X, r.shape),
             np.broadcast_to(Z, r.shape),
-            np.cross(-Y, r - self.body),
-            np.cross(self.e_c0, r - self.shoulder),
-            np.cross(-self.ratio * self.e_s, r - self.station),
+            cross(-Y, r - self.body),
+            cross(self.e_c0, r - self.shoulder),
+            cross(-self.ratio * self.e_s, r - self.station),
         ]
         return np.stack(columns, axis=-1)
 
     def jacobian_rate(self, r, v):
         """Rate of `jacobian` along the motion, for points at `r` moving with `v`."""
-        e_c0_rate = np.cross(self.w_body, self.e_c0)
-        e_s_rate = np.cross(self.w_own, self.e_s)
+        e_c0_rate = cross(self.w_body, self.e_c0)
+        e_s_rate = cross(self.w_own, self.e_s)
         columns = [
             np.zeros(r.shape),
             np.zeros(r.shape),
-            np.cross(-Y, v - self.v_body),
-            np.cross(e_c0_rate, r - self.shoulder) + np.cross(self.e_c0, v - self.v_shoulder),
-            -self.ratio * (np.cross(e_s_rate, r - self.station) + np.cross(self.e_s, v - self.at_station[0])),
+            cross(-Y, v - self.v_body),
+            cross(e_c0_rate, r - self.shoulder) + cross(self.e_c0, v - self.v_shoulder),
+            -self.ratio * (cross(e_s_rate, r - self.station) + cross(self.e_s, v - self.at_station[0])),
         ]
         return np.stack(columns, axis=-1)
 
     def in_body_axes(self, r, v):
         """Velocity of points as the body sees them (world components)."""
-        return v - self.v_body - np.cross(self.w_body, r - self.body)
+        return v - self.v_body - cross(self.w_body, r - self.body)
 
     def air_loads(self, air, coefficients, force_at_cp, full_airspeed):
         """(place, velocity, force, alpha, lift, drag) per strip of one wing."""
@@ -243,14 +249,14 @@ def accelerations(
 
     def resultant(force, arm):
         """Both wings' force along x and z and nose-up moment."""
-        return 2.0 * np.array([force[:, 0].sum(), force[:, 2].sum(), -np.cross(arm, force)[:, 1].sum()])
+        return 2.0 * np.array([force[:, 0].sum(), force[:, 2].sum(), -cross(arm, force)[:, 1].sum()])
 
     place, _, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     right += resultant(force, place - wing.body)
     for m, r, _, a in wing.mass_points():
         m, arm = m[:, None], r - wing.body
         right += resultant(-m * (a + air["gravity"] * Z), arm)
-        for k, per_unit in enumerate((X + 0.0 * arm, Z + 0.0 * arm, np.cross(-Y, arm))):
+        for k, per_unit in enumerate((X + 0.0 * arm, Z + 0.0 * arm, cross(-Y, arm))):
             matrix[:, k] += resultant(m * per_unit, arm)
     return np.linalg.solve(matrix, right)
 

@@ -1,5 +1,7 @@
 """Flights flown again by SciPy, independent of the package's own integrator."""
 
+import functools
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +30,11 @@ def dop853(rates, phases, start, rtol=1e-11):
     return found.y[:, -1]
 
 
-@jax.jit
-def _rates_and_integrands(model, wingbeat, phase, state):
+@functools.partial(jax.jit, static_argnames=("kind", "shapes"))
+def _rates_and_integrands(held, phase, state, kind, shapes):
+    ends = np.cumsum([math.prod(shape) for shape in shapes])[:-1]
+    leaves = [part.reshape(shape) for part, shape in zip(jnp.split(held, ends), shapes, strict=True)]
+    model, wingbeat = jax.tree.unflatten(kind, leaves)
     now = flight_loads(model, wingbeat, wb.State(*state[:, None]), phase[None])
     power = jnp.stack([now.actuator_power, now.air_power, now.hinge_power])
     rates = state_rates(model, wingbeat, phase, state)
@@ -39,7 +44,12 @@ def _rates_and_integrands(model, wingbeat, phase, state):
 def refly(model, wingbeat, start):
     """Fly one period with DOP853, the integrals as extra states."""
     first = np.concatenate([start, np.zeros(len(INTEGRALS))])
-    end = dop853(lambda p, y: _rates_and_integrands(model, wingbeat, np.asarray(p), y[:6]), (0.0, 1.0), first)
+    # Taken apart once: thousands of calls would each do it with the sixty numbers of the records.
+    leaves, kind = jax.tree.flatten((model, wingbeat))
+    arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
+    held = jnp.asarray(np.concatenate([array.ravel() for array in arrays]))
+    parts = {"kind": kind, "shapes": tuple(array.shape for array in arrays)}
+    end = dop853(lambda p, y: _rates_and_integrands(held, np.asarray(p), y[:6], **parts), (0.0, 1.0), first)
     return Reflight(end[:6], dict(zip(INTEGRALS, end[6:], strict=True)))
 
 

@@ -15,6 +15,7 @@ PHASE = np.linspace(0.0, 1.0, 9)[:-1]
 SHOULDER = {"wing.shoulder": [0.03, 0.02, 0.01], "wing.stroke_plane_angle": 1.2}
 
 
+@jax.jit
 def of_flight(model, wingbeat, pitch_state, phase):
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
     body = body_rates(model, motion, pitch_state)[1:]
@@ -34,7 +35,7 @@ def test_torques_are_those_of_the_five_coordinates(name, force_point, airspeed):
     species, model = animal(name, force_point, airspeed)
     beat = species.wingbeat
     state = np.random.default_rng(3).normal([[0.2], [9.0], [0.5], [1.0]], [[0.2], [2.0], [1.0], [3.0]], (4, 8))
-    found, moved, body = jax.jit(of_flight)(model, beat, state, PHASE)
+    found, moved, body = of_flight(model, beat, state, PHASE)
     none = np.zeros(8)
     flap = beat.flap_mean + beat.flap_amplitude * np.cos(2 * np.pi * PHASE)
     pitch = beat.pitch_mean - beat.pitch_amplitude * np.sin(2 * np.pi * PHASE)
@@ -54,11 +55,11 @@ def test_rigid_wings_have_no_actuators_but_the_hinges():
     species, model = animal("pigeon", "quarter-chord")
     rigid = wb.Wingbeat(6.0, 0.1, 0.7, 0.1, 0.3)
     state = np.tile([[0.2], [9.0], [0.5], [1.0]], 8)
-    found, _, _ = jax.jit(of_flight)(model, rigid, state, PHASE)
+    found, _, _ = of_flight(model, rigid, state, PHASE)
     np.testing.assert_allclose(
         found.actuator_power, found.hinge_power, atol=1e-12 * np.abs(found.hinge_power).max()
     )
-    retracted, _, _ = jax.jit(of_flight)(model, species.wingbeat, state, PHASE)
+    retracted, _, _ = of_flight(model, species.wingbeat, state, PHASE)
     assert np.abs(retracted.actuator_power - retracted.hinge_power).max() > 0.1
 
 
@@ -68,7 +69,7 @@ def test_the_shares_of_hinge_power_add_to_it_and_are_those_of_the_five_coordinat
     species, model = animal(name, force_point)
     beat = species.wingbeat
     state = np.random.default_rng(4).normal([[0.2], [9.0], [0.5], [1.0]], [[0.2], [2.0], [1.0], [3.0]], (4, 8))
-    found, moved, _ = jax.jit(of_flight)(model, beat, state, PHASE)
+    found, moved, _ = of_flight(model, beat, state, PHASE)
     largest = np.abs(found.hinge_power).max()
     shares = found.aerodynamic_power + found.inertial_power + found.body_power
     np.testing.assert_allclose(shares, found.hinge_power, rtol=0, atol=1e-12 * largest)

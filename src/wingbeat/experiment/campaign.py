@@ -119,43 +119,51 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     cos, sin = np.cos(np.deg2rad(campaign.alpha_deg)), np.sin(np.deg2rad(campaign.alpha_deg))
     normal = lift * cos + drag * sin
     true = np.stack([normal, drag * cos - lift * sin, normal * (0.5 - centre)], axis=1)
+    points = [(place, repeat) for place in range(len(true)) for repeat in range(1, campaign.repeats + 1)]
+    plate = {key: getattr(campaign, key) for key in _SHARED}
     runs = []
     for reynolds in campaign.reynolds:
         speed = reynolds * campaign.viscosity / campaign.chord
-        for alpha, coefficients in zip(campaign.alpha_deg, true, strict=True):
-            for repeat in range(1, campaign.repeats + 1):
-                loads, tare = _loads(campaign, coefficients, speed, time, random)
-                name = f"re{reynolds:.0f}_a{alpha:g}_{repeat}"
-                plate = {key: getattr(campaign, key) for key in _SHARED}
-                series = dict(zip(CHANNELS, loads, strict=True))
-                runs.append(LoadCellRun(name, time, **series, alpha_deg=alpha, speed=speed, tare=tare, **plate))
+        records = _records(campaign, true[[place for place, _ in points]], speed, time, random)
+        for (place, repeat), loads, tare in zip(points, *records, strict=True):
+            alpha = campaign.alpha_deg[place]
+            name = f"re{reynolds:.0f}_a{alpha:g}_{repeat}"
+            series = dict(zip(CHANNELS, loads, strict=True))
+            runs.append(LoadCellRun(name, time, **series, alpha_deg=alpha, speed=speed, tare=tare, **plate))
     return runs
 
 
 _SHARED = ("density", "viscosity", "chord", "span", "thickness", "channel_width")
 
 
-def _loads(
+def _records(
     campaign: Campaign, coefficients: Array, speed: float, time: Array, random: np.random.Generator
 ) -> tuple[Array, Array]:
-    """Return the channels of one run, shape (3, n), and the zero readings before and after, shape (3, 2)."""
+    """Return the channels of runs, shape (runs, 3, n), and their zeros before and after, shape (runs, 3, 2)."""
     from scipy.signal import lfilter
 
     count = len(time)
     memory = np.exp(-1.0 / (campaign.rate * campaign.memory))
+    size = len(coefficients)
+    kicks, zero, noise = np.empty((size, 3, count)), np.empty((size, 3, 2)), np.empty((size, 3, count))
+    for i in range(size):  # run by run, as a record is made
+        kicks[i] = random.normal(size=(3, count))
+        zero[i] = random.uniform(-campaign.drift, campaign.drift, (3, 2))
+        noise[i] = random.normal(size=(3, count))
+    kicks *= np.sqrt(1.0 - memory**2)
     # From the stationary distribution on, or the first second would be too quiet.
-    kicks = random.normal(size=(3, count)) * np.sqrt(1.0 - memory**2)
-    kicks[:, 0] /= np.sqrt(1.0 - memory**2)
-    flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks, axis=1))
+    kicks[..., 0] /= np.sqrt(1.0 - memory**2)
+    flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks))
     level = campaign.turbulence * np.array([[1.0], [1.0], [0.25]])
     force = 0.5 * campaign.density * speed**2 * campaign.chord * campaign.span
-    size = np.array([[force], [force], [force * campaign.chord]])
+    full = np.array([[force], [force], [force * campaign.chord]])
     transient = 1.0 + campaign.start * np.exp(-time / 1.5)
     scale = np.array([[1.0], [1.0], [0.1]])
-    zero = random.uniform(-campaign.drift, campaign.drift, (3, 2)) * scale
-    drifting = zero[:, :1] + (zero[:, 1:] - zero[:, :1]) * (time - time[0]) / (time[-1] - time[0])
-    noise = campaign.cell_noise * scale * random.normal(size=(3, count))
-    return size * (coefficients[:, None] * transient + level * flow) + drifting + noise, zero
+    zero *= scale
+    share = time - time[0]
+    drifting = zero[..., :1] + (zero[..., 1:] - zero[..., :1]) * share / (time[-1] - time[0])
+    loads = full * (coefficients[..., None] * transient + level * flow) + drifting
+    return loads + campaign.cell_noise * scale * noise, zero
 
 
 def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import math
 from collections.abc import Callable
@@ -28,9 +29,12 @@ _EXPONENTS = np.linspace(0.2, 2.0, 10)
 _CENTRE_DECAYS = np.geomspace(0.02, 0.6, 10)
 
 
-@jax.jit
-def _value_and_slopes(terms: Any, alpha_deg: Any) -> Any:
-    return terms.at(alpha_deg), jax.jacfwd(type(terms).at)(terms, alpha_deg)
+@functools.partial(jax.jit, static_argnames=("kind",))
+def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any) -> Any:
+    # All numbers in one array: a record's fields, handed over one by one, take longer than the formula.
+    terms = jax.tree.unflatten(kind, list(numbers))
+    slopes = jax.jacfwd(type(terms).at)(terms, alpha_deg)
+    return [terms.at(alpha_deg), *jax.tree.leaves(slopes)]
 
 
 def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
@@ -43,7 +47,10 @@ def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
     >>> round(float(value[0]), 12), round(float(slopes.amplitude[0]), 12)
     (2.1, 1.0)
     """
-    return at_angles(_value_and_slopes, terms, alpha_deg)
+    numbers, kind = jax.tree.flatten(terms)
+    function = functools.partial(_value_and_slopes, kind=kind)
+    value, *slopes = at_angles(function, np.array(numbers, dtype=np.float64), alpha_deg)
+    return value, jax.tree.unflatten(kind, slopes)
 
 
 def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
@@ -148,8 +155,12 @@ class BoxForm(CurveForm):
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
         """Return the derivatives in the parameters, shape (n, parameters)."""
-        _, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
-        return np.column_stack([getattr(slopes, name) for name in self.names])
+        return self.value_and_slopes(alpha_deg, parameters)[1]
+
+    def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
+        """Return `value` and `slopes`, which come of one evaluation."""
+        value, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
+        return value, np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
         """Return the three best nodes of a grid over the non-linear terms, the others by linear least squares."""
@@ -171,9 +182,8 @@ class BoxForm(CurveForm):
         # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
         columns = {name: getattr(slopes, name) for name in names}
         if "phase_deg" in self.names:
-            for name, phase in (("amplitude", 0.0), ("cosine", 90.0)):
-                turned = _any_terms(self.kind, blank | {"phase_deg": phase})
-                columns[name] = value_and_slopes(turned, a)[1].amplitude
+            turned = _any_terms(self.kind, blank | {"phase_deg": 90.0})
+            columns["cosine"] = value_and_slopes(turned, a)[1].amplitude
 
         def parameters(factors: Array) -> dict[str, float]:
             value = dict(zip(columns, factors.tolist(), strict=True)) | held

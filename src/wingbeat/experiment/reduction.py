@@ -26,6 +26,8 @@ CENTRE_FLOOR = 0.02
 # Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.
 _TREND_BLOCKS, _TREND_LIMIT = 16, 7.0
 _BLOCKED = 0.05
+# Samples that are reduced together, of which ten copies are held: some 20 MB.
+_AT_A_TIME = 1 << 18
 
 
 class RunMeans(NamedTuple):
@@ -72,27 +74,59 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
     ------
     InvalidInputError : `last` not positive or longer than the record, or a window of fewer than 32 samples.
     """
+    return _reduced([run], last)[0]
+
+
+def _reduced(runs: Sequence[LoadCellRun], last: float) -> list[RunMeans]:
+    """Return the coefficients of each run: hundreds in a few calls of NumPy, as a call costs more than a record."""
+    steady = [_steady(run, last) for run in runs]
+    alike: dict[int, list[int]] = {}
+    for place, (_, loads) in enumerate(steady):
+        alike.setdefault(loads.shape[1], []).append(place)
+    found: dict[int, RunMeans] = {}
+    for size, places in alike.items():
+        most = max(_AT_A_TIME // size, 1)
+        for first in range(0, len(places), most):
+            some = places[first : first + most]
+            loads = np.stack([steady[place][1] for place in some], axis=1)
+            means = _means([runs[place] for place in some], [steady[place][0] for place in some], loads)
+            found.update(zip(some, means, strict=True))
+    return [found[place] for place in range(len(runs))]
+
+
+def _steady(run: LoadCellRun, last: float) -> tuple[float, NDArray[np.float64]]:
+    """Return the angle [deg] of a run and its C_N, C_T and C_M in the window at its end, shape (3, n)."""
     keep = _window(run, last)
     share = (run.time[keep] - run.time[0]) / (run.time[-1] - run.time[0])
     tare = np.asarray(run.tare)
     raw = np.stack([getattr(run, name)[keep] for name in CHANNELS])
     normal, tangential, moment = raw - tare[:, :1] - (tare[:, 1:] - tare[:, :1]) * share
     alpha_deg = float(np.mean(np.asarray(run.alpha_deg)[keep]))
-    cos, sin = math.cos(math.radians(alpha_deg)), math.sin(math.radians(alpha_deg))
     force = 0.5 * run.density * run.speed**2 * run.chord * run.span
-    c_n, c_t, c_m = normal / force, tangential / force, moment / (force * run.chord)
-    mean_n, mean_m = c_n.mean(), c_m.mean()
+    return alpha_deg, np.stack([normal / force, tangential / force, moment / (force * run.chord)])
+
+
+def _means(runs: list[LoadCellRun], alpha_deg: list[float], loads: NDArray[np.float64]) -> list[RunMeans]:
+    """Return the coefficients of runs from their angles [deg] and their C_N, C_T, C_M, shape (3, runs, n)."""
+    c_n, c_t, c_m = loads
+    turns = [math.radians(angle) for angle in alpha_deg]
+    cos, sin = (np.array([[function(turn)] for turn in turns]) for function in (math.cos, math.sin))
+    mean_n, mean_m = c_n.mean(axis=1, keepdims=True), c_m.mean(axis=1, keepdims=True)
     # How the ratio follows its parts, to first order; where there is no ratio it is not used.
-    lever = -(c_m - mean_m / mean_n * c_n) / mean_n if mean_n else np.zeros_like(c_m)
-    series = np.stack([c_n * cos - c_t * sin, c_n * sin + c_t * cos, c_m, lever, c_n])
-    mean, sd, se = series.mean(axis=1), series.std(axis=1, ddof=1), standard_error(series)
-    found = np.stack([mean, sd, se])[:, :4]
-    found[:, 3] = _centre(mean_n, mean_m, se[4], sd[3], se[3])
-    notes = _unsteady(run.name, series[:3])
-    blockage = _blockage(run, cos, sin)
-    return RunMeans(
-        alpha_deg, run.reynolds, found[0], found[1], found[2], float(mean_n), float(se[4]), blockage, notes
-    )
+    some = np.where(mean_n == 0, 1.0, mean_n)
+    lever = np.where(mean_n == 0, 0.0, -(c_m - mean_m / some * c_n) / some)
+    series = np.stack([c_n * cos - c_t * sin, c_n * sin + c_t * cos, c_m, lever, c_n], axis=1)
+    mean, sd, se = series.mean(axis=2), series.std(axis=2, ddof=1), standard_error(series)
+    notes = _unsteady([run.name for run in runs], series[:, :3])
+    means = []
+    for i, run in enumerate(runs):
+        found = np.stack([mean[i], sd[i], se[i]])[:, :4]
+        normal, normal_se = float(mean_n[i, 0]), float(se[i, 4])
+        found[:, 3] = _centre(normal, float(mean_m[i, 0]), normal_se, sd[i, 3], se[i, 3])
+        blockage = _blockage(run, float(cos[i, 0]), float(sin[i, 0]))
+        rows = found[0], found[1], found[2]
+        means.append(RunMeans(alpha_deg[i], run.reynolds, *rows, normal, normal_se, blockage, notes[i]))
+    return means
 
 
 def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
@@ -118,19 +152,21 @@ def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float
     return 0.5 - moment / normal, sd, se
 
 
-def _unsteady(name: str, series: NDArray[np.float64]) -> tuple[str, ...]:
+def _unsteady(names: list[str], series: NDArray[np.float64]) -> list[tuple[str, ...]]:
     """Say which coefficients drift within the window by more than their block means scatter about a line."""
-    size = series.shape[1] // _TREND_BLOCKS
-    blocks = series[:, : size * _TREND_BLOCKS].reshape(len(series), _TREND_BLOCKS, size).mean(axis=2)
+    size = series.shape[2] // _TREND_BLOCKS
+    blocks = series[..., : size * _TREND_BLOCKS].reshape(*series.shape[:2], _TREND_BLOCKS, size).mean(axis=3)
     place = np.linspace(-1.0, 1.0, _TREND_BLOCKS)
     slope = blocks @ place / (place @ place)
-    left = blocks - blocks.mean(axis=1, keepdims=True) - slope[:, None] * place
-    error = np.sqrt((left**2).sum(axis=1) / (_TREND_BLOCKS - 2) / (place @ place))
+    left = blocks - blocks.mean(axis=2, keepdims=True) - slope[..., None] * place
+    error = np.sqrt((left**2).sum(axis=2) / (_TREND_BLOCKS - 2) / (place @ place))
     drifts = np.abs(slope) > np.maximum(_TREND_LIMIT * error, 1e-9)
-    moved = [label for label, drifting in zip(QUANTITIES, drifts, strict=False) if drifting]
-    if not moved:
-        return ()
-    return (f"{name}: {', '.join(moved)} still moves within the window; give a smaller --last",)
+    notes: list[tuple[str, ...]] = []
+    for name, row in zip(names, drifts, strict=True):
+        moved = [label for label, drifting in zip(QUANTITIES, row, strict=False) if drifting]
+        text = f"{name}: {', '.join(moved)} still moves within the window; give a smaller --last"
+        notes.append((text,) if moved else ())
+    return notes
 
 
 def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
@@ -162,7 +198,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
         faults = FaultList()
         faults.add("runs", "none", "there is nothing to reduce", "name at least one run")
         faults.raise_if_any()
-    means = [reduce_run(run, last) for run in runs]
+    means = _reduced(runs, last)
     alpha = np.array([one.alpha_deg for one in means])
     refuse_radians("alpha_deg of the runs", alpha)
     stream = _clusters(np.log([one.reynolds for one in means]), math.log(SAME_REYNOLDS))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat.errors import FaultList
-from wingbeat.experiment.forms import CurveForm
+from wingbeat.experiment.forms import BoxForm, CurveForm
 
 __all__ = ["CurveFit", "FitRangeWarning", "fit_curve"]
 
@@ -269,10 +269,21 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
     names = form.names
     bounds = [form.lowest.get(n, -math.inf) for n in names], [form.highest.get(n, math.inf) for n in names]
 
+    # The search asks for slopes where it last asked for the value.
+    kept: tuple[bytes, Array] = b"", y
+
     def residuals(x: Array) -> Array:
-        return (form.value(a, dict(zip(names, x.tolist(), strict=True))) - y) / errors
+        nonlocal kept
+        parameters = dict(zip(names, x.tolist(), strict=True))
+        if not isinstance(form, BoxForm):
+            return (form.value(a, parameters) - y) / errors
+        value, slopes = form.value_and_slopes(a, parameters)
+        kept = x.tobytes(), slopes
+        return (value - y) / errors
 
     def slopes(x: Array) -> Array:
+        if kept[0] == x.tobytes():
+            return kept[1] / errors[:, None]
         return form.slopes(a, dict(zip(names, x.tolist(), strict=True))) / errors[:, None]
 
     best: Any = None

@@ -11,7 +11,7 @@ MIN_BLOCKS = 8
 
 
 def standard_error(series: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the standard error of the mean of each row of `series`, shape (channels, n), by block means.
+    """Return the standard error of the mean of each row of `series`, shape (..., n), by block means.
 
     Blocks of 1, 2, 4, ... samples are averaged until their means are independent: the standard error found from
     blocks of B samples grows with B until then. The block is the smallest with ``B^3 > 2 n (se_B / se_1)^4``,
@@ -29,7 +29,7 @@ def standard_error(series: NDArray[np.float64]) -> NDArray[np.float64]:
     n = series.shape[-1]
     blocks, size = series, 1
     first = found = _error_of_independent(series)
-    settled = np.zeros(series.shape[0], dtype=bool)
+    settled = np.zeros(series.shape[:-1], dtype=bool)
     while blocks.shape[-1] // 2 >= MIN_BLOCKS and not settled.all():
         blocks, size = 0.5 * (blocks[..., 0 : blocks.shape[-1] // 2 * 2 : 2] + blocks[..., 1::2]), 2 * size
         error = _error_of_independent(blocks)

@@ -101,7 +101,7 @@ def test_a_much_wider_range_of_frequency_is_tried():
     wider = {c.sign: c for c in possible_changes(problem, [], {}) if c.name == "frequency"}
     assert wider["<="].reach >= 30
     assert wider[">="].reach <= 0.2
-    once = wb.SolverOptions(diagnosis=wb.DiagnosisOptions(back_times=1, widened=(0, 10)))
+    once = wb.SolverOptions(diagnosis=wb.DiagnosisOptions(far_iterations=15, back_iterations=10, back_times=1))
     found = find_orbit(problem, 1, most_starts=2, options=once)
     assert found.status is wb.Status.INFEASIBLE
     assert any((c.name, c.sign) == ("frequency", "<=") for c in found.relaxations), found.message

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
-from wingbeat._jax.config import jax
+from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.flights import state_rates
 
 rates = jax.jit(state_rates)
@@ -54,9 +54,10 @@ def second_opinion(orbit: wb.Orbit) -> float:
     """Return the largest closure miss of a flight by SciPy's DOP853 at rtol 1e-12."""
     problem, beat = orbit.problem, orbit.wingbeat
     start = np.array(orbit.initial_state)
-    model = problem.model
+    # As arrays at once, not their some fifty numbers anew in each of thousands of calls.
+    model, wingbeat = jax.tree.map(jnp.asarray, (problem.model, beat))
     flown = solve_ivp(
-        lambda t, y: np.asarray(rates(model, beat, t * beat.frequency, y)),
+        lambda t, y: np.asarray(rates(model, wingbeat, t * beat.frequency, y)),
         (0.0, 1.0 / beat.frequency),
         start,
         method="DOP853",

@@ -1,6 +1,7 @@
 """Where there is no orbit: the law that fails, the least change that flies, and what the record keeps of them."""
 
 import dataclasses
+import functools
 import math
 
 import numpy as np
@@ -13,6 +14,7 @@ from wingbeat.orbits.infeasible.deficit import LAWS, Balance, Deficit, Unbalance
 from wingbeat.orbits.infeasible.diagnosis import Nearest, nearest_beat
 from wingbeat.orbits.infeasible.relaxation import Change, is_limit, possible_changes, relaxation, with_change
 from wingbeat.orbits.infeasible.without_orbit import unexplained, without_orbit
+from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.nlp.local_search import Candidate, search
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solve import find_orbit
@@ -26,9 +28,16 @@ QUICK = [CASES[i] for i in (1, 6, 10, 16, 22, 26)]
 PIGEON = wb.load_species("pigeon")
 
 
-@pytest.fixture(scope="module")
-def solved():
-    return {case.kind: find_orbit(case.problem, 2, most_starts=12) for case in QUICK}
+# With fewer ends to start from, the closest beat of the shoulder too far back lacks lift.
+STARTS = {"shoulder too far back": 12}
+
+
+@functools.cache
+def solved(kind):
+    """Return what is found for the case of a kind, with advice, as a batch asks for it."""
+    (case,) = (case for case in QUICK if case.kind == kind)
+    (found,) = find_orbits([case.problem], 2, most_starts=STARTS.get(kind, 3), advise=True)
+    return found
 
 
 def test_there_are_thirty_cases_of_six_kinds():
@@ -37,22 +46,22 @@ def test_there_are_thirty_cases_of_six_kinds():
 
 
 @pytest.mark.parametrize("case", QUICK, ids=lambda case: case.kind)
-def test_the_right_law_is_named_and_the_smallest_change_flies(case, solved):
-    found = solved[case.kind]
+def test_the_right_law_is_named_and_the_smallest_change_flies(case):
+    found = solved(case.kind)
     assert found.status is wb.Status.INFEASIBLE
     assert found.deficits[0].law in case.laws
     assert str(found.deficits[0]) in found.message
     assert all(str(limit) in found.message for limit in case.problem.subject_to)
     change = found.relaxations[0]
     assert change.text in found.message
-    again = find_orbit(change.apply(case.problem), 2, seed=1, advise=False)
+    again = find_orbit(change.apply(case.problem), 1, seed=1, advise=False)
     assert again.status is wb.Status.CONVERGED, change.text
 
 
 @pytest.mark.parametrize("kind", ["too slow", "amplitude too small"])
-def test_with_the_force_that_is_short_it_flies(kind, solved):
+def test_with_the_force_that_is_short_it_flies(kind):
     """A steady force on all mass is another gravity: told shares and one percent more do, half of them do not."""
-    problem, shares = solved[kind].problem, {s.law: s.share for s in solved[kind].deficits}
+    problem, shares = solved(kind).problem, {s.law: s.share for s in solved(kind).deficits}
     assert len(shares) == 1
 
     def helped(part):
@@ -67,13 +76,13 @@ def test_with_the_force_that_is_short_it_flies(kind, solved):
             bounds={**problem.bounds, "body_pitch": (low - tilt, high - tilt)},
         )
 
-    assert find_orbit(helped(1.02), 2, advise=False).status is wb.Status.CONVERGED
+    assert find_orbit(helped(1.02), 1, advise=False).status is wb.Status.CONVERGED
     assert find_orbit(helped(0.5), 2, most_starts=4, advise=False).status is wb.Status.INFEASIBLE
 
 
-def test_the_closest_beat_misses_by_the_force_that_is_told(solved):
+def test_the_closest_beat_misses_by_the_force_that_is_told():
     """Certified: what the flight lacks in vertical momentum over a beat is the lift that is short."""
-    found = solved["too slow"]
+    found = solved("too slow")
     (short,) = found.deficits
     mass = found.problem.vehicle.mass
     force = -found.closure["w"] * mass * found.wingbeat.frequency
@@ -86,20 +95,19 @@ def test_the_closest_beat_misses_by_the_force_that_is_told(solved):
     assert mass * found.problem.air.gravity - lift == pytest.approx(short.amount, rel=0.05)
 
 
-def test_nobody_pays_for_advice_that_is_not_asked_for(solved):
+def test_nobody_pays_for_advice_that_is_not_asked_for():
     case = QUICK[2]
     (orbit,) = wb.solve_orbits([case.problem], 1, most_starts=2)
     assert orbit.status is wb.Status.INFEASIBLE
     assert orbit.relaxations == ()
     assert "thrust is short of drag" in orbit.message
     assert "changes" not in orbit.message
-    (advised,) = wb.solve_orbits([case.problem], 1, most_starts=2, advise=True)
-    assert advised.relaxations
+    assert solved(case.kind).relaxations
 
 
-def test_record_and_file_keep_shortage_and_changes(solved, tmp_path):
+def test_record_and_file_keep_shortage_and_changes(tmp_path):
     case = QUICK[3]
-    orbit = wb.Orbit.of(solved[case.kind], 2)
+    orbit = wb.Orbit.of(solved(case.kind), 2)
     record = orbit.record()
     assert record["failed_balance"][0] | {"share": 0, "amount": 0} == {
         "law": MOMENT,
@@ -111,7 +119,7 @@ def test_record_and_file_keep_shortage_and_changes(solved, tmp_path):
     orbit.save(tmp_path / "none.nc")
     back = wb.load_orbit(tmp_path / "none.nc")
     assert back.record() == record
-    assert back.relaxations == orbit.relaxations == solved[case.kind].relaxations
+    assert back.relaxations == orbit.relaxations == solved(case.kind).relaxations
     for change in back.relaxations:  # the species of a file knows its records only
         own, other = change.apply(case.problem), change.apply(back.problem)
         assert (own.bounds, own.speed, own.vehicle) == (other.bounds, other.speed, other.vehicle)
@@ -182,8 +190,8 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     assert (failure.status, beat.scaled is best.scaled) == (Status.NOT_CONVERGED, True)
 
 
-def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_the_search_for_why(solved):
-    problem = solved["too slow"].problem
+def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_the_search_for_why():
+    problem = solved("too slow").problem
     found = find_orbit(problem, 2, most_starts=2, threads=1, advise=False, explain=False)
     assert (found.status, found.deficits, found.relaxations) == (Status.INFEASIBLE, (), ())
     assert found.message == "no orbit within the bounds from 2 starts; the balance that fails was not computed"

@@ -25,9 +25,20 @@ def lift_swing(beat):
     return ((lift - beat.mean(lift)) ** 2).mean() / beat.weight**2
 
 
-def test_every_quantity_is_what_the_record_says():
-    orbit = wb.solve_orbit(wb.OrbitProblem(BAT, speed=SPEED), starts=1)
-    solution = find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
+@pytest.fixture(scope="module")
+def bat():
+    """The bat's orbit of least frequency."""
+    return find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
+
+
+@pytest.fixture(scope="module")
+def free():
+    """The pigeon's orbit of least frequency, without a limit."""
+    return find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
+
+
+def test_every_quantity_is_what_the_record_says(bat):
+    solution, orbit = bat, wb.Orbit.of(bat, 1)
     record = orbit.record()
     for name in ("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"):
         assert solution.value_of(QUANTITIES[name]) == pytest.approx(record[name], rel=1e-4)
@@ -45,8 +56,8 @@ def test_every_quantity_is_what_the_record_says():
     )
 
 
-def test_negative_work_is_free_returned_or_costly():
-    solution = find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
+def test_negative_work_is_free_returned_or_costly(bat):
+    solution = bat
     mean, positive = (solution.value_of(QUANTITIES[name]) for name in ("mean_power", "mean_positive_power"))
     assert mean < positive
     assert solution.value_of(wb.objectives.PowerCost(1.0)) == pytest.approx(mean)
@@ -58,45 +69,69 @@ def test_negative_work_is_free_returned_or_costly():
         wb.objectives.PowerCost(2)
 
 
-@pytest.mark.parametrize("name", [name for name in QUANTITIES if name != "frequency"])
-def test_derivatives_of_objective_and_margins(name):
-    limited = wb.Constraint("mean_power", 100.0, at_most=False)
-    problem = wb.OrbitProblem(BAT, speed=SPEED, minimise=name, subject_to=[limited, "peak_power<=40"])
+def differences(function, scaled, step=1e-6):
+    ahead, behind = (
+        np.array([function(scaled + sign * step * e) for e in np.eye(scaled.size)]) for sign in (1, -1)
+    )
+    return ((ahead - behind) / (2 * step)).T
+
+
+def stock_point(problem):
+    """Return the programme and the stock start at 9 Hz, and the same moved a little."""
     programme = Transcription(problem)
     point = start_point(problem, 0, 0)
     point[4] = 9.0
     scaled = programme.scaled(point)
-    programme = programme.linearised_at(scaled, 2)
-    scaled = scaled + 0.01 * np.random.default_rng(1).normal(size=scaled.size)
-    step = 1e-6
+    return programme, scaled, scaled + 0.01 * np.random.default_rng(1).normal(size=scaled.size)
 
-    def differences(function):
-        ahead, behind = (
-            np.array([function(scaled + sign * step * e) for e in np.eye(scaled.size)]) for sign in (1, -1)
-        )
-        return ((ahead - behind) / (2 * step)).T
 
+@pytest.mark.parametrize("name", ["mean_positive_power", "peak_power"])
+def test_derivatives_of_objective_and_margins(name):
+    limited = wb.Constraint("mean_power", 100.0, at_most=False)
+    problem = wb.OrbitProblem(BAT, speed=SPEED, minimise=name, subject_to=[limited, "peak_power<=40"])
+    programme, point, scaled = stock_point(problem)
+    programme = programme.linearised_at(point, 2)
     gradient, inside = programme.objective_gradient(scaled), programme.inequalities_jacobian(scaled)
-    assert np.abs(gradient - differences(programme.objective)).max() <= 1e-5 * np.abs(gradient).max()
-    assert np.abs(inside - differences(programme.inequalities)).max() <= 1e-5 * np.abs(inside).max()
+    assert np.abs(gradient - differences(programme.objective, scaled)).max() <= 1e-5 * np.abs(gradient).max()
+    wanted = differences(programme.inequalities, scaled)
+    assert np.abs(inside - wanted).max() <= 1e-5 * np.abs(inside).max()
 
 
-@pytest.fixture(scope="module")
-def least():
-    """Return the bat's orbits of least everything."""
-    return {name: find_orbit(wb.OrbitProblem(BAT, speed=SPEED, minimise=name), 9) for name in QUANTITIES}
+@pytest.mark.parametrize("name", [name for name in QUANTITIES if name != "frequency"])
+def test_derivatives_of_every_quantity(name):
+    """As a limit alone: what is minimised has the same rows, and a problem of one quantity compiles in a third."""
+    problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(name, 40.0)])
+    programme, _, scaled = stock_point(problem)
+    path = len(programme.path_limits)
+    found = programme.inequalities_jacobian(scaled)[path:]
+    wanted = differences(programme.inequalities, scaled)[path:]
+    assert found.any()
+    assert np.abs(found - wanted).max() <= 1e-5 * np.abs(found).max()
 
 
-@pytest.mark.parametrize("name", list(QUANTITIES))
-def test_nothing_else_has_less_of_it(least, name):
-    best = least[name]
-    assert best.status is wb.Status.CONVERGED
-    assert max(map(abs, best.closure.values())) <= 3e-7
-    assert best.optimality <= 1e-5
-    own = best.objective
-    assert own == pytest.approx(best.value_of(named_quantity(name)), rel=1e-12)
-    for other in least.values():
-        assert own <= other.value_of(named_quantity(name)) * (1 + 1e-3)
+def test_nothing_else_has_less_of_it():
+    """Of the pigeon's orbits of least everything: four starts find them, where the bat's take nine.
+
+    It is one test because two processes would otherwise both search for all of them.
+    """
+    least = {name: find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=name), 4) for name in QUANTITIES}
+    for name, best in least.items():
+        assert best.status is wb.Status.CONVERGED, name
+        assert max(map(abs, best.closure.values())) <= 3e-7, name
+        assert best.optimality <= 1e-5, name
+        own = best.objective
+        assert own == pytest.approx(best.value_of(named_quantity(name)), rel=1e-12), name
+        for wanted, other in least.items():
+            assert own <= other.value_of(named_quantity(name)) * (1 + 1e-3), (name, wanted)
+    # The least of the peaks is that of several series, and a hyphen is as good as an underscore.
+    peak = least["peak_power"]
+    assert wb.OrbitProblem(PIGEON, speed=SPEED, minimise="peak-power") == peak.problem
+    orbit = wb.Orbit.of(peak, 4)
+    power = orbit.dataset["hinge_power"].values
+    halves = power[:129].max(), power[128:].max()
+    assert orbit.record()["objective_value"] == pytest.approx(power.max(), rel=1e-9)
+    assert orbit.record()["objective"] == "peak_power"
+    assert max(halves) == pytest.approx(peak.objective, rel=1e-6)
 
 
 def test_what_bound_the_search_may_let_go_in_a_finer_flight():
@@ -140,21 +175,11 @@ def test_least_peaks_are_sought_from_more_starts_and_beside_the_best():
     assert [find_orbit(problem, 2).starts for problem in (peak, mean)] == [3, 2]
 
 
-def test_the_least_of_the_peaks_is_that_of_several(least):
-    orbit = wb.solve_orbit(wb.OrbitProblem(BAT, speed=SPEED, minimise="peak-power"), starts=9)
-    power = orbit.dataset["hinge_power"].values
-    halves = power[:129].max(), power[128:].max()
-    assert orbit.record()["objective_value"] == pytest.approx(power.max(), rel=1e-9)
-    assert orbit.record()["objective"] == "peak_power"
-    assert max(halves) == pytest.approx(least["peak_power"].objective, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     "text", ["mean_positive_power<=45", "peak_power<=180", "roughness <= 33.5", "frequency>=12"]
 )
-def test_a_constraint_that_binds_is_met_and_named(text):
-    orbit = wb.solve_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[text]), starts=2)
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
+def test_a_constraint_that_binds_is_met_and_named(text, free):
+    orbit = wb.solve_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[text]), starts=1)
     record = orbit.record()
     (name, value), limit = *record["constraints"].items(), parse_constraint(text)
     assert record["status"] == "converged"
@@ -163,17 +188,16 @@ def test_a_constraint_that_binds_is_met_and_named(text):
     assert record["objective_value"] > free.objective
 
 
-def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_least():
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
+def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_least(free):
     torque = QUANTITIES["peak_flap_torque"]
     limit = 1.1 * free.value_of(torque)
-    strong = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(torque, limit, False)]), 2)
+    strong = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(torque, limit, False)]), 1)
     assert strong.status is wb.Status.CONVERGED
     assert strong.value_of(torque) >= limit * (1 - 1e-6)
     nose_down = wb.Quantity("nose_down", lambda beat: -beat.body_pitch, "rad", 0.1)
     assert free.value_of(nose_down) > -0.2
     orbit = wb.solve_orbit(
-        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(nose_down, -0.25)]), starts=2
+        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(nose_down, -0.25)]), starts=1
     )
     assert orbit.status is wb.Status.CONVERGED
     assert orbit.dataset["body_pitch"].values.min() == pytest.approx(0.25, abs=1e-6)
@@ -187,9 +211,8 @@ def test_a_constraint_out_of_reach_is_infeasible_and_named():
     assert "with mean_positive_power<=5" in found.message
 
 
-def test_functions_of_ones_own():
+def test_functions_of_ones_own(free):
     steady = wb.Quantity("lift_swing", lift_swing, scale=0.1)
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 1)
     found = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=steady), 1)
     assert found.status is wb.Status.CONVERGED
     assert found.objective < free.value_of(steady)
@@ -259,13 +282,13 @@ def test_a_measured_frequency_and_amplitude_are_held_and_the_rest_found():
         PIGEON, speed=SPEED, minimise="mean_positive_power", subject_to=["frequency=14", "flap_amplitude = 50 deg"]
     )
     assert held.free == tuple(name for name in PIGEON.free if name not in ("frequency", "flap_amplitude"))
-    orbit = wb.solve_orbit(held, starts=2)
+    orbit = wb.solve_orbit(held, starts=1)
     assert orbit.status is wb.Status.CONVERGED
     assert orbit.wingbeat.frequency == 14.0
     assert orbit.wingbeat.flap_amplitude == np.radians(50)
     again = orbit.problem
     assert (again.free, again.species.wingbeat) == (held.free, held.species.wingbeat)
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise="mean_positive_power"), 2)
+    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise="mean_positive_power"), 1)
     assert orbit.record()["objective_value"] > free.objective
 
 
@@ -311,12 +334,6 @@ def test_a_function_of_ones_own_is_in_no_file():
     assert orbit.record()["objective"] == "mean_power"
     with pytest.raises(ValueError, match=r"own mean_power. is not in the file"):
         problem_from(orbit.inputs)
-
-
-def test_least_power_in_a_batch_of_two_processes():
-    problems = [wb.OrbitProblem(PIGEON, speed=u, minimise="mean_positive_power") for u in (9.0, 10.0)]
-    one, two = (wb.solve_orbits(problems, starts=1, processes=n) for n in (1, 2))
-    assert [o.record()["objective_value"] for o in one] == [o.record()["objective_value"] for o in two]
 
 
 def test_on_the_command_line(capsys):

@@ -51,7 +51,7 @@ def test_following_an_answer_finds_it_again_and_only_what_is_better(row):
 def test_a_row_in_which_nothing_flies_is_data(row):
     bounds = {"flap_amplitude": (np.radians(5), np.radians(6))}
     hopeless = [wb.OrbitProblem(p.species, speed=p.speed, bounds=bounds) for p in row[:2]]
-    assert [s.status for s in find_series(hopeless, most_starts=1)] == [Status.INFEASIBLE] * 2
+    assert [s.status for s in find_series(hopeless, 1, most_starts=1)] == [Status.INFEASIBLE] * 2
 
 
 def test_orbits_of_a_row_have_records_and_bad_counts_are_refused(row):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.hasty import make_hasty
 from wingbeat.cli import main
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.nomenclature import find, label_of
@@ -43,14 +44,29 @@ def unmarked_jumps(branches, marks):
 
 
 @pytest.fixture(scope="module")
-def bat():
-    """From 6 to 7 m/s the bat's least frequency passes from one family of orbits to another."""
-    return trace(problem_at("bat"), SPEEDS, starts=6, seed=0)
+def traced():
+    """A curve and the branches it is made of."""
+    branches = []
+
+    def kept(*args, **named):
+        branches.append(trace(*args, **named))
+        return branches[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("wingbeat.results.curve.trace", kept)
+        curve = wb.solve_curve(problem_at("bat"), SPEEDS, power_limit=20.0)
+    return curve, *branches
 
 
 @pytest.fixture(scope="module")
-def curve():
-    return wb.solve_curve(problem_at("bat"), SPEEDS, power_limit=20.0)
+def bat(traced):
+    """From 6 to 7 m/s the bat's least frequency passes from one family of orbits to another."""
+    return traced[1]
+
+
+@pytest.fixture(scope="module")
+def curve(traced):
+    return traced[0]
 
 
 def test_every_optimum_of_a_curve_is_certified_and_none_beats_the_first(bat):
@@ -197,7 +213,8 @@ def test_the_command_line_draws_saves_and_prints(tmp_path, capsys):
     assert (tmp_path / "again.svg").read_bytes() == page.read_bytes()
 
 
-def test_the_command_line_tells_when_nothing_is_certified(capsys):
+def test_the_command_line_tells_when_nothing_is_certified(capsys, monkeypatch):
+    make_hasty(monkeypatch)
     words = ["curve", "bat", "--speeds", "8:9:1", "--starts", "1", "--subject-to", "flap_amplitude<=6 deg"]
     assert main(words) == 3
     assert "0 of 2 speeds certified" in capsys.readouterr().out

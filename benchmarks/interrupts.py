@@ -56,10 +56,15 @@ class Ending(NamedTuple):
 
 def prepare(folder: Path) -> None:
     """Write the files that the commands read."""
-    (folder / "cases.toml").write_text(STUDY)
-    (folder / "table.csv").write_text(TABLE)
+    write_texts(folder)
     words = wingbeat("orbit pigeon --speed 12 -o flight.nc")
     subprocess.run(words, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+
+
+def write_texts(folder: Path) -> None:
+    """Write those of the files that need no flight."""
+    (folder / "cases.toml").write_text(STUDY)
+    (folder / "table.csv").write_text(TABLE)
 
 
 def wingbeat(words: str) -> list[str]:

@@ -3,6 +3,7 @@
 import dataclasses
 import os
 import shutil
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.browsers import FLAGS, PATIENCE
+from tests.helpers.forks import ForkServer
 from tests.helpers.reflight import Reflight, refly
 from wingbeat.orbits.flight.certify import Certificate, certify
 
@@ -76,6 +78,15 @@ def solved(request) -> Solved:
 def reflight(solved) -> Reflight:
     """The same orbit flown by SciPy."""
     return refly(solved.model, solved.wingbeat, solved.start)
+
+
+@pytest.fixture(scope="session")
+def forks() -> Iterator[ForkServer]:
+    """What starts orbits, studies and those of assumptions without their imports."""
+    needed = ("cli.orbit", "cli.study", "cli.paper", "studies.study", "paper.figures", "paper.assumption_page")
+    server = ForkServer(*(f"wingbeat.{name}" for name in needed))
+    yield server
+    server.close()
 
 
 @pytest.fixture(scope="session")

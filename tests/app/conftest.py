@@ -11,6 +11,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.browsers import PATIENCE
+from tests.helpers.forks import ForkServer
 
 
 @dataclasses.dataclass
@@ -40,6 +41,14 @@ def served() -> Iterator[Served]:
     server.should_exit = True
     house.close()
     thread.join(20.0)
+
+
+@pytest.fixture(scope="session")
+def explorers() -> Iterator[ForkServer]:
+    """What starts explorers as programs of their own, without their imports."""
+    server = ForkServer("wingbeat.cli.explorer", "wingbeat.app.server")
+    yield server
+    server.close()
 
 
 @pytest.fixture

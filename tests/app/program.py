@@ -7,11 +7,12 @@ import re
 import signal
 import socket
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 from websockets.sync.client import connect
+
+from tests.helpers.forks import ForkServer
 
 RUN = "import sys; from wingbeat.cli import program; sys.exit(program())"
 PATIENCE = 60.0
@@ -22,15 +23,16 @@ class Program:
 
     Parameters
     ----------
+    forks : starts it.
     folder : for its stderr.
     words : further options.
     """
 
-    def __init__(self, folder: Path, *words: str) -> None:
+    def __init__(self, forks: ForkServer, folder: Path, *words: str) -> None:
         self.log = folder / "stderr"
         with open(self.log, "w") as log:
-            command = [sys.executable, "-c", RUN, "app", "--port", "0", "--no-open", "--processes", "1", *words]
-            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
+            every = ["app", "--port", "0", "--no-open", "--processes", "1", *words]
+            self.process = forks.start(RUN, every, stdout=subprocess.PIPE, stderr=log)
         self.line = self.process.stdout.readline()
         found = re.search(r"http://(\S+):(\d+)", self.line)
         if found is None:

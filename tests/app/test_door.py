@@ -1,6 +1,7 @@
 """Who may come in, asked of the real program: no other origin, no other name, no message that makes no sense."""
 
 import json
+import re
 import threading
 from pathlib import Path
 
@@ -12,8 +13,8 @@ from wingbeat.app.door import is_loopback
 
 
 @pytest.fixture(scope="module")
-def program(tmp_path_factory):
-    program = Program(tmp_path_factory.mktemp("program"))
+def program(tmp_path_factory, explorers):
+    program = Program(explorers, tmp_path_factory.mktemp("program"))
     yield program
     program.end()
 
@@ -69,8 +70,8 @@ def test_under_another_name_nothing_is_answered(program):
         pass
 
 
-def test_a_public_server_does_not_answer_under_other_names_either(tmp_path):
-    program = Program(tmp_path, "--host", "0.0.0.0")
+def test_a_public_server_does_not_answer_under_other_names_either(tmp_path, explorers):
+    program = Program(explorers, tmp_path, "--host", "0.0.0.0")
     try:
         assert program.request("/wingbeat/page.js", Host="evil.example")[0] == 400
         assert program.request("/wingbeat/page.js", Host=f"192.0.2.7:{program.port}")[0] == 200
@@ -81,16 +82,18 @@ def test_a_public_server_does_not_answer_under_other_names_either(tmp_path):
         program.end()
 
 
-@pytest.mark.parametrize("host", ["", " ", "127.0.0.1"])
-def test_an_empty_host_is_this_machine_alone(tmp_path, host):
-    program = Program(tmp_path, "--host", host)
+@pytest.mark.parametrize("words", [["--host", " "], []], ids=["blank", "none given"])
+def test_an_empty_host_is_this_machine_alone_until_it_is_interrupted(tmp_path, explorers, words):
+    program = Program(explorers, tmp_path, *words)
     try:
+        assert re.fullmatch(r"wingbeat explorer: http://127\.0\.0\.1:\d+ \(Ctrl-C ends it\)\n", program.line)
         sockets = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
         listening = {
             own for _, own, _, state, *_ in sockets if own.endswith(f":{program.port:04X}") and state == "0A"
         }
         assert listening == {f"0100007F:{program.port:04X}"}
         assert program.log.read_text() == ""
+        assert program.interrupt()[0] == 130
     finally:
         program.end()
 

@@ -47,11 +47,11 @@ def test_a_solver_without_memory_is_told_of_and_replaced():
 
 
 @pytest.fixture
-def start(tmp_path):
+def start(tmp_path, explorers):
     programs = []
 
     def started():
-        programs.append(Program(tmp_path))
+        programs.append(Program(explorers, tmp_path))
         return programs[-1]
 
     yield started

@@ -1,11 +1,6 @@
-"""What the explorer's server answers without a browser, and the command that runs it."""
+"""What the explorer's server answers without a browser, and the command without what it needs."""
 
 import http.client
-import re
-import signal
-import subprocess
-import sys
-import time
 
 from wingbeat.cli import main
 
@@ -32,18 +27,3 @@ def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch, capsys):
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 1
     assert "pip install '.[app]'" in lines[0]
-
-
-def test_the_command_serves_until_it_is_interrupted():
-    words = ["app", "--port", "0", "--no-open", "--processes", "1"]
-    program = "import sys; from wingbeat.cli import program; sys.exit(program())"
-    server = subprocess.Popen([sys.executable, "-c", program, *words], stdout=subprocess.PIPE, text=True)
-    try:
-        line = server.stdout.readline()
-        assert re.fullmatch(r"wingbeat explorer: http://127\.0\.0\.1:\d+ \(Ctrl-C ends it\)\n", line)
-        time.sleep(1.0)
-        server.send_signal(signal.SIGINT)
-        assert server.wait(60.0) in (0, 130)
-    finally:
-        server.kill()
-        server.stdout.close()

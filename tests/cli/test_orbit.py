@@ -6,7 +6,6 @@ import math
 import re
 import shlex
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,6 +13,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from tests.helpers.forks import ForkServer
 from tests.helpers.terminals import needs_terminal, on_terminal
 from wingbeat.cli import main
 
@@ -59,18 +59,16 @@ class Solved(NamedTuple):
     record: dict[str, Any]
 
 
-def program(*words: str) -> list[str]:
-    """Return the command that starts the real program."""
-    code = "import sys; from wingbeat.cli import main; sys.exit(main())"
-    return [sys.executable, "-W", "error", "-c", code, *words]
+PROGRAM = "import sys, warnings; warnings.simplefilter('error'); from wingbeat.cli import main; sys.exit(main())"
 
 
 @pytest.fixture(scope="session")
-def solved(tmp_path_factory: pytest.TempPathFactory) -> Solved:
+def solved(tmp_path_factory: pytest.TempPathFactory, forks: ForkServer) -> Solved:
     folder = tmp_path_factory.mktemp("solved")
     words = shlex.split("orbit pigeon --speed 12 --starts 1 --json -o orbit.nc --plot page.svg")
-    found = subprocess.run(program(*words), cwd=folder, capture_output=True, text=True, check=False)
-    return Solved(folder, Run(found.returncode, found.stdout, found.stderr), json.loads(found.stdout))
+    found = forks.start(PROGRAM, words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    out, err = found.communicate()
+    return Solved(folder, Run(found.returncode, out, err), json.loads(out))
 
 
 @pytest.fixture
@@ -151,10 +149,10 @@ def test_show_gives_the_same_record(solved: Solved, capsys: Any) -> None:
 
 
 @needs_terminal
-def test_from_a_file_the_record_comes_again_bit_for_bit(solved: Solved) -> None:
+def test_from_a_file_the_record_comes_again_bit_for_bit(solved: Solved, forks: ForkServer) -> None:
     """Also: on a terminal, stderr shows how far the search is, and stdout still holds the record alone."""
-    words = program("orbit", "--from", str(solved.folder / "orbit.nc"), "--json")
-    code, out, bar = on_terminal(functools.partial(subprocess.Popen, words))
+    words = ("orbit", "--from", solved.folder / "orbit.nc", "--json")
+    code, out, bar = on_terminal(functools.partial(forks.start, PROGRAM, words))
     assert code == 0
     again = json.loads(out)
     assert "pigeon at 12 m/s" in bar
@@ -287,21 +285,20 @@ def test_an_interrupt_leaves_the_old_files(run: Any, tmp_path: Path, monkeypatch
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"orbit.nc": "old", "page.pdf": "old"}
 
 
-def test_a_full_disk_is_one_line(solved: Solved, tmp_path: Path) -> None:
+def test_a_full_disk_is_one_line(
+    asked: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Any
+) -> None:
     """A limit on the size of files stands in for the full disk; HDF5 by itself would even crash."""
-    pytest.importorskip("resource")
-    code = f"""
-import resource, sys
-import wingbeat as wb, wingbeat.cli.orbit as command
-found = wb.load_orbit({str(solved.folder / "orbit.nc")!r})
-command.solve_orbit = lambda *_: found
-resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
-sys.exit(wb.cli.main(["orbit", "pigeon", "--speed", "12", "-o", "orbit.nc"]))
-"""
+    resource = pytest.importorskip("resource")
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "orbit.nc").write_text("old")
-    ended = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert ended.stderr == "error: cannot write 'orbit.nc': file too large; choose another path\n"
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, before[1]))
+    try:
+        code = main(["orbit", "pigeon", "--speed", "12", "-o", "orbit.nc"])
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    told = capfd.readouterr()
+    assert (code, told.out) == (2, "")
+    assert told.err == "error: cannot write 'orbit.nc': file too large; choose another path\n"
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("orbit.nc", "old")]

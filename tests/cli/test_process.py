@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from interrupts import COMMANDS, interrupt, of_python, prepare, wingbeat
+from interrupts import COMMANDS, interrupt, of_python, wingbeat, write_texts
 
 from wingbeat import __version__
 from wingbeat.cli import main
@@ -76,19 +76,20 @@ def test_what_is_read_does_not_land_in_a_closed_stream(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, pigeon_orbit: Any) -> Path:
     path = tmp_path_factory.mktemp("interrupted")
-    prepare(path)
+    write_texts(path)
+    pigeon_orbit.orbit.save(path / "flight.nc")
     return path
 
 
 @pytest.mark.parametrize("command", ["orbit", "curve", "study", "view"])
 def test_one_interrupt_ends_it_at_any_time(folder: Path, command: str) -> None:
-    """A few tries of what benchmarks/interrupts.py does a hundred times for every command."""
+    """In its imports, and at work; benchmarks/interrupts.py tries every command a hundred times."""
     words, horizon = COMMANDS[command]
     chance = random.Random(command)
-    for _ in range(3):
-        ending = interrupt(wingbeat(words), folder, chance.uniform(0.3, horizon))
+    for soonest, latest in ((0.3, 2.0), (2.0, 0.7 * horizon)):
+        ending = interrupt(wingbeat(words), folder, chance.uniform(soonest, latest))
         if ending.code is None or of_python(ending):
             continue
         assert (ending.code, ending.fault) == (130, "")

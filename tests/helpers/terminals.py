@@ -3,13 +3,14 @@
 import os
 import subprocess
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 needs_terminal = pytest.mark.skipif(not hasattr(os, "openpty"), reason="no terminals to be had on this system")
 
 
-def on_terminal(start: Callable[..., subprocess.Popen[str]], columns: int = 80) -> tuple[int, str, str]:
+def on_terminal(start: Callable[..., Any], columns: int = 80) -> tuple[int, str, str]:
     """Run a program with a terminal for its stderr; return exit code, stdout, and what the terminal was sent.
 
     Parameters

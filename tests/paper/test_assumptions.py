@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.engines import Here
 from wingbeat.paper import assumption_page as pages
 from wingbeat.paper.assumption_study import (
     ORBITS,
@@ -23,8 +24,6 @@ from wingbeat.paper.assumptions import ASSUMPTIONS, sample_sets
 from wingbeat.paper.importance import fewest_outcomes, importance
 from wingbeat.paper.treatments import Case
 from wingbeat.studies.driver import Stop
-from wingbeat.studies.engine import Ended
-from wingbeat.studies.work import solve_unit
 
 NAMES = [assumption.name for assumption in ASSUMPTIONS]
 
@@ -155,9 +154,9 @@ def test_importance_says_nothing_of_too_few_numbers_or_of_one_number():
 
 
 def made_up_study(count=800):
-    """Six claims, judged by coin and by taper, so that two never hold together and one never holds."""
+    """Four claims, judged by coin and by taper, so that two never hold together and one never holds."""
     random = np.random.default_rng(5)
-    sets, claims = sample_sets(count, seed=2), study_claims()[:6]
+    sets, claims = sample_sets(count, seed=2), study_claims()[:4]
     numbers = random.normal(size=(count, len(claims)))
     taper = np.array([s["taper"] for s in sets])
     numbers[:, 0] = taper
@@ -202,29 +201,6 @@ OPEN = {
     "airspeed": "planar",
     "force_point": "quarter-chord",
 }
-
-
-class Here:
-    """An engine that works where it is asked to."""
-
-    workers = 1
-
-    def __init__(self):
-        self.batches = []
-
-    @property
-    def free(self):
-        return 1 - len(self.batches)
-
-    def submit(self, batch, units):
-        self.batches.append((batch, units))
-
-    def wait(self, seconds):
-        batch, units = self.batches.pop()
-        return Ended(batch, [outcome for unit in units for outcome in solve_unit(unit)], "here")
-
-    def close(self):
-        pass
 
 
 def test_one_set_is_flown_and_judged(tmp_path):

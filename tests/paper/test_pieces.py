@@ -21,7 +21,7 @@ PROGRAM = (
     "LocalProcesses.work = 'tests.helpers.assumption_standin:solve'; "
     "from wingbeat.cli import main; sys.exit(main(sys.argv[1:]))"
 )
-# Seconds that a driver gets for what takes it some twenty on an idle machine: it starts a process for each study.
+# Seconds that a driver gets for what takes it a few on an idle machine: it starts a process for each study.
 PATIENCE = 300
 SAMPLE = ["paper", "assumptions", "--sets", "3", "--seed", "4", "--piece", "2", "--processes", "1"]
 
@@ -42,10 +42,23 @@ def whole(tmp_path_factory):
     return folder
 
 
-def start(folder, seconds):
-    environment = os.environ | {"STANDIN_SECONDS": str(seconds)}
-    words = [sys.executable, "-c", PROGRAM, *SAMPLE, "-o", str(folder)]
-    return subprocess.Popen(words, stderr=subprocess.PIPE, text=True, env=environment)
+@pytest.fixture
+def without_figure(monkeypatch):
+    """Leave out the figure where another run of the same sample has drawn it and nothing is asked about it."""
+    monkeypatch.setattr("wingbeat.paper.assumption_page.draw", lambda *given: None)
+    monkeypatch.setattr("wingbeat.paper.assumption_page.save_figure", lambda *given: None)
+
+
+@pytest.fixture
+def start(forks):
+    """Return what starts a driver, forked from a process that has imported it."""
+
+    def started(folder, seconds):
+        environment = os.environ | {"STANDIN_SECONDS": str(seconds)}
+        pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+        return forks.start(PROGRAM, [*SAMPLE, "-o", folder], env=environment, **pipes)
+
+    return started
 
 
 def wait_for(driver, folder, pattern):
@@ -77,7 +90,8 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     assert f"{100 * certified / 42:.0f} % of them were found and certified" in page
 
 
-def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
+@pytest.mark.usefixtures("without_figure")
+def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path, start):
     driver = start(tmp_path, 0.1)
     wait_for(driver, tmp_path, "pieces/piece-0001-of-0002/bat-*.sqlite")
     driver.kill()
@@ -103,6 +117,7 @@ def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path):
         assert (tmp_path / name).read_text() == (whole / name).read_text()
 
 
+@pytest.mark.usefixtures("without_figure")
 def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert main([*SAMPLE, "--only", "2", "-o", str(tmp_path)]) == 0
     assert "1 of 2 pieces are done; the page covers these" in " ".join(capsys.readouterr().err.split())

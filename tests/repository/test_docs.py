@@ -12,6 +12,7 @@ import tomllib
 import pytest
 from cyclopts import CycloptsError
 
+from tests.helpers.engines import Here
 from tests.helpers.places import ROOT
 from wingbeat.cli.app import build_app
 
@@ -33,7 +34,9 @@ def page_name(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_python_of_a_page_runs(page, capsys):
+def test_python_of_a_page_runs(page, capsys, monkeypatch):
+    # Studies of a page are solved here: processes would take longer to start than to solve their few points.
+    monkeypatch.setattr("wingbeat.studies.study.LocalProcesses", lambda *given: Here())
     code = "\n".join(re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL))
     exec(compile(code, page.name, "exec"), {"__name__": "docs"})
     printed = capsys.readouterr().out.splitlines()

@@ -25,8 +25,9 @@ FORM = 'species = "pigeon"\nstarts = 1\n[vary]\nspeed = {{ grid = {speeds} }}\n'
 class Cheap:
     """A study file in a folder of its own, of points that a stand-in solves in no time."""
 
-    def __init__(self, folder, speeds, capsys):
+    def __init__(self, folder, speeds, capsys, forks):
         self.capsys = capsys
+        self.forks = forks
         self.folder = folder
         self.file = folder / "cheap.toml"
         self.store = folder / "cheap.study.sqlite"
@@ -36,14 +37,14 @@ class Cheap:
     def write(self, speeds):
         self.file.write_text(FORM.format(speeds=[float(u) for u in speeds]))
 
-    def start(self, *words, program=PROGRAM, seconds=0.0, log=None, **popen):
-        """Start the program; its processes and their workers carry this study's mark in their environment."""
-        environment = os.environ | popen.pop("env", {}) | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
+    def start(self, *words, program=PROGRAM, seconds=0.0, log=None, env=None, **popen):
+        """Start the program, forked from one that has imported it; its workers carry this study's mark."""
+        environment = os.environ | (env or {}) | {"STANDIN_SECONDS": str(seconds), "STUDY_MARK": self.mark}
         environment["PYTHONPATH"] = os.pathsep.join([str(ROOT), *sys.path])
         if log is not None:
             environment["STANDIN_LOG"] = str(log)
-        popen = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "env": environment} | popen
-        return subprocess.Popen([sys.executable, "-c", program, *map(str, words)], **popen)
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | popen
+        return self.forks.start(program, words, env=environment, **streams)
 
     def run(self, *words):
         """Run the program to its end, in this process; return exit code, stdout and stderr, blanks as one."""
@@ -84,13 +85,13 @@ class Cheap:
 
 
 @pytest.fixture
-def cheap(tmp_path, capsys, monkeypatch):
+def cheap(tmp_path, capsys, monkeypatch, forks):
     """Return a maker of cheap studies, each in a folder of its own."""
     monkeypatch.setattr(LocalProcesses, "work", "tests.helpers.study_standin:solve")
 
     def make(speeds, name="here"):
         folder = tmp_path / name
         folder.mkdir(exist_ok=True)
-        return Cheap(folder, speeds, capsys)
+        return Cheap(folder, speeds, capsys, forks)
 
     return make

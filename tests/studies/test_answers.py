@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from tests.helpers.engines import Here
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
 from wingbeat.nomenclature import find, label_of
@@ -17,6 +18,7 @@ from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.studies import work
+from wingbeat.studies.driver import Stop
 from wingbeat.studies.store import Store
 from wingbeat.studies.table import to_dataset
 from wingbeat.studies.units import Task, Unit
@@ -148,26 +150,32 @@ def test_a_study_that_was_changed_keeps_what_still_applies(done):
     form = FORM | {"vary": {"speed": {"grid": [9.0, 10.0, 11.0]}}, "aero": "su-fan"}
     changed = wb.plan_study(form, store=done.store)
     assert changed.status().changed
-    assert changed.run(processes=1) == wb.plan_study(form, store=done.store).status()
+    assert run_here(changed) == wb.plan_study(form, store=done.store).status()
     assert changed.status().counts == {"converged": 3}
     assert changed.status().kept == 6
     after = kept(done.store)
     assert len(after) == 9
     assert before.items() <= after.items()
-    wb.plan_study(FORM, store=done.store).run(processes=1)
+    run_here(wb.plan_study(FORM, store=done.store))
     assert kept(done.store) == after
+
+
+def run_here(study):
+    """Run a study in this process: it starts no worker, which would import and load every program anew."""
+    study.run_on(Here(), Stop())
+    return study.status()
 
 
 def test_a_chain_hands_its_answers_on_and_does_not_hang_on_how_it_was_cut(tmp_path):
     speeds = [8.0, 8.5, 9.0, 9.5, 10.0]
     form = {"species": "bat", "starts": 1, "vary": {"speed": {"grid": speeds}}, "chain": "speed"}
     whole = wb.plan_study(form, store=tmp_path / "whole.study.sqlite")
-    whole.run(processes=1)
+    run_here(whole)
     # The first is searched alone, the next from the one before it; then three foretell.
     assert [int(n) for n in whole.to_dataframe()["starts"]] == [1, 1, 1, 1, 1]
     pieces = tmp_path / "pieces.study.sqlite"
     for count in (1, 4, 5):
-        wb.plan_study(form | {"vary": {"speed": {"grid": speeds[:count]}}}, store=pieces).run(processes=1)
+        run_here(wb.plan_study(form | {"vary": {"speed": {"grid": speeds[:count]}}}, store=pieces))
     assert kept(pieces) == kept(whole.store)
 
 

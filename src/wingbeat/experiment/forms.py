@@ -126,8 +126,19 @@ class CurveForm:
         for name, value in parameters.items():
             step = 6e-6 * max(abs(value), 1e-3)
             ends = [self.value(alpha_deg, parameters | {name: value + s}) for s in (step, -step)]
-            columns.append((ends[0] - ends[1]) / (2 * step))
+            with np.errstate(invalid="ignore"):  # infinite values: the caller refuses them
+                columns.append((ends[0] - ends[1]) / (2 * step))
         return np.column_stack(columns)
+
+    def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
+        """Return `value` and `slopes`, shapes (n,) and (n, parameters).
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        parameters : the free parameters by name.
+        """
+        return self.value(alpha_deg, parameters), self.slopes(alpha_deg, parameters)
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
         """Return the parameters from which fits begin.
@@ -158,7 +169,7 @@ class BoxForm(CurveForm):
         return self.value_and_slopes(alpha_deg, parameters)[1]
 
     def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
-        """Return `value` and `slopes`, which come of one evaluation."""
+        """Return `value` and `slopes`, shapes (n,) and (n, parameters), of one evaluation."""
         value, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
         return value, np.column_stack([getattr(slopes, name) for name in self.names])
 

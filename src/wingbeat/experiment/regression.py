@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat.errors import FaultList
-from wingbeat.experiment.forms import BoxForm, CurveForm
+from wingbeat.experiment.forms import CurveForm
 
 __all__ = ["CurveFit", "FitRangeWarning", "fit_curve"]
 
@@ -269,22 +269,19 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
     names = form.names
     bounds = [form.lowest.get(n, -math.inf) for n in names], [form.highest.get(n, math.inf) for n in names]
 
-    # The search asks for slopes where it last asked for the value.
-    kept: tuple[bytes, Array] = b"", y
+    # SciPy asks for slopes where it has just asked for the value, and both come of one evaluation.
+    kept: dict[bytes, Array] = {}
 
     def residuals(x: Array) -> Array:
-        nonlocal kept
-        parameters = dict(zip(names, x.tolist(), strict=True))
-        if not isinstance(form, BoxForm):
-            return (form.value(a, parameters) - y) / errors
-        value, slopes = form.value_and_slopes(a, parameters)
-        kept = x.tobytes(), slopes
+        value, slopes = form.value_and_slopes(a, dict(zip(names, x.tolist(), strict=True)))
+        kept.clear()
+        kept[x.tobytes()] = slopes
         return (value - y) / errors
 
     def slopes(x: Array) -> Array:
-        if kept[0] == x.tobytes():
-            return kept[1] / errors[:, None]
-        return form.slopes(a, dict(zip(names, x.tolist(), strict=True))) / errors[:, None]
+        if x.tobytes() not in kept:
+            residuals(x)
+        return kept[x.tobytes()] / errors[:, None]
 
     best: Any = None
     for start in form.starts(a, y, 1.0 / errors):

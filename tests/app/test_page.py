@@ -260,6 +260,9 @@ def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     assert not before & set(served.house.pool.workers)
 
 
+# What axe itself fetches draws the bar of the page's framework.
+LOADED = """() => [...document.querySelectorAll('.q-loading-bar')]
+    .every((bar) => getComputedStyle(bar).opacity === '0' || getComputedStyle(bar).display === 'none')"""
 OUT_OF_REACH = """() => [...document.querySelectorAll('input, select, button')]
     .filter((e) => e.offsetParent)
     .filter((e) => e.tabIndex < 0 || !(e.labels?.length || e.ariaLabel || e.textContent.trim()))
@@ -280,16 +283,16 @@ def test_every_control_is_reached_by_the_keyboard_and_axe_finds_no_serious_fault
     if not AXE.exists():
         pytest.skip("needs axe-core: npm ci in the folder viewer")
     page.add_script_tag(content=AXE.read_text())
-    background = "getComputedStyle(document.body).backgroundColor"
-    grounds = set()
+    ground = "getComputedStyle(document.body).backgroundColor"
+    light = page.evaluate(ground)
     for theme in ("light", "dark"):  # which the page follows as its visitor switches
         page.emulate_media(color_scheme=theme, reduced_motion="reduce")
-        grounds.add(page.evaluate(background))
+        page.wait_for_function(f"({ground} === '{light}') === ('{theme}' === 'light')")
+        page.wait_for_function(LOADED)
         found = page.evaluate("axe.run()")
         grave = [fault for fault in found["violations"] if fault["impact"] in ("serious", "critical")]
         assert {fault["id"]: [node["html"] for node in fault["nodes"]] for fault in grave} == {}, theme
         assert len(found["passes"]) > 20, theme
-    assert len(grounds) == 2
 
 
 def test_a_link_that_cannot_be_says_so(visit):

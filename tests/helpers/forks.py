@@ -17,7 +17,7 @@ from tests.helpers.places import ROOT
 
 # What has no threads yet may be forked. A nurse between the two says which process it is and how it ended.
 SERVER = """
-import gc, importlib, json, os, socket, sys
+import gc, importlib, json, os, signal, socket, sys
 
 line, *modules = sys.argv[1:]
 for module in modules:
@@ -51,6 +51,8 @@ os.dup2(out, 1)
 os.dup2(err, 2)
 os.close(out)
 os.close(err)
+# As at a terminal: a run of the tests in the background ignores Ctrl-C, and all that it starts would.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 asked = json.loads(asked)
 os.chdir(asked["folder"])
 os.environ.clear()

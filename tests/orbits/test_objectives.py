@@ -57,14 +57,11 @@ def test_every_quantity_is_what_the_record_says(bat):
 
 
 def test_negative_work_is_free_returned_or_costly(bat):
-    solution = bat
-    mean, positive = (solution.value_of(QUANTITIES[name]) for name in ("mean_power", "mean_positive_power"))
+    mean, positive = (bat.value_of(QUANTITIES[name]) for name in ("mean_power", "mean_positive_power"))
     assert mean < positive
-    assert solution.value_of(wb.objectives.PowerCost(1.0)) == pytest.approx(mean)
-    assert solution.value_of(wb.objectives.PowerCost(0.0)) == pytest.approx(positive)
-    assert solution.value_of(wb.objectives.PowerCost(0.5)) == pytest.approx(0.5 * (mean + positive))
-    braking = positive - mean
-    assert solution.value_of(wb.objectives.PowerCost(-1.0)) == pytest.approx(positive + braking)
+    costs = {1.0: mean, 0.0: positive, 0.5: 0.5 * (mean + positive), -1.0: positive + (positive - mean)}
+    for returned, cost in costs.items():
+        assert bat.value_of(wb.objectives.PowerCost(returned)) == pytest.approx(cost)
     with pytest.raises(wb.InvalidInputError, match="returned = 2"):
         wb.objectives.PowerCost(2)
 
@@ -250,7 +247,7 @@ def test_a_function_that_gives_no_number_is_named():
         ("peak_power<=3e", "must be a quantity"),
         ("peak_power<=1.2.3", "must be a quantity"),
         ("frequency=1.2.3", "must be a quantity"),
-        ("power_cost(1.2.3)<=3", "not one that wingbeat knows"),
+        ("power_cost(1.2.3)<=3", "not known to wingbeat"),
         ("peak_power<=30 deg", "which is in W"),
         ("<=30", "must be a quantity"),
     ],

@@ -108,6 +108,8 @@ def test_killed_workers_and_a_killed_driver_lose_nothing(cheap, cluster, tmp_pat
     machines.add_worker("--no-nanny")
     machines.add_worker("--no-nanny")
     machines.add_worker("--no-nanny", PYTHONPATH=f"{tmp_path}{os.pathsep}{machines.environment['PYTHONPATH']}")
+    with distributed.Client(machines.address, set_as_default=False) as client:
+        client.wait_for_workers(3, timeout=40)  # or the two that fit are done before the third joins
     driver = study.start("run", study.file, "--dask", machines.address)
     wait_for(lambda: len(study.points()) > 5)
     machines.workers[0].kill()

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.experiment import FilmedBeat
 from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit
 from wingbeat.results.rows import power_label
 
 if TYPE_CHECKING:
-    from wingbeat.experiment import FilmedBeat
     from wingbeat.results.orbit import Orbit
     from wingbeat.results.spread import Spread
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json as json_format
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 from rich.console import Console
@@ -19,6 +19,7 @@ from wingbeat.cli.filmed import (
     spread_lines,
     spread_record,
 )
+from wingbeat.cli.influence import print_influence
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
     SPECIES,
@@ -40,19 +41,18 @@ from wingbeat.cli.options import (
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
+from wingbeat.experiment import FilmedBeat, fit_film, read_film
+from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.power import power_account
+from wingbeat.results.sensitivities import Sensitivities
+from wingbeat.results.sensitivities import sensitivities as differentiate
 from wingbeat.results.solving import solve_orbit
+from wingbeat.results.spread import Spread, orbit_spread
 from wingbeat.species import Species
-
-if TYPE_CHECKING:  # films and sensitivities are imported if they are asked for: a start takes 2 % less
-    from wingbeat.experiment import FilmedBeat
-    from wingbeat.orbits.many.uncertainty import ErrorBar
-    from wingbeat.results.sensitivities import Sensitivities
-    from wingbeat.results.spread import Spread
 
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
 
@@ -157,8 +157,6 @@ def orbit(
         if kinematics is None:
             problem = OrbitProblem(animal, speed, **asked)
         else:
-            from wingbeat.experiment import fit_film, read_film
-
             beat = fit_film(read_film(kinematics))
             problem = filmed_problem(beat, animal, speed, **asked)
     check_outputs(output, plot, tornado)
@@ -186,8 +184,6 @@ def orbit(
     else:
         print_orbit(record, Console())
         if influence and sensitivities:
-            from wingbeat.cli.influence import print_influence
-
             print_influence(influence, bars, Console())
         for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
             print(line)
@@ -209,9 +205,7 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
 
 def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
     """Differentiate an orbit, and draw what its uncertain numbers can change."""
-    from wingbeat.results.sensitivities import sensitivities
-
-    influence = sensitivities(found)
+    influence = differentiate(found)
     if tornado is not None:
         from wingbeat.plots import save_figure, tornado_page
 
@@ -222,8 +216,6 @@ def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple
 
 def _spread(found: Orbit, beat: FilmedBeat) -> Spread:
     """Fly other draws of the film, for the error bars."""
-    from wingbeat.results.spread import orbit_spread
-
     with progress_bar("error bars") as progress:
         return orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
 

@@ -63,13 +63,13 @@ class Unbalanced:
     scaled : its unknowns, in the optimiser's scale.
     shares : the deficit of each balance that may fail, as a share.
     keeps_the_rest : whether all other conditions hold.
-    nothing : a smaller root of the sum of squares of the shares counts as zero.
+    negligible : a smaller root of the sum of squares of the shares counts as zero.
     """
 
     scaled: np.ndarray
     shares: dict[str, float]
     keeps_the_rest: bool
-    nothing: float
+    negligible: float
 
     @property
     def is_excess(self) -> bool:
@@ -79,7 +79,7 @@ class Unbalanced:
     @property
     def closes(self) -> bool:
         """Whether no balance fails and all other conditions hold."""
-        return self.keeps_the_rest and self.size <= self.nothing
+        return self.keeps_the_rest and self.size <= self.negligible
 
     @property
     def size(self) -> float:
@@ -133,7 +133,9 @@ class Balance:
         short = -(weights(found) * programme.closure(found))[rows]
         rest = np.abs(np.delete(programme.closure(found), rows)).max()
         keeps = max(rest, -programme.inequalities(found).min()) <= options.kept_closure
-        return Unbalanced(found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps), options.nothing)
+        return Unbalanced(
+            found, dict(zip(broken, short.tolist(), strict=True)), bool(keeps), options.negligible_deficit
+        )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
         """Return a beat that closes; else the closest one with one failed balance; else that with all failed.

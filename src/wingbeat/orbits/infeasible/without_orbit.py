@@ -55,8 +55,8 @@ def without_orbit(
         return _below(programme, *raised)
     changes = least_changes(programme, near, nearest, threads, report) if advise and not nearest.closes else []
     # If a negligible change suffices, the local searches missed an orbit.
-    nothing = programme.options.diagnosis.nothing
-    leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= nothing]
+    negligible = programme.options.diagnosis.negligible_change
+    leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= negligible]
     led = [search(programme.uncorrected(), lead) for lead in leads]
     orbit = first_certified(programme, led)
     if orbit is not None:

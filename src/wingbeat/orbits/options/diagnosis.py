@@ -23,7 +23,8 @@ class DiagnosisOptions:
         much as a deficit of so many times the vehicle's weight.
     kept_closure : a condition holds if its residual is below this, in the optimiser's scale.
     least_gravity : smallest gravity that defines the weight with which forces are compared [m/s2].
-    nothing : a deficit below this share of the weight, or a change below this share of its scale, counts as zero.
+    negligible_deficit : a deficit below this share of the weight counts as zero.
+    negligible_change : a change below this share of its scale counts as zero: the starts had missed an orbit.
     mentioned : deficits above this share of the largest are reported.
     near_bound : a wingbeat nearer to a bound than this share of its range counts as at the bound.
     reported : largest number of reported changes.
@@ -44,7 +45,8 @@ class DiagnosisOptions:
     violation_weight: float = 100.0
     kept_closure: float = 1e-3
     least_gravity: float = 1e-3
-    nothing: float = 1e-3
+    negligible_deficit: float = 1e-3
+    negligible_change: float = 1e-3
     mentioned: float = 0.2
     near_bound: float = 0.02
     reported: int = 3

@@ -14,8 +14,6 @@ from typing import Any
 from wingbeat.errors import FileError
 from wingbeat.workers.leftovers import Leftover
 
-__all__ = ["make_folder", "read_text", "toml_tables", "write_atomically", "writing"]
-
 # tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
 MAX_LINE = 4096
 # Characters of a path in a message.

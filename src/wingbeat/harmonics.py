@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["FIRST_ORDER", "HARMONIC_NAMES", "HIGHEST_ORDER", "harmonic_place"]
-
 # The lowest order of each law's harmonics: what is below it has a name of its own.
 FIRST_ORDER = {"flap": 2, "pitch": 2, "span": 1}
 HIGHEST_ORDER = 8

@@ -144,16 +144,18 @@ def test_two_functions_of_one_name_are_two():
 
 PROGRAM = """
 import sys, numpy as np, jax.numpy as jnp, wingbeat as wb
+from wingbeat._jax.exported import exported
 from wingbeat._jax.program_cache import cache_folder
+@exported
+def lift(kernel, alpha):
+    return kernel.lift_drag(alpha)[0]
 def lifts(gain):
     rows = jnp.asarray(np.linspace(0.0, 1.0, 3000)).at[1500].add(gain)
     def own(alpha):
         return jnp.interp(alpha, jnp.linspace(-4.0, 4.0, 3000), rows), 0.5
-    model = wb.FlightModel(pigeon.vehicle, own)
-    return wb.flight_loads(model, pigeon.wingbeat, wb.State(u=10.0), np.linspace(0, 1, 64)).lift.tobytes().hex()
-pigeon = wb.load_species("pigeon")
+    return lift(wb.aero.coefficients_of(own).kernel(), np.linspace(-1.0, 1.0, 2001)).tobytes().hex()
 for gain in sys.argv[1:]:
-    print(lifts(float(gain)), len([path for path in cache_folder().rglob("*") if path.is_file()]))
+    print(lifts(float(gain)), len([path for path in cache_folder().rglob("traced-*")]))
 """
 
 

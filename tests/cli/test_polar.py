@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from wingbeat.aero import SuFan
+from wingbeat.aero import LIBRARY, SuFan
 from wingbeat.cli import main
 from wingbeat.cli.polar import polar
 from wingbeat.cli.ranges import parse_range
@@ -32,6 +32,10 @@ COLUMNS = ["alpha_deg", "c_l", "c_d", "c_n", "c_m", "x_cp"]
 )
 def test_ranges(text, wanted):
     np.testing.assert_array_equal(parse_range(text, "--alpha"), wanted)
+
+
+def test_the_help_names_every_published_model():
+    assert all(name in str(polar.__doc__) for name in LIBRARY)
 
 
 def test_a_whole_turn_in_fine_steps_is_exact():

@@ -19,8 +19,6 @@ from pathlib import Path
 from wingbeat.errors import FileError, system_reason
 from wingbeat.files import write_atomically
 
-__all__ = ["cache_folder", "keep_program", "kept_program", "program_folder"]
-
 _MAGIC = b"wingbeat program 1\n"
 _DIGEST = 32  # bytes
 _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH

@@ -14,8 +14,6 @@ from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.files import read_text, toml_tables
 
-__all__ = ["KIND", "FittedCurve", "FittedModel", "load_model", "read_model"]
-
 KIND = "wing coefficients"
 MAX_BYTES = 1 << 16
 _WAVE = ("constant", "amplitude", "rate", "phase_deg")

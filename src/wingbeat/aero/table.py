@@ -38,7 +38,7 @@ class TablePieces(NamedTuple):
 
     def _value(self, spline: Spline, alpha: Angles) -> Angles:
         knots, spline = jnp.asarray(self.knots), jnp.asarray(spline)
-        segment = jnp.searchsorted(knots[1:-1], alpha, side="right", method="scan_unrolled")
+        segment = jnp.searchsorted(knots[1:-1], alpha, side="right")
         return horner(tuple(spline[:, segment]), alpha - knots[segment])
 
     def lift(self, alpha: Angles) -> Angles:

@@ -11,8 +11,6 @@ from wingbeat.app.widgets import Rows, box, button, set_class, tag
 from wingbeat.nomenclature import for_people
 from wingbeat.results.plausibility import statements
 
-__all__ = ["Answer", "Headline", "Influence"]
-
 
 class Headline:
     """Status and the few numbers that everybody looks at first."""

@@ -15,8 +15,6 @@ from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import species_names
 
-__all__ = ["Controls"]
-
 _OWN = "(loaded file)"
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 

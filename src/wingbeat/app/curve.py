@@ -15,8 +15,6 @@ from wingbeat.app.session import BUSY, Session
 from wingbeat.app.widgets import Field, box, button, number_field, set_class, tag
 from wingbeat.workers.fair_pool import Event, Job
 
-__all__ = ["CurvePanel"]
-
 _SWEEP = ("from", "to", "step")
 
 

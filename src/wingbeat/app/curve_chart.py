@@ -9,8 +9,6 @@ from typing import Any
 
 from wingbeat.nomenclature import axis_label
 
-__all__ = ["chart"]
-
 _WIDTH, _PANEL, _GAP, _LEFT, _TOP, _RIGHT, _FOOT = 560, 150, 34, 52, 22, 14, 40
 _PANELS = ("frequency", "mean_positive_power")
 

@@ -17,8 +17,6 @@ from nicegui import core, json
 from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse
 
-__all__ = ["Door", "guard_events", "is_loopback"]
-
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]

@@ -6,8 +6,6 @@ import secrets
 from collections import OrderedDict
 from typing import NamedTuple
 
-__all__ = ["DOWNLOADS", "Download", "Downloads"]
-
 DOWNLOADS = "/wingbeat/downloads/"  # the address, without the name
 _MOST = 12
 

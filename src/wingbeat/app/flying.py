@@ -9,8 +9,6 @@ from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.widgets import run_script, tag
 from wingbeat.viewer import bundle_path
 
-__all__ = ["BUNDLE", "SCRIPT", "Flying", "bundle"]
-
 BUNDLE = "/wingbeat/viewer.js"
 # Scenes come by their own requests; one that is overtaken by a later one is not shown.
 SCRIPT = f"""

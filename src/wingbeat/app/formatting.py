@@ -11,18 +11,6 @@ from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.rows import mass_of
 from wingbeat.species_schema import Number, display
 
-__all__ = [
-    "from_shown",
-    "not_a_number",
-    "number",
-    "range_text",
-    "refusals",
-    "sentence",
-    "shown_text",
-    "spoken_path",
-    "tiles",
-]
-
 
 def number(value: float | None, digits: int = 4) -> str:
     """Return a number as short as so many digits allow; a dash for none."""

@@ -29,8 +29,6 @@ from wingbeat.workers.main import Context
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["do"]
-
 _MOST_RANKED = 12
 
 

@@ -16,8 +16,6 @@ from urllib.parse import parse_qsl, urlencode
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError, is_number
 
-__all__ = ["from_json", "from_plain", "from_query", "to_json", "to_plain", "to_query"]
-
 # Servers and browsers hold addresses of 16 kB and more; a species file takes some 6.
 _LONGEST_QUERY = 24_000
 _VERSION = 1

@@ -13,8 +13,6 @@ from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
 
-__all__ = ["Numbers"]
-
 _GROUPS = {"vehicle.body": "Body", "vehicle.wing": "Wing", "wingbeat": "Fixed parameters", "air": "Air"}
 
 

@@ -24,8 +24,6 @@ from wingbeat.app.widgets import button, choice_field, run_script, set_class, ta
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import Event, FairPool
 
-__all__ = ["Page"]
-
 _KINDS = {"nc": "application/x-netcdf", "png": "image/png", "pdf": "application/pdf", "json": "application/json"}
 _THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
 _MOST_LINES = 10

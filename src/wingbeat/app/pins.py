@@ -8,8 +8,6 @@ from typing import Any
 from wingbeat.app.formatting import number, tiles
 from wingbeat.app.widgets import box, button, tag
 
-__all__ = ["Pins"]
-
 _MOST_PINS = 8
 
 

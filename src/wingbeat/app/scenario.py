@@ -16,8 +16,6 @@ from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text
 
-__all__ = ["MOST_STARTS", "Scenario", "problem_of", "species_from_text", "species_in"]
-
 # What one visitor may ask of a machine that others use, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it

@@ -29,8 +29,6 @@ from wingbeat.errors import Fault, InvalidInputError, system_reason
 from wingbeat.workers.fair_pool import FairPool
 from wingbeat.workers.leftovers import Leftover
 
-__all__ = ["serve"]
-
 _WORK = "wingbeat.app.jobs:do"
 _LOOPBACK = "127.0.0.1"
 _HEADERS = {

@@ -13,8 +13,6 @@ from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.workers.fair_pool import Event, FairPool, Job
 
-__all__ = ["BUSY", "Session", "View"]
-
 # Seconds without a change after which an answer that was continued is searched for anew, from every start.
 _CALM = 0.35
 # A continuation that takes no longer is worth waiting for while the slider moves on.

@@ -18,8 +18,6 @@ from wingbeat.species import species_text
 if TYPE_CHECKING:
     import h5py
 
-__all__ = ["MOST_BYTES", "MOST_DECLARED", "clean_label", "read_upload", "scenario_of"]
-
 MOST_BYTES = 5_000_000
 # What all arrays of a file may take once they are unpacked; an orbit takes less than one million.
 MOST_DECLARED = 50_000_000

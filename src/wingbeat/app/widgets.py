@@ -11,20 +11,6 @@ from nicegui.elements.mixins.text_element import TextElement
 
 from wingbeat.app.formatting import from_shown, not_a_number
 
-__all__ = [
-    "Field",
-    "Rows",
-    "box",
-    "button",
-    "choice_field",
-    "number_field",
-    "run_script",
-    "set_class",
-    "slider",
-    "tag",
-    "text_field",
-]
-
 # What is being typed is kept where the page is drawn from, or the next change of anything would undo it.
 _KEEP = "(event) => { element.props.value = event.target.value; }"
 # The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.

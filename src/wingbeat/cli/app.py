@@ -14,8 +14,6 @@ from wingbeat.cli.memory import memory_shortage
 from wingbeat.cli.streams import StdoutError, drop_stdout
 from wingbeat.errors import WingbeatError, suggest
 
-__all__ = ["EXIT_BAD_INPUT", "EXIT_GOOD", "EXIT_NOT_CERTIFIED", "build_app", "main"]
-
 EXIT_GOOD = 0
 EXIT_BAD_INPUT = 2
 EXIT_NOT_CERTIFIED = 3

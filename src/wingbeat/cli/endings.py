@@ -18,8 +18,6 @@ TYPE_CHECKING = False  # `typing` takes longer to import than all that must be r
 if TYPE_CHECKING:
     from types import FrameType
 
-__all__ = ["EXIT_INTERRUPTED", "EXIT_TERMINATED", "end_on_signals"]
-
 EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells report it
 EXIT_TERMINATED = 143  # 128 + SIGTERM
 

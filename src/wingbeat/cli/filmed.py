@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
     from wingbeat.results.spread import Spread
 
-__all__ = ["DRAWS", "Kinematics", "film_lines", "film_record", "spread_lines", "spread_record"]
-
 # Other films of the same beat that are tried for an error bar: it is good to an eighth of itself.
 DRAWS = 32
 Kinematics = Annotated[

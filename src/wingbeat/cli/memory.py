@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from wingbeat.workers.affinity import core_count
 
-__all__ = ["memory_shortage"]
-
 # Address space [bytes] that a solver takes: one orbit took 1.96 GB on two cores with an empty cache, 1.84 GB on two
 # and 1.65 GB on one with a full one, most of it set aside for threads. With 1.6 GB on two cores it aborts.
 _SOLVER = 1_700_000_000

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-__all__ = ["power_groups"]
-
 
 def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:
     """Return the groups of rows that tell a power account, none if there is none."""

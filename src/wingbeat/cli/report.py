@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-__all__ = ["flight_summary", "print_flight", "print_orbit", "read_result"]
-
 
 def read_result(path: str | PathLike[str]) -> xr.Dataset:
     """Return the dataset of a file that `orbit -o`, `simulate -o` or `curve -o` wrote.

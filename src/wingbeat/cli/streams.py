@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["StdoutError", "drop_stdout", "plain_console", "prepare_streams"]
-
 
 class StdoutError(Exception):
     """Standard output takes no more; `number` says why, as errno does. No OSError: rich catches some of those."""

@@ -20,8 +20,6 @@ from wingbeat.experiment.forms import value_and_slopes
 from wingbeat.experiment.record import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
 from wingbeat.files import write_atomically
 
-__all__ = ["TRUTH", "Campaign", "save_runs", "synthetic_runs", "true_coefficients"]
-
 Array = NDArray[np.float64]
 _SU_FAN = SuFan()
 assert _SU_FAN.centre_terms is not None  # the paper has one

@@ -14,8 +14,6 @@ from wingbeat.aero.model_file import FittedCurve, read_model
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.wing_fit import WingFit
 
-__all__ = ["draw"]
-
 MAX_COUNT = 100_000
 _TRIES = 100
 

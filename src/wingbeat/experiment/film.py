@@ -14,8 +14,6 @@ from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_
 from wingbeat.files import write_atomically
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 
-__all__ = ["FILMED", "Film", "read_film", "synthetic_film"]
-
 # What can be filmed, and its unit; the laws of the wingbeat in these units.
 FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""}
 _LAWS = {"flap_deg": flap_angle, "pitch_deg": pitch_angle, "span_fraction": span_ratio}

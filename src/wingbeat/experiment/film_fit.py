@@ -23,8 +23,6 @@ from wingbeat.experiment.film import FILMED, Film
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat
 
-__all__ = ["FilmedBeat", "FilmedLaw", "fit_film"]
-
 # Mean, cosine and sine of order 1 go free of the penalty.
 _PLAIN = 3
 # Weights of the penalty to look among, times the number of frames.

@@ -18,8 +18,6 @@ from wingbeat.aero.coefficient_model import at_angles
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.errors import FaultList
 
-__all__ = ["FORMS", "BoxForm", "CurveForm", "WingForm", "value_and_slopes"]
-
 Array = NDArray[np.float64]
 Kind = type[FormulaTerms] | type[CentreTerms]
 # Grids of what a formula is not linear in; the rest follows from linear least squares at each node.

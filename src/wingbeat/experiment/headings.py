@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from wingbeat.errors import FaultList
 from wingbeat.files import read_text
 
-__all__ = ["Heading", "Sheet", "parse_numbers", "read_sheet", "split_unit"]
-
 # A record of 30 s at 10 kHz has some 20 MB.
 MAX_BYTES = 1 << 26
 # Forty bad cells tell as much as forty thousand.

@@ -14,8 +14,6 @@ from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 from wingbeat.nomenclature import plain_unit
 
-__all__ = ["LoadCellRun", "read_run", "refuse_radians"]
-
 MIN_SAMPLES = 32
 # Beyond this spread within one record the plate was still turning.
 MAX_TURN_DEG = 1.0

@@ -14,8 +14,6 @@ from wingbeat.experiment.record import CHANNELS, MIN_SAMPLES, LoadCellRun, refus
 from wingbeat.experiment.statistics import added_variance, standard_error
 from wingbeat.experiment.table import QUANTITIES, CoefficientTable
 
-__all__ = ["RunMeans", "reduce_run", "reduce_runs"]
-
 LAST_SECONDS = 20.0
 # Repeats of one point: a positioning stage returns within a quarter degree, a stream within some per cent.
 SAME_ALPHA_DEG = 0.5

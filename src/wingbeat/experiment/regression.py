@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from wingbeat.errors import FaultList
 from wingbeat.experiment.forms import CurveForm
 
-__all__ = ["CurveFit", "FitRangeWarning", "fit_curve"]
-
 Array = NDArray[np.float64]
 # The scaled Jacobian loses half its digits beyond this.
 ILL_CONDITIONED = 1e4

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["added_variance", "standard_error"]
-
 MIN_BLOCKS = 8
 
 

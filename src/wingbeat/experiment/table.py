@@ -14,8 +14,6 @@ from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_
 from wingbeat.experiment.record import refuse_radians
 from wingbeat.files import write_atomically
 
-__all__ = ["QUANTITIES", "CoefficientTable", "load_measurements"]
-
 QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
 REQUIRED = ("alpha_deg", "C_L", "C_D")
 _KNOWN = (

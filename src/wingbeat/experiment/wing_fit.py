@@ -20,8 +20,6 @@ from wingbeat.experiment.regression import CurveFit, fit_curve
 from wingbeat.experiment.table import CoefficientTable
 from wingbeat.files import write_atomically
 
-__all__ = ["WingFit", "fit_wing"]
-
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0
 

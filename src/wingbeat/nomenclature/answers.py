@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from wingbeat.nomenclature.term import Term
 
-__all__ = ["ANSWER", "BEAT", "STUDY"]
-
 BEAT = (
     Term("mean_power", "W", "mean hinge power, both wings", short="hinge power, mean"),
     Term(

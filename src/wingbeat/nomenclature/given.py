@@ -5,8 +5,6 @@ from __future__ import annotations
 from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
 from wingbeat.nomenclature.term import Term
 
-__all__ = ["AERO", "GIVEN", "RUN", "WINGBEAT"]
-
 _ORDERS = f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}"
 _HALF = "half of peak to peak"
 GIVEN = (

@@ -13,8 +13,6 @@ from wingbeat.nomenclature.series import GLIDE, SERIES
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import plain
 
-__all__ = ["attributes_of", "axis_label", "find", "label_of", "plain_unit"]
-
 NOMENCLATURE: dict[str, Term] = {
     term.name: term for term in (*SERIES, *GLIDE, *GIVEN, *WINGBEAT, *BEAT, *AERO, *RUN, *ANSWER, *STUDY)
 }

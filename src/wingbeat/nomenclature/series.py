@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from wingbeat.nomenclature.term import Term
 
-__all__ = ["GLIDE", "SERIES"]
-
 SERIES = (
     Term("phase", "1", "phase of the wingbeat, 0 at the top of the stroke", "t/T"),
     Term("station", "1", "span fraction of the strip's centre", "s/L"),

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import re
 
-__all__ = ["cf", "for_people", "plain"]
-
 _IN_DEGREES = math.degrees(1.0)
 
 

@@ -5,13 +5,13 @@ from wingbeat.plots.curve_page import curve_page as curve_page
 from wingbeat.plots.film_page import film_page as film_page
 from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.glide_page import glide_page as glide_page
-from wingbeat.plots.page import wingbeat_page as wingbeat_page
 from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
 from wingbeat.plots.study_page import study_page as study_page
-from wingbeat.plots.tornado import tornado_page as tornado_page
+from wingbeat.plots.tornado_page import tornado_page as tornado_page
+from wingbeat.plots.wingbeat_page import wingbeat_page as wingbeat_page
 
 __all__ = [
     "FIGURE_SUFFIXES",

@@ -14,8 +14,6 @@ from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["flat", "leaves", "result_unit"]
-
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.

@@ -19,8 +19,6 @@ from wingbeat.results.columns import leaves, result_unit
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["csv_text"]
-
 # Along what each kind of result has a row.
 _ROWS = {"orbit": "phase", "flight": "phase", "curve": "speed", "glide": "angle_of_attack"}
 

@@ -14,8 +14,6 @@ from wingbeat.results.columns import result_unit
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["mat_bytes"]
-
 # What MATLAB takes as a name (`namelengthmax`).
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
 

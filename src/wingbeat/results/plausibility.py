@@ -10,8 +10,6 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species.plausibility import JUDGED
 
-__all__ = ["Statements", "is_judgement", "plausibility", "statements"]
-
 # The reader's name of each judged number.
 _NAMES = {
     "positive_power_per_mass": "power per mass",

@@ -8,17 +8,6 @@ from typing import Any
 from wingbeat.datasets import STATE_NAMES
 from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
 
-__all__ = [
-    "Rows",
-    "change_rows",
-    "orbit_groups",
-    "power_label",
-    "power_rows",
-    "stability_rows",
-    "state_rows",
-    "wingbeat_rows",
-]
-
 Rows = list[tuple[str, str]]
 
 # Values that switch off the laws beyond the paper's; such rows are left out.

@@ -15,8 +15,6 @@ from wingbeat.results.storage import save_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["SUFFIXES", "Saveable", "check_result_name", "results_of", "save_result"]
-
 # Attributes of a dataset that are plain text; other texts are JSON.
 _TEXTS = (
     *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),

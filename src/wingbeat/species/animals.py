@@ -13,8 +13,6 @@ from wingbeat.species.record import Species
 from wingbeat.species.settings import plain
 from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, to_si
 
-__all__ = ["bat", "bird", "robot"]
-
 # What may be given beside mass, span and area: every number of a species file by its own name.
 _MEASURED = {
     "wing_mass" if path == "vehicle.wing.mass" else path.rpartition(".")[2]: (path, key)

@@ -12,8 +12,6 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.species_schema import Number, Numbers, SpeciesText, display
 from wingbeat.vehicle import Air, Body, Vehicle, Wing
 
-__all__ = ["BODY", "WHOLE", "WING", "build_records", "check_bounds", "default_of", "derive_body", "words"]
-
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
 _RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "wingbeat": Wingbeat, "air": Air}
 _DEFAULTS: dict[str, Any] = {

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 from wingbeat.species_schema import Number
 
-__all__ = ["OUTSIDE", "Data", "Law"]
-
 # Stands in the source of a number that a law gave outside its data, before what is outside of what.
 OUTSIDE = "outside its data: "
 

@@ -21,8 +21,6 @@ from wingbeat.species_schema import (
     species_names,
 )
 
-__all__ = ["load_species", "species_of"]
-
 # Nose straight up or down: where a file sets no limit, no more than this can be flight.
 _UPRIGHT = (-math.pi / 2, math.pi / 2)
 _PATH = {

@@ -7,8 +7,6 @@ import math
 from wingbeat.species import scaling
 from wingbeat.species_schema import PLAUSIBLE, Number, Range
 
-__all__ = ["JUDGED", "UNKNOWN", "plausible_of_bats", "plausible_of_birds", "plausible_of_robots"]
-
 # What is judged of every orbit, in the order of a record.
 JUDGED = (
     "positive_power_per_mass",

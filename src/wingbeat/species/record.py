@@ -26,8 +26,6 @@ from wingbeat.species_schema import (
 )
 from wingbeat.vehicle import Air, Vehicle
 
-__all__ = ["DERIVED", "Species", "find_warnings"]
-
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 
 _SET_BY_HAND = "set by hand in place of"

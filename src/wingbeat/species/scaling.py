@@ -11,8 +11,6 @@ import math
 from wingbeat.species.law import Data, Law
 from wingbeat.species_schema import Number
 
-__all__ = ["Law", "exponent_of_inertia", "mass_exponent"]
-
 RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, doi 10.1242/jeb.198.8.1655, table 3"
 PENNYCUICK = "Pennycuick 1996, J Exp Biol 199:1613, doi 10.1242/jeb.199.7.1613"
 BULLEN = "Bullen and McKenzie 2002, J Exp Biol 205:2615, doi 10.1242/jeb.205.17.2615"

@@ -7,8 +7,6 @@ from typing import Any
 from wingbeat.errors import FaultList, FileError, suggest
 from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
-__all__ = ["parse_setting", "plain", "settable"]
-
 # The whole mass is not among them: it follows from body and wings, and nothing moves unasked.
 _SETTABLE = {
     path: key

@@ -12,8 +12,6 @@ from wingbeat.species.building import BODY, WHOLE
 from wingbeat.species.record import Species
 from wingbeat.species_schema import Number, Range, display
 
-__all__ = ["species_text"]
-
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from importlib import resources
 
-__all__ = ["packaged_text", "species_names", "template"]
-
 _TEMPLATE = "template"
 
 

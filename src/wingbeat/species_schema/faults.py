@@ -13,19 +13,6 @@ from wingbeat.errors import FaultList, suggest
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, RangeTable, SpeciesFile
 
-__all__ = [
-    "MAX_FAULTS",
-    "NOTHING",
-    "Shown",
-    "check_shape",
-    "check_value",
-    "dotted",
-    "has_shape",
-    "rule_of",
-    "shown",
-    "spoken",
-]
-
 MAX_FAULTS = 100
 
 

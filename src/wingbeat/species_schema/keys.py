@@ -7,8 +7,6 @@ from typing import NamedTuple
 from wingbeat.harmonics import HARMONIC_NAMES
 from wingbeat.nomenclature import find, plain
 
-__all__ = ["FREE", "KEYS", "PATH", "PLAUSIBLE", "Key"]
-
 
 class Key(NamedTuple):
     """One number of a species: its path as in the orbit record, SI unit, meaning and shape."""

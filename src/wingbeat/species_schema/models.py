@@ -9,8 +9,6 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapt
 
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 
-__all__ = ["ADAPTERS", "NUMBER_FIELDS", "TABLE", "TAGS", "BoundTable", "RangeTable", "SpeciesFile", "json_schema"]
-
 _STRICT = ConfigDict(strict=True, extra="forbid")
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]

@@ -12,19 +12,6 @@ from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 
-__all__ = [
-    "Alternative",
-    "Bound",
-    "Number",
-    "Numbers",
-    "Range",
-    "SpeciesText",
-    "display",
-    "parse_toml",
-    "read_species_text",
-    "to_si",
-]
-
 Value = float | tuple[float, ...]
 
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from distributed import Client, Future, LocalCluster
     from distributed.deploy.cluster import Cluster
 
-__all__ = ["DaskEngine", "check_dask"]
-
 _LOCAL, _REMOTE = re.compile(r"local:([1-9][0-9]{0,3})"), re.compile(r"(tcp|tls)://\S+:[0-9]+")
 # Seconds: to wait for a scheduler's first word, between two looks at who works for it, to wait for an answer that
 # is there but whose worker may just have died.

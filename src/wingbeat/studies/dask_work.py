@@ -21,8 +21,6 @@ from wingbeat.errors import ClusterError, WorkerError
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 
-__all__ = ["Order", "dismiss", "greet", "other_numbers", "solve_batch"]
-
 # What the last digit of an answer hangs on, beside the machine.
 _TOLD = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
 # Seconds that a process without work is kept.

@@ -10,18 +10,6 @@ from pathlib import Path
 from wingbeat.errors import FileError
 from wingbeat.studies.pages import whole_answers
 
-__all__ = [
-    "APPLICATION",
-    "FORM",
-    "TABLES",
-    "DamagedStoreError",
-    "closing",
-    "connect",
-    "connect_reader",
-    "in_words",
-    "refusal",
-]
-
 # Stands in the file's head, where `file` and we tell a store from another database: "wbst".
 APPLICATION = 0x77627374
 # Raised whenever the tables change.

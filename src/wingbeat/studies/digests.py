@@ -6,8 +6,6 @@ import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-__all__ = ["POINT_COLUMNS", "Fingerprint", "about_digest", "row_digest", "table_digest"]
-
 # Columns of the table `points`, the digest of the others last.
 POINT_COLUMNS = (
     *("key", "status", "base", "changes", "record", "certificate", "error", "run_seconds", "run_finished"),

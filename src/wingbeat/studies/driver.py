@@ -15,8 +15,6 @@ from wingbeat.studies.engine import Ended, Engine
 from wingbeat.studies.store import Store, Waiting
 from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
 
-__all__ = ["Progress", "Stop", "Tally", "drive", "listening"]
-
 # Seconds of work that make a batch: long beside what handing it out costs, short beside a user's patience.
 _BATCH_SECONDS = 1.5
 _MOST = 256

@@ -13,8 +13,6 @@ from wingbeat.workers.affinity import cores_of
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
 
-__all__ = ["Ended", "Engine", "LocalProcesses"]
-
 # There are as many processes as cores, so each has one thread.
 _ONE_THREAD = {
     "OMP_NUM_THREADS": "1",

@@ -16,8 +16,6 @@ from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import MAX_FAULTS, NOTHING, dotted, rule_of
 from wingbeat.species_schema.models import LIST, TABLE
 
-__all__ = ["METHODS", "SPREADS", "Sample", "StudyForm", "Vary", "check_form", "number", "read_form"]
-
 _STRICT = ConfigDict(strict=True, extra="forbid")
 METHODS = ("sobol", "latin-hypercube")
 # How the values of a varied parameter may be given.

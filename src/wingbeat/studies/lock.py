@@ -9,8 +9,6 @@ from pathlib import Path
 
 from wingbeat.errors import FileError, system_reason
 
-__all__ = ["is_locked", "only_one"]
-
 
 def _take(descriptor: int) -> None:
     """Lock a file for this process alone, or raise `OSError` where another one holds it."""

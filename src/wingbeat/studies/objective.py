@@ -10,8 +10,6 @@ from wingbeat.errors import FaultList, first_line
 from wingbeat.files import read_text
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 
-__all__ = ["as_inputs", "from_inputs", "named"]
-
 _MARK = ".py:"
 
 

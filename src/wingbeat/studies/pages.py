@@ -16,8 +16,6 @@ from typing import Any
 from wingbeat.studies.digests import POINT_COLUMNS, row_digest
 from wingbeat.studies.units import FAILED
 
-__all__ = ["PAGE", "log_fault", "whole_answers"]
-
 # Bytes of a page; every store is made with it, so that salvage does not depend on the file's own head.
 PAGE = 4096
 _LOG_HEAD, _FRAME_HEAD = 32, 24

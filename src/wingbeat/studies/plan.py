@@ -27,8 +27,6 @@ from wingbeat.studies.objective import as_inputs
 from wingbeat.studies.recipe import MOTION, Recipe
 from wingbeat.studies.sampling import unit_points
 
-__all__ = ["MOST_POINTS", "Base", "Plan", "Point", "canonical", "make_plan"]
-
 MOST_POINTS = 10_000_000
 # Faults of a plan after which it is not looked for more.
 _ENOUGH = 100

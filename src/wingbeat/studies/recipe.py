@@ -21,8 +21,6 @@ from wingbeat.species.settings import settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken
 from wingbeat.studies.objective import from_inputs
 
-__all__ = ["MOTION", "Recipe", "recipe_from", "starts_of"]
-
 # Every point says these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
 _OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")

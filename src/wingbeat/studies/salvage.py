@@ -13,8 +13,6 @@ from wingbeat.studies.pages import whole_answers
 from wingbeat.studies.plan import Plan
 from wingbeat.studies.store import Store
 
-__all__ = ["Salvaged", "salvage"]
-
 _ENDS = ("", "-wal")
 
 

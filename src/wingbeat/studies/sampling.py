@@ -7,8 +7,6 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["unit_points"]
-
 
 def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
     """Return points of the unit cube, shape (count, directions).

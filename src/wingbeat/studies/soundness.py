@@ -16,8 +16,6 @@ from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, tabl
 from wingbeat.studies.lock import is_locked
 from wingbeat.studies.pages import PAGE, log_fault, whole_answers
 
-__all__ = ["PLAN_TABLES", "check_contents", "check_files", "digest_of"]
-
 # Tables that a plan determines: each has one digest, and the order that this is made in.
 PLAN_TABLES = {"bases": "hash", "plan_bases": "base", "plan": "ordinal"}
 _MAGIC = b"SQLite format 3\0"

@@ -20,8 +20,6 @@ from wingbeat.studies.plan import Plan
 from wingbeat.studies.soundness import PLAN_TABLES, check_contents, check_files, digest_of, read_about
 from wingbeat.studies.units import FAILED, Outcome, Task, Unit
 
-__all__ = ["Row", "Store", "Waiting"]
-
 _FAILED = "(" + ", ".join(f"'{status}'" for status in FAILED) + ")"
 _INSERT = f"INSERT OR REPLACE INTO points VALUES ({', '.join('?' * len(POINT_COLUMNS))})"
 _CHUNK = 500

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed.deploy.cluster import Cluster
 
-__all__ = ["Study", "Summary", "plan_study"]
-
 _SUFFIX = ".study.sqlite"
 # Seconds that a point may be given, ten days and more: operating systems refuse to wait for years.
 _LONGEST = 1e6

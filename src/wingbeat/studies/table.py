@@ -21,15 +21,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-__all__ = [
-    "SUFFIXES",
-    "check_table_name",
-    "frame_of",
-    "save_table",
-    "to_dataset",
-    "varied_numbers",
-]
-
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
 

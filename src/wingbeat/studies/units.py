@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["CERTIFIED", "FAILED", "STATUSES", "UNCERTIFIED", "Outcome", "Task", "Unit", "failed"]
-
 CERTIFIED = "converged"
 # Answers of the search itself, which would be the same again.
 UNCERTIFIED = ("infeasible", "not-converged")

@@ -21,8 +21,6 @@ from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
 from wingbeat.workers.main import Context
 
-__all__ = ["solve_unit", "solve_units"]
-
 # Recipes that a process keeps set up.
 _KEPT = 64
 # Answers of a chain that predict the next: a parabola along it needs no more.

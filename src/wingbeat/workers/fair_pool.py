@@ -14,8 +14,6 @@ from wingbeat.errors import first_line
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
 
-__all__ = ["Event", "FairPool", "Job"]
-
 # Processes that end before they are ready, in a row, after which no more are started for the same job.
 _FALSE_STARTS = 3
 # Seconds in which a job that is not wanted any more may end by itself before its process is ended.

@@ -21,8 +21,6 @@ from typing import Any, NamedTuple
 from wingbeat.workers.affinity import pin_to
 from wingbeat.workers.gc import collect_seldom
 
-__all__ = ["NO_MEMORY", "Context", "Message", "StoppedError", "main"]
-
 # The exit code of a process that was refused memory: ENOMEM, as systems number their errors.
 NO_MEMORY = 12
 # How XLA, threads and the system say that there is no memory left, where Python does not raise a MemoryError.

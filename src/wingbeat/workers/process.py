@@ -16,8 +16,6 @@ from typing import Any
 from wingbeat.workers.leftovers import Leftover
 from wingbeat.workers.main import NO_MEMORY, Message
 
-__all__ = ["WorkerProcess"]
-
 # Not `-m`, by which the module would be there twice, as `__main__` too.
 _PROGRAM = "from wingbeat.workers.main import main; main()"
 # Seconds that a process which is about to end gets for it, so that its exit code is its own.

@@ -18,8 +18,6 @@ from wingbeat.workers.affinity import cores_of, pin_to
 from wingbeat.workers.main import Context, Message
 from wingbeat.workers.process import WorkerProcess
 
-__all__ = ["in_processes", "process_map"]
-
 T = TypeVar("T")
 R = TypeVar("R")
 

@@ -129,6 +129,8 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
 
 # Fields of a beat that are single numbers.
 NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
+# Those with a column for each strip. All others are series.
+BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
 
 
 class _Tables(NamedTuple):

@@ -226,7 +226,7 @@ def possible_changes(
     brisk = max(problem.speed, options.low_speed)
     fastest = min(problem.speed + options.faster * brisk, FASTEST)
     yield from _moving("speed", problem.speed, fastest, brisk, (0.3, 1.0, 2.5))
-    slowest = options.slowest * problem.speed if problem.asks_cost_of_transport else 0.0
+    slowest = options.slowest * problem.speed if problem.needs_speed else 0.0
     yield from _moving("speed", problem.speed, slowest, brisk, (0.3,))
     steepest = max(problem.climb - brisk, -FASTEST_CLIMB)
     yield from _moving("climb", problem.climb, steepest, brisk, tries_for(short.get(THRUST), (0.2, 0.4)))

@@ -16,7 +16,7 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat.errors import Fault, InvalidInputError, first_line
-from wingbeat.orbits.flight.beat import NUMBERS, Beat
+from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import Quantity
@@ -104,7 +104,7 @@ def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
 def _any_beat(strips: int) -> Beat:
     by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
     number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
-    shapes: dict[str, Any] = dict.fromkeys(("alpha", "strip_reynolds", "lift", "drag"), by_strip)
+    shapes: dict[str, Any] = dict.fromkeys(BY_STRIP, by_strip)
     shapes |= dict.fromkeys(NUMBERS, number)
     return Beat(*(shapes.get(name, series) for name in Beat._fields))
 

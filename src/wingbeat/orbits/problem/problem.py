@@ -147,11 +147,11 @@ class OrbitProblem:
                 faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
         object.__setattr__(self, "minimise", minimise)
         object.__setattr__(self, "subject_to", tuple(constraints))
-        names = {q.name for q in self._quantities()} if not faults.faults and self.speed == 0 else set()
-        if "cost_of_transport" in names:
-            faults.add("speed", self.speed, "has no cost of transport", "in hover ask for mean_positive_power")
-        if "strouhal" in names:
-            faults.add("speed", self.speed, "has no Strouhal number", "in hover limit frequency and flap_amplitude")
+        if self.speed == 0 and not faults.faults:
+            for quantity in {q.name: q for q in self._quantities() if q.in_hover is not None}.values():
+                faults.add(
+                    "speed", self.speed, f"leaves {quantity.name} undefined", f"in hover {quantity.in_hover}"
+                )
 
     def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
         """Fix a parameter at a value, or tighten its bounds."""
@@ -213,9 +213,9 @@ class OrbitProblem:
         return bool(self._quantities())
 
     @property
-    def asks_cost_of_transport(self) -> bool:
-        """Whether the objective or a constraint is the cost of transport, which is undefined in hover."""
-        return "cost_of_transport" in {quantity.name for quantity in self._quantities()}
+    def needs_speed(self) -> bool:
+        """Whether the objective or a constraint is undefined in hover."""
+        return any(quantity.in_hover is not None for quantity in self._quantities())
 
     @property
     def has_own_bounds(self) -> bool:

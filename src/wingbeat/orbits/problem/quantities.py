@@ -34,6 +34,7 @@ class Quantity:
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
     parameter : the wingbeat parameter that the quantity is, if it is one: as an objective it then needs no flight.
+    in_hover : what to ask for in hover instead, if the quantity is undefined at speed 0.
 
     Raises
     ------
@@ -49,6 +50,7 @@ class Quantity:
     unit: str = "1"
     scale: float = 1.0
     parameter: str | None = None
+    in_hover: str | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -182,9 +184,9 @@ def _roughness(beat: Beat) -> Any:
     return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
 
 
-def _known(name: str, of: Callable[[Beat], Any], scale: float = 1.0) -> Quantity:
+def _known(name: str, of: Callable[[Beat], Any], scale: float = 1.0, in_hover: str | None = None) -> Quantity:
     """Return a quantity with the unit that the table of names gives it."""
-    return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale)
+    return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale, in_hover=in_hover)
 
 
 QUANTITIES = {
@@ -197,9 +199,9 @@ QUANTITIES = {
         _known("mean_actuator_power", _Cost("actuator_power", 1.0)),
         _known("peak_actuator_power", _Series("actuator_power"), 5.0),
         _known("positive_power_per_mass", _power_per_mass, 10.0),
-        _known("cost_of_transport", _cost_of_transport, 0.1),
+        _known("cost_of_transport", _cost_of_transport, 0.1, "ask for mean_positive_power"),
         _known("peak_force_over_weight", _force_over_weight, 0.5),
-        _known("strouhal", _strouhal, 0.1),
+        _known("strouhal", _strouhal, 0.1, "limit frequency and flap_amplitude"),
         _known("peak_flap_torque", _Size("flap_torque"), 0.1),
         _known("peak_pitch_torque", _Size("pitch_torque"), 0.01),
         _known("body_pitch_range", _pitch_spread, 0.1),

@@ -28,7 +28,7 @@ from alerstam_flights import (
     to_csv,
 )
 from alerstam_spread import Moved, spreads
-from alerstam_words import HEAD, TAIL, largest_differences, speeds, spread_table, verdicts
+from alerstam_words import HEAD, conclusions, largest_differences, speeds, spread_table, verdicts
 
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import WingbeatError
@@ -70,7 +70,7 @@ def main(argv: list[str] | None = None) -> int:
             verdicts(found, points, timed),
             largest_differences(found),
             spread_table(moved),
-            TAIL,
+            conclusions(points),
         )
         write_atomically(chosen.tables / "alerstam.csv", alerstam_summary.to_csv(found))
         write_atomically(chosen.output / "alerstam.md", "".join(parts))

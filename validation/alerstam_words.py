@@ -14,34 +14,47 @@ from wingbeat.species import scaling
 
 HEAD = """# {count} birds against radar measurements
 
-`python validation/alerstam.py` writes this page and computes every number in its tables. `wb.bird` builds each
-of the {count} species of Alerstam et al. 2007 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0)
-that have mass, span and area; scaling laws give the rest. One batch of {asked} problems, of which {points}
-ended in a certified orbit, minimises positive hinge power at seven speeds. The speeds are 0.65 to 1.6 times
-that at which a wing of lift coefficient 1 carries the bird, and do not depend on the measured airspeed. Curves
-that were not smooth were solved again, speed by speed from their neighbours' results. A parabola through the
-lowest point and its neighbours gives the minimum-power speed, and the same for power over speed gives the
-maximum-range speed. At its measured airspeed each bird is also flown with minimum power and with minimum
-frequency. Air loads: Su-Fan, no induced flow, no body drag. The orbits are the best found; better ones may
-exist. All species: [alerstam.csv](../data/alerstam.csv); all orbits:
-[alerstam_points.csv](../data/alerstam_points.csv).
+`python validation/alerstam.py` writes this page and computes every number in its tables. Alerstam et al. 2007
+(PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0) measured the airspeeds of birds by radar. For
+{count} of their species, mass, span and area are known. `wb.bird` builds each of these species from the three
+numbers; scaling laws give the rest.
+
+Each bird flies with minimum positive hinge power at seven speeds. These are 0.65 to 1.6 times the speed at
+which a wing of lift coefficient 1 carries the bird; they do not depend on the measured airspeed. A parabola
+through the point of lowest power and its two neighbours gives the minimum-power speed. In the same way, power
+over speed gives the maximum-range speed. Each bird also flies at its measured airspeed, with minimum power and
+with minimum frequency. One batch solves all {asked} problems. If the power of a bird does not change smoothly
+with speed, its orbits are solved again, each starting from its neighbours' results. In the end, {points} of the
+problems have a certified orbit.
+
+The air loads are those of the Su-Fan coefficients, without induced flow and without body drag. The orbits are
+the best found; better ones may exist. The tables behind this page are [alerstam.csv](../data/alerstam.csv)
+(all species) and [alerstam_points.csv](../data/alerstam_points.csv) (all orbits).
 
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
 
-A: the dashed line marks equality, the band 20 % on either side. B: predicted over measured speed. C: frequency
-at the measured airspeed over Pennycuick's law of 1996; black squares are measured frequencies of other birds.
-D: speeds divided by the speed at lift coefficient 1. Grey in B to D: the Reynolds numbers of the paper's plate,
-by mean chord and measured airspeed.
+A: predicted against measured speed. The dashed line marks equality, the band 20 % on either side. B: predicted
+speed divided by measured speed. C: frequency at the measured airspeed, divided by Pennycuick's law of 1996.
+Black squares: frequencies that other studies measured on other birds (see the table *Measured frequencies*).
+D: speeds divided by the speed at lift coefficient 1. Grey bands in B to D: Reynolds numbers 20 000 to 50 000,
+at which Su et al. measured the plate of the Su-Fan coefficients. The Reynolds number of a bird is that of its
+mean chord at its measured airspeed.
 """
 
 SPEEDS_HEAD = """
 ## Speeds
 
-Ratio: median of predicted over measured speed. Scatter: one standard deviation of that ratio, as a factor.
-Correlation: correlation of the logarithms. Slope: change of the ratio's logarithm with that of the Reynolds
-number, with its 95 % interval. The interval is too narrow, because species are not independent. Alerstam et al.
-fitted the two laws to these birds, and the last line is their median speed. These three are for comparison;
-they are not predictions.
+The columns of the table are:
+
+- *ratio*: the median of predicted over measured speed;
+- *scatter*: one standard deviation of that ratio, as a factor;
+- *correlation*: the correlation of the logarithms of both speeds;
+- *within 20 %*: the share of species whose predicted speed is within 20 % of the measured one;
+- *slope in Re*: the slope of the ratio's logarithm against the logarithm of the Reynolds number, with its 95 %
+  interval. The interval is too narrow, because species are not independent.
+
+The last three rows are no predictions; they are there for comparison. Alerstam et al. fitted the two laws to
+these birds. The speed in the last row is the median of the measured speeds.
 
 | measured airspeed compared with | species | ratio | scatter | correlation | within 20 % | slope in Re |
 | --- | --- | --- | --- | --- | --- | --- |
@@ -59,12 +72,18 @@ def speeds(found: list[Row]) -> str:
         values = column(found, name)
         lines.append(_speed_line(f"model, {label}", values, measured, reynolds))
         lines.append(
-            _speed_line(f"the same, Re {low} to {high}", values[inside], measured[inside], reynolds[inside])
+            _speed_line(
+                f"the same, birds at Re {low} to {high}", values[inside], measured[inside], reynolds[inside]
+            )
         )
-        lines.append(_speed_line("the same, outside", values[~inside], measured[~inside], reynolds[~inside]))
+        lines.append(
+            _speed_line("the same, birds outside this range", values[~inside], measured[~inside], reynolds[~inside])
+        )
     by_mass = np.array([scaling.CRUISE_BY_MASS(row.mass) for row in found])
     lines.append(_speed_line("law 15.9 m^0.13, fitted to these birds", by_mass, measured, reynolds))
-    lines.append(_speed_line("law 4.3 (m g/S)^0.31, the same", 4.3 * loading**0.31, measured, reynolds))
+    lines.append(
+        _speed_line("law 4.3 (m g/S)^0.31, fitted to these birds", 4.3 * loading**0.31, measured, reynolds)
+    )
     lines.append(_speed_line("one speed for all", np.full(len(found), np.median(measured)), measured, reynolds))
     return SPEEDS_HEAD + "\n".join(lines) + "\n"
 
@@ -97,7 +116,7 @@ def _speed_verdicts(found: list[Row]) -> list[str]:
     return [
         _verdict(
             "the model orders the species by airspeed",
-            f"correlation {far.correlation:.2f} (maximum range); wing loading alone {alone:.2f}",
+            f"correlation {far.correlation:.2f} for the maximum-range speed, {alone:.2f} for wing loading alone",
             far.correlation > alone + 0.05,
             "better than wing loading alone",
             "no better than wing loading alone",
@@ -115,12 +134,12 @@ def _speed_verdicts(found: list[Row]) -> list[str]:
         _verdict("birds fly faster than their minimum-power speed", f"{faster:.0%} of species", faster > 0.9),
         _verdict("birds fly no faster than their maximum-range speed", f"{beyond:.0%} are faster", beyond < 0.1),
         _verdict(
-            "speed grows with wing loading to the same power (least squares)",
-            f"maximum range {ours:.2f}, measured {theirs:.2f} ± {error:.2f}",
+            "predicted and measured speed grow with the same power of wing loading (least squares)",
+            f"power {ours:.2f} for the maximum-range speed, {theirs:.2f} ± {error:.2f} for the measured speed",
             abs(ours - theirs) < error,
         ),
         _verdict(
-            "the ratio does not depend on the Reynolds number",
+            "the ratio of maximum-range to measured speed does not depend on the Reynolds number",
             f"slope {far.slope_in_reynolds:+.2f} ± {far.slope_error:.2f}",
             abs(far.slope_in_reynolds) < far.slope_error,
         ),
@@ -143,7 +162,10 @@ def _beat_verdicts(found: list[Row]) -> list[str]:
         )
         ours, _ = exponent(column(found, name), mass)
         (own, error), reported = exponent(law, mass), "-0.67 to -0.29"
-        seen = f"{ours:.2f}; Pennycuick's law of these birds {own:.2f}, van den Berg and Rayner {reported}"
+        seen = (
+            f"exponent of mass: {ours:.2f} in the model, {own:.2f} in Pennycuick's law for these birds, "
+            f"{reported} in van den Berg and Rayner"
+        )
         lines.append(_verdict(f"{label} falls with mass as Pennycuick's law", seen, abs(ours - own) < 0.05 + error))
         lines.append(
             _verdict(f"{label} falls with mass as van den Berg and Rayner's law", seen, -0.67 < ours < -0.29)
@@ -154,12 +176,11 @@ def _beat_verdicts(found: list[Row]) -> list[str]:
 def _power_verdicts(found: list[Row], points: list[Point]) -> list[str]:
     pigeon = next(p for p in points if p.species == "Columba livia" and p.asked == POWER)
     specific = float(np.nanmedian(column(found, "least_power") / column(found, "mass")))
-    cheap = [p for p in points if p.asked == POWER]
-    leaning = sum("frequency" in p.active_bounds.split() for p in cheap)
+    leaning, count = _at_frequency_bound(points)
     return [
         _verdict(
-            "power of the loaded pigeon at 4.46 m/s: 25.6 ± 3.8 W from the pressures on its wings",
-            f"{pigeon.power:.0f} W",
+            "the loaded pigeon at 4.46 m/s needs the 25.6 ± 3.8 W that the pressures on its wings gave",
+            f"the model needs {pigeon.power:.0f} W",
             abs(pigeon.power - 25.6) < 2 * 3.8,
         ),
         _verdict(
@@ -169,13 +190,19 @@ def _power_verdicts(found: list[Row], points: list[Point]) -> list[str]:
             specific < 51,
         ),
         _verdict(
-            "minimum power occurs below the upper bound of frequency, four times Pennycuick's",
-            f"{leaning} of {len(cheap)} orbits of minimum power are at that guessed bound",
+            "minimum power occurs below the upper bound of frequency, which is four times Pennycuick's law",
+            f"{leaning} of {count} orbits of minimum power are at that guessed bound",
             leaning == 0,
             "agrees",
             "not always",
         ),
     ]
+
+
+def _at_frequency_bound(points: list[Point]) -> tuple[int, int]:
+    """Return how many orbits of minimum power are at the bound of frequency, and how many there are."""
+    cheap = [p for p in points if p.asked == POWER]
+    return sum("frequency" in p.active_bounds.split() for p in cheap), len(cheap)
 
 
 def _verdict(claim: str, found: str, good: bool, yes: str = "agrees", no: str = "does not agree") -> str:
@@ -184,10 +211,12 @@ def _verdict(claim: str, found: str, good: bool, yes: str = "agrees", no: str = 
 
 def _frequencies(points: list[Point], timed: list[Bird]) -> str:
     head = (
-        "\n## Measured frequencies\n\nFrequencies are in Hz, at the speed of the measurement (for the alcids "
-        "ground speed, which differs slightly from airspeed). *Amplitude fixed*: minimum power with the measured "
-        "amplitude.\n\n| species | speed [m/s] | measured | minimum power | minimum frequency | amplitude fixed | "
-        "Pennycuick 1996 | law by mass | law by wing |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
+        "\n## Measured frequencies\n\nFrequencies are in Hz, at the speed of the measurement. For the alcids (the "
+        "first four species) this is the ground speed, which differs slightly from the airspeed. The columns "
+        "*minimum power* and *minimum frequency* give the frequency of the orbit with that objective. *Amplitude "
+        "fixed* gives the frequency of minimum power with the measured flap amplitude. The last three columns are "
+        "scaling laws.\n\n| species | speed [m/s] | measured | minimum power | minimum frequency | amplitude fixed "
+        "| Pennycuick 1996 | law by mass | law by wing |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
     )
     lines = []
     for bird in timed:
@@ -209,9 +238,11 @@ def _frequencies(points: list[Point], timed: list[Bird]) -> str:
 def spread_table(moved: list[Moved]) -> str:
     """Return how the range of each derived number and guess changes the results."""
     head = (
-        "\n## Sensitivity to the derived numbers\n\nEach number is changed alone, to either end of its plausible "
-        "range (span retraction: 0 and 0.5; body drag: the alternative of that name). Change in percent of "
-        "minimum-power speed / maximum-range speed / minimum power.\n\n"
+        "\n## Sensitivity to the derived numbers\n\nEach number is changed alone, to the low or high end of its "
+        "plausible range. The ends for span retraction are 0 and 0.5; *body-drag* is the species' alternative of "
+        "that name. Each cell gives three changes in percent: of the minimum-power speed / of the maximum-range "
+        "speed / of the minimum power. A dash: power, or power over speed, has no minimum within the speeds "
+        "flown.\n\n"
     )
     birds = list(dict.fromkeys(row.species for row in moved))
     lines = ["| number | " + " | ".join(birds) + " |", "| --- " * (len(birds) + 1) + "|"]
@@ -256,19 +287,29 @@ TAIL = """
   coefficients do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low
   wing loading fly far faster. The model predicts the airspeed of a species no better than one speed for all
   birds does.
-- The differences are largest at the Reynolds numbers of the plate, so flying outside that range does not by
-  itself explain them.
-- Possible explanations, none of them tested here: the model has no induced flow (it underestimates the power of
-  slow flight, so both speeds are too low); a thick plate has high drag at small angles (the model overestimates
-  the power of fast flight, with the same effect); small birds fly in bounds with folded wings, which the model
-  cannot do; migrating birds may not choose their speed for power or range.
+- Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight
+  outside that range therefore does not explain the differences by itself.
+- We tested none of these possible explanations:
+  - The model has no induced flow. It underestimates the power of slow flight, so both speeds are too low.
+  - A thick plate has high drag at small angles. The model overestimates the power of fast flight, so again both
+    speeds are too low.
+  - Small birds fly in bounds with folded wings, which the model cannot do.
+  - Migrating birds may not choose their speed for power or range.
 - The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
   the law but little more: its exponents come from dimensional reasoning that the model obeys too.
-- Minimum power occurs at about twice the frequency of animals, often at its upper bound, and at still higher
-  frequencies with the measured amplitude of the alcids. Positive hinge power assigns no cost to frequency as
-  such; muscles do.
-- Power is several times the measured one. Do not take a power from this model for an animal's.
+- The model needs least power at about twice the frequency at which animals fly. In {leaning} of {count} orbits that
+  frequency is at its upper bound. With the flap amplitude that was measured on alcids (auks), the frequency of
+  least power is higher still: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
+  as such, but the energy that a muscle needs does.
+- The predicted power is several times the measured power. Do not take a power from this model for an animal's.
 - The uncertainty of the derived numbers does not explain the difference. In the table above they change either
   speed by about a tenth and power by about a quarter. The guessed span retraction changes the minimum-power
   speed most. The table changes one number at a time, for three birds.
 """
+
+
+def conclusions(points: list[Point]) -> str:
+    """Return what the tables above say."""
+    leaning, count = _at_frequency_bound(points)
+    held = [point.frequency for point in points if point.asked == HELD]
+    return TAIL.format(leaning=leaning, count=count, low=min(held), high=max(held))

@@ -12,21 +12,22 @@ from wingbeat.experiment import FORMS, CurveFit
 
 HEAD = """# Measured wings against the paper's plate
 
-`python validation/measured_wings.py` writes this page and computes every number in and below its tables. The
-data are from other people and not part of this project:
+`python validation/measured_wings.py` writes this page and computes every number in and below its tables. It
+compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. The data of the wings
+are from other people and not part of this project:
 
 - Printed half wings of a gull, in nine postures of elbow and wrist at two tunnel speeds each. The source's
   units are ambiguous; its numbers support our reading of them.
-- A live gliding jackdaw, wings alone, with forces from its wake (KleinHeerenbrink, Warfvinge and Hedenstrom
-  2016, doi 10.1242/jeb.132480).
-- Thin plates of small aspect ratio, read by eye from a figure of Pelletier and Mueller 2000 (J. Aircraft
-  37:825).
+- A live gliding jackdaw. The forces on its wings alone come from its wake (KleinHeerenbrink, Warfvinge and
+  Hedenstrom 2016, doi 10.1242/jeb.132480).
+- Thin plates of small aspect ratio. We read their values by eye from a figure of Pelletier and Mueller 2000
+  (J. Aircraft 37:825).
 
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
-A: lift against angle from zero lift (the gulls' wings are twisted, so their mount angle is not comparable). B,
-C: drag and lift-to-drag ratio against lift, which need no angle. D: moment about the shoulder (gulls) or the
-leading edge (Su-Fan); compare only the slopes.
+A: lift against the angle from zero lift (the gulls' wings are twisted, so their mount angles cannot be compared).
+B: drag against lift. C: lift-to-drag ratio against lift. B and C need no angle. D: moment about the shoulder
+(gulls) or about the leading edge (Su-Fan) against normal force; compare only the slopes.
 """
 
 COLUMNS = (
@@ -35,12 +36,14 @@ COLUMNS = (
 )
 
 NOTES = f"""
-Gulls and plates: means at each angle. Lift slope: least squares between no lift and {LINEAR_SHARE:.0%} of the
-largest, with its 95 % interval; the plate's lift is curved there, so its slope is a mean. Jackdaw: values of a
-fitted parabola C_D = least + rise (C_L - at)^2, because the best of hundreds of scattered ratios is an outlier;
-its largest C_L is that of steady gliding, not of stall. Centre: -dC_M/dC_N below stall, in mean aerodynamic
-chords behind the shoulder for gulls, in chords behind the leading edge for Su-Fan. Models: 0 to 60 degrees. A
-dash: not measured.
+- For the gulls and the thin plates, the table uses the mean of the measurements at each angle.
+- *Lift slope* is fitted by least squares between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
+  with its 95 % interval. The lift of the plate of Su et al. is curved there, so its slope is a mean.
+- The drag of the jackdaw is that of a fitted parabola C_D = least + rise (C_L - at)^2, because the best of hundreds
+  of scattered ratios is an outlier. The jackdaw's largest C_L is that of steady gliding, not of stall.
+- *Centre* is -dC_M/dC_N below stall. For gulls it is measured in mean aerodynamic chords behind the shoulder, for
+  Su-Fan in chords behind the leading edge.
+- The two models are evaluated from 0 to 60 degrees. A dash means that a value was not measured.
 """
 
 
@@ -108,33 +111,35 @@ def _meaning(rows: list[Row]) -> list[str]:
     return [
         "## Consequences for flights computed with the plate's coefficients",
         "",
-        f"- **Drag.** In cruise (C_L {CRUISE[0]:g} to {CRUISE[1]:g}) the plate's lift over drag is "
-        f"{plate.cruise_ratio:.1f}, Dickinson's {insect.cruise_ratio:.1f}, the gulls' "
-        f"{_between(lambda row: row.cruise_ratio, gulls)} and that of the jackdaw's wings "
-        f"{jackdaw.cruise_ratio:.1f}: measured wings are "
-        f"{_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times better. In steady flight at "
-        "that lift, the computed power against wing drag is too high by this factor.",
+        f"- **Drag.** In cruise (C_L {CRUISE[0]:g} to {CRUISE[1]:g}) the plate's lift-to-drag ratio is "
+        f"{plate.cruise_ratio:.1f}. With Dickinson's coefficients it is {insect.cruise_ratio:.1f}, for the gulls "
+        f"{_between(lambda row: row.cruise_ratio, gulls)} and for the jackdaw's wings {jackdaw.cruise_ratio:.1f}. "
+        f"Measured wings are thus {_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times "
+        "better than the plate. In steady flight at that lift, the power computed with the plate's wing drag is "
+        "too high by this factor.",
         "- **Bluntness.** The plate's least drag is "
         f"{_between(lambda row: plate.least_drag / row.least_drag, wings)} times that of the wings and "
-        f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates: it is 8 "
-        "mm thick on a chord of 76 mm and has no rounded leading edge.",
+        f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates. The "
+        "plate is 8 mm thick, with a chord of 76 mm, and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
-        f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below the gulls' "
-        f"({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). They reach it {min(turn):.0f} to "
-        f"{max(turn):.0f} degrees from zero lift, or their data end there, at 25; the plate reaches it at "
-        f"{plate.lift_max_deg:.0f}. Beyond 25 degrees these data cannot test the plate.",
+        f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
+        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
+        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift, or their data end there, at a mount angle of "
+        f"25 degrees. The plate has it at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
+        "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "
         f"above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}), which are shorter. "
         f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
         "gulls, because of twist and camber, and at 0 for the plate.",
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
-        f"behind the gulls' shoulder: posture alone moves it by {max(postures) - min(postures):.2f} chords. The "
-        f"angle of attack moves the plate's centre by {centre[1] - centre[0]:.2f} from 5 to 60 degrees. One x_cp "
-        "for all postures omits the larger of these two effects.",
-        f"- **Reach.** The gulls are at Re {_thousand(gulls)} thousand, the plate at {_thousand([plate])}; only "
-        f"the jackdaw ({_thousand([jackdaw])}) comes close. The difference in drag is partly due to Reynolds "
-        "number and partly to shape, which these data cannot separate.",
+        f"behind the gulls' shoulder: posture alone moves this point by {max(postures) - min(postures):.2f} "
+        "chords. From 5 to 60 degrees, the angle of attack moves the plate's centre of pressure by "
+        f"{centre[1] - centre[0]:.2f} chords. A model with one x_cp for all postures omits the larger of these two "
+        "effects.",
+        f"- **Reynolds numbers.** The gulls were measured at {_thousand(gulls)} thousand, the plate at "
+        f"{_thousand([plate])} thousand. Only the jackdaw ({_thousand([jackdaw])} thousand) comes close. The "
+        "difference in drag is partly due to Reynolds number and partly to shape; these data cannot separate them.",
     ]
 
 
@@ -143,11 +148,11 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     lines = [
         "## Which forms these data determine",
         "",
-        "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No*: not identified, "
-        "because",
-        "an interval is wider than its own parameter, a parameter is at the limit of its fit, or the fit is",
-        "ill-conditioned; do not use such a fit outside its range. Su-Fan's form is fitted from 0 up, where its",
-        "exponential applies. The better of the other two, on the same rows by AICc, is in bold.",
+        "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No* means that the form is",
+        "not identified: an interval is wider than its own parameter, a parameter is at the limit of its fit, or",
+        "the fit is ill-conditioned. Do not use such a fit outside its range. Su-Fan's form is fitted only from 0",
+        "degrees up, where its exponential applies. The other two forms are fitted to the same rows; the better of",
+        "them, by AICc, is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),

@@ -132,7 +132,10 @@ BAD_TABLES = {
         "alpha_deg,C_L,C_D\n" + "".join(f"{a / 10},{a},{a}\n" for a in range(20)),
         ["column alpha_deg = 1.9: is the largest of 20 angles, which looks like a sweep in radians"],
     ),
-    "unit": (TABLE.replace("alpha_deg", "alpha_deg [rad]"), ["'rad': is another unit than [deg]"]),
+    "unit": (
+        TABLE.replace("alpha_deg", "alpha_deg [rad]"),
+        ["'rad': is not the unit in which the column is read, [deg]"],
+    ),
     "cells": (TABLE.replace("30,0.3", "30,nan").replace("0.4,", "x,"), ["row 5, column C_L", "row 6, column C_L"]),
     "ragged": (TABLE + "100,1\n", ["row 12", "has 2 cells where 3 columns are named"]),
     "few": ("alpha_deg,C_L,C_D\n0,0,0\n10,1,1\n20,2,2\n", ["'3 points': are too few for the 5 parameters"]),

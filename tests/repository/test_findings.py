@@ -229,9 +229,10 @@ def together(sets, holds):
         f"half satisfy {satisfied.median():.0f} or fewer",
         f'The paper\'s bat at {SAMPLE_SPEED:g} m/s has "twice the frequency", "pitches within '
         f'{PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
-        f"Of {each[0]}, {each[1]} and {each[2]} sets that satisfy one of them, "
-        f"{found.sum()} of {spaced(told)} satisfy all {WORDS[len(TRIPLE)]}, each with the force at the centre of "
-        "pressure",
+        f"These claims hold in {each[0]}, {each[1]} and {each[2]} sets, respectively. "
+        f"All {WORDS[len(TRIPLE)]} hold together in {found.sum()} of {spaced(told)} sets, each with the force at "
+        "the centre of pressure",
+        f"Of the sets with all {WORDS[len(TRIPLE)]} claims",
         f"{WORDS[four.sum()]} of these also have four times the power",
         f"{WORDS[free.sum()]} with both mean angles free",
         f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}",
@@ -252,8 +253,8 @@ def how_sure(sets, holds):
         f"at most {short(100 * error.max(), 1)} percentage points",
         f"The share closest to one half, {percent(share[off.idxmin()])} %, is {WORDS[round(off.min())]} standard "
         "errors",
-        "the shares of the twenty pieces with those of the whole: the largest deviation is "
-        f"{away.max():.1f} standard errors of a piece, as expected for the largest of {away.size}",
+        "the shares of the twenty pieces with those of the whole sample: the largest deviation is "
+        f"{away.max():.1f} standard errors of a piece, as expected for the largest of {away.size} deviations",
     ]
 
 

@@ -159,7 +159,7 @@ def test_a_scheduler_that_dies_is_told_and_the_study_goes_on_elsewhere(cheap, cl
     _, err = driver.communicate(timeout=60)
     assert driver.returncode == 2, err
     assert f"the Dask scheduler at {machines.address} is gone" in err
-    assert "stored results remain: start it again and run the study again" in err
+    assert "stored results remain: start the scheduler again and run the study again" in err
     assert "Traceback" not in err
     assert 5 < len(study.points()) < len(GRID)
     assert study.run()[0] == 0

@@ -150,7 +150,7 @@ FAULTS = [
     ({"species": "pigeon", "speed": 9.0, "chain": "climb"}, "chain = 'climb': is not a parameter varied by grid"),
     (
         {"species": "pigeon", "speed": 9.0, "advise": True, "explain": False},
-        "advise = True: cannot go with explain = false; leave one of them out",
+        "advise = True: cannot be combined with explain = false; leave one of them out",
     ),
 ]
 VARY_FAULTS = [
@@ -168,11 +168,14 @@ VARY_FAULTS = [
     ({"wing.mass": {"grid": [-1.0]}}, 'vary."wing.mass".grid[0] = -1.0: must be > 0 kg'),
     ({"wing.mass": {"grid": ["heavy"]}}, "vary.\"wing.mass\".grid[0] = 'heavy': must be a number"),
     ({"wing.mas": {"grid": [1.0]}}, 'vary."wing.mas" = 1.0: is not the path of a number; did you mean wing.mass'),
-    ({"mass": {"grid": [1.0]}}, "set body.mass or wing.mass, the whole mass follows from both"),
+    ({"mass": {"grid": [1.0]}}, "set body.mass or wing.mass; the whole mass follows from both"),
     ({"aero.extension": {"grid": ["mirored"]}}, "is not a known choice"),
     ({"aero.lift.amplitude": {"grid": ["big"]}}, "must be a number"),
     ({"aero.strips": {"grid": [2.5]}}, "must be a whole number from 1 to 1000"),
-    ({"speed": {"list": [8.0, 9.0]}, "climb": {"list": [1.0]}}, "lists go row by row and must be equally long"),
+    (
+        {"speed": {"list": [8.0, 9.0]}, "climb": {"list": [1.0]}},
+        "lists are combined row by row, so they must have equal lengths",
+    ),
 ]
 
 

@@ -2,7 +2,7 @@
 
 Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of
 the strip, ``dD`` against it. Angle of attack and directions are those in the plane of chord and normal. V is the
-speed in that plane, or the whole airspeed of the segment as the paper words it, its part along the span included.
+speed in that plane, or, as Su et al. word it, the whole airspeed of the segment, including its part along the span.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ class BladeElement:
     coefficients : a coefficient model such as `SuFan()`, its name, the path of its file, or a function of the angle
         of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
-    force_point : "quarter-chord", as in the paper, or "centre-of-pressure".
-    airspeed : the speed V whose square determines lift and drag: "planar", that across the span, or "full", that
-        of the whole velocity of the strip, as in the paper's words. Reynolds numbers of strips use the same speed.
+    force_point : "quarter-chord", as in Su et al., or "centre-of-pressure".
+    airspeed : the speed V whose square determines lift and drag: "planar", the speed across the span, or
+        "full", the speed of the strip's whole velocity, as Su et al. word it. Reynolds numbers use the same speed.
 
     Raises
     ------
@@ -64,7 +64,7 @@ class BladeElement:
             object.__setattr__(self, "coefficients", coefficients_of(self.coefficients))
         except InvalidInputError as error:
             faults.faults.extend(error.faults)
-        faults.whole("aero.strips", self.strips, 1, 1000, "the paper has 10")
+        faults.whole("aero.strips", self.strips, 1, 1000, "Su et al. use 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
         faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
         faults.raise_if_any()

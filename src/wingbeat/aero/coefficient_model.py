@@ -1,4 +1,4 @@
-"""What every coefficient model offers at the border: NumPy arrays of angles in, coefficients out."""
+"""The interface of every coefficient model: NumPy arrays of angles in, coefficients out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Kernel(Protocol):
-    """What the physics asks of a coefficient model: a JAX pytree that gives coefficients at angles in [-pi, pi]."""
+    """The kernel of a coefficient model: a JAX pytree that gives coefficients at angles in [-pi, pi]."""
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], any shape."""

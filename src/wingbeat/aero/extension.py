@@ -1,6 +1,6 @@
 """From coefficients known on one side to every angle of attack, blended where two pieces meet.
 
-Formulas and tables tell the coefficients of a plate for 0 to 90 degrees; a flapping wing sees every angle.
+Formulas and tables give the coefficients of a plate for 0 to 90 degrees; a flapping wing sees every angle.
 Angles are in (-180, 180]; the extension is chosen by name:
 
 mirrored
@@ -9,7 +9,8 @@ mirrored
 signed-drag
     as mirrored, but C_D is the formula at the signed angle for -90 < a < 0.
 signed
-    the same, and C_L (for a table x_cp) too, where the formula stays finite: no exponential term.
+    as signed-drag, and likewise C_L (and x_cp of a table); only where the formula stays finite: without an
+    exponential term.
 clipped-drag
     as mirrored, but C_D is the formula's value at 0 for every a < 0.
 

@@ -1,4 +1,4 @@
-"""Coefficients from a function of the user's: traced once, checked, and told from others by what it computes."""
+"""Coefficients from a user's function: traced once, checked, and identified by what it computes."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class FunctionKernel:
         return lift.reshape(alpha.shape), drag.reshape(alpha.shape)
 
     def centre_of_pressure(self, alpha: Angles) -> Angles:
-        """Return not-a-number: a function tells no centre of pressure."""
+        """Return not-a-number: a function gives no centre of pressure."""
         return jnp.full_like(alpha, math.nan)
 
 

@@ -1,4 +1,4 @@
-"""The answer on the page: headline numbers, status, certificate, warnings, and what the answer hangs on."""
+"""The answer on the page: headline numbers, status, certificate, warnings, and what the answer depends on."""
 
 from __future__ import annotations
 
@@ -106,7 +106,11 @@ class Influence:
 
     def __init__(self, ask: Callable[[], Any]) -> None:
         with box("Sensitivities", "influence"):
-            tag("p", "Exact derivatives of the certified optimum by every number it depends on.", "note")
+            tag(
+                "p",
+                "Exact derivatives of the certified optimum with respect to every number it depends on.",
+                "note",
+            )
             with tag("div", classes="acts"):
                 button("Compute sensitivities", ask)
             self._state = tag("p", "", "note", role="status")

@@ -1,4 +1,4 @@
-"""What a worker does for the explorer: orbits, what they hang on, files. Everything in and out is fit for JSON."""
+"""What a worker does for the explorer: orbits, sensitivities, files. Everything in and out is fit for JSON."""
 
 from __future__ import annotations
 

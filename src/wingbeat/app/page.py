@@ -54,7 +54,7 @@ class Page:
         self._client.on_connect(self._come)
 
     def _come(self) -> None:
-        """Solve what the address asks for, now that somebody is here; who only fetches the page starts nothing."""
+        """Solve what the address asks for once a browser has connected; fetching the page alone starts nothing."""
         if self._asked:  # the socket was lost, and is back
             return
         self._asked = True

@@ -32,10 +32,10 @@ class Scenario:
     speed, climb : mean velocity [m/s].
     aero, extension, blend_width_deg, strips, force_point, airspeed : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
-    limits : what is kept within limits, texts as for ``--subject-to``.
+    limits : limits on quantities, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own.
     values : numbers of the species that were changed, by their paths.
-    starts : searches, None for as many as is usual.
+    starts : number of starts, None for the default.
     seed : of the random starts.
     sweep : first and last speed and step of the curve [m/s].
     """

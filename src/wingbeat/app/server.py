@@ -80,7 +80,7 @@ class _Server(uvicorn.Server):
     """A server that waits for nobody when it ends."""
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Say farewell to every browser, and soon hang up on those that do not let go."""
+        """Close the connection to every browser, and soon drop those that do not close theirs."""
         asyncio.get_running_loop().call_later(_FAREWELL, self._hang_up)
         await super().shutdown(sockets)
 

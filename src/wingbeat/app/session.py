@@ -162,7 +162,7 @@ class Session:
         self._pool.leave(self.name)
 
     def _hear(self, asked: int, scenario: Scenario, event: Event) -> None:
-        if asked != self._asked:  # an answer to what is asked no more
+        if asked != self._asked:  # an answer to an outdated request
             return
         if event.kind == "waiting":
             self._view.show_state(f"Waiting: number {event.value} in the queue.", busy=True)

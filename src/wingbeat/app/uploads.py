@@ -75,7 +75,7 @@ def check_hdf5(path: str, label: str) -> None:
     import h5py
 
     def refuse(why: str) -> FileError:
-        return FileError(f"cannot take {label!r}: {why}; give a file of `wingbeat orbit -o`")
+        return FileError(f"cannot take {label!r}: {why}; give a file that `wingbeat orbit -o` wrote")
 
     declared, objects = 0, 0
     try:
@@ -168,7 +168,7 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
 
 
 def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool) -> Scenario:
-    """Return a scenario of the problem, of the species in the box of its name or with the species written out."""
+    """Return a scenario of the problem, with the built-in species of its name or with the species written out."""
     species, aero = problem.species, problem.aero
     name, text = species.name, ""
     if written_out:

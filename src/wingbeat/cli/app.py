@@ -44,7 +44,7 @@ COMMANDS = {
     "bench": "Measure how fast this machine solves.",
 }
 
-# A word of the command line; longer than any path, and no list in it is nested so deeply.
+# Limits of one word of the command line: its length, beyond that of any path, and how deep its lists are nested.
 _LONGEST = 10_000
 _DEEPEST = 50
 # A line on stderr; of a longer one the middle is left out.

@@ -61,8 +61,8 @@ def curve(
 ) -> int:
     """Find the power and frequency curves along speed, their branches and their characteristic speeds.
 
-    Every optimum met is continued to the speeds beside it, both ways. Where the best orbit changes branch, or leans
-    on other bounds, the curve is marked. Exit code 0: certified, gaps are told. 3: nothing certified.
+    Every optimum found is continued to the next lower and higher speeds. Where the best orbit changes branch, or is
+    at other bounds, the curve is marked. Exit code 0: certified, with gaps reported. 3: nothing certified.
 
     Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
     wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc

@@ -34,7 +34,7 @@ def drawn(curve: Curve) -> Figure:
 
 
 def print_curve(curve: Curve) -> None:
-    """Print one line a speed with what happens between, then characteristic speeds, then warnings."""
+    """Print one line per speed with the changes in between, then characteristic speeds, then warnings."""
     from rich.table import Table
     from rich.text import Text
 
@@ -101,7 +101,7 @@ def _told(found: dict[str, Any] | None) -> str:
         low, high = found["within_2_percent"]
         text += f"; within 2 % from {low:.3g} to {high:.3g} m/s"
     if found["at_edge"]:
-        text += "; at the end of the range or beside a gap; the true one may be outside"
+        text += "; at the end of the range or beside a gap: the true speed may lie beyond"
     if found["jump_beside"]:
         text += "; the curve changes branch there"
     return text

@@ -55,7 +55,7 @@ def _end(number: int, frame: FrameType | None = None) -> None:
 
 
 def _start_watch() -> None:
-    """Have a thread hear of signals, for the main thread hears of none while it is in compiled code."""
+    """Let a thread receive signals, because the main thread receives none while it is in compiled code."""
     from threading import Thread
 
     hears, tells = os.pipe()

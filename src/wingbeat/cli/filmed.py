@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
     from wingbeat.results.spread import Spread
 
-# Other films of the same beat that are tried for an error bar: it is good to an eighth of itself.
+# Number of other films of the same beat that are tried for an error bar, which is then good to an eighth of itself.
 DRAWS = 32
 Kinematics = Annotated[
     Path | None,

@@ -23,7 +23,7 @@ def fit(
     form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson or sine-cosine.")] = "su-fan",
     output: Annotated[Path | None, Parameter(name=["--output", "-o"], help="The model file: .toml.")] = None,
     plot: Annotated[Path | None, Parameter(help="Draw data, fit and bands: .png, .pdf or .svg.")] = None,
-    name: Annotated[str, Parameter(help="Name of the model; that of the output if not given.")] = "",
+    name: Annotated[str, Parameter(help="Name of the model; default: the name of the output file.")] = "",
     citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
     alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
     alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,

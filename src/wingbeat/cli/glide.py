@@ -104,7 +104,9 @@ def _print(polar: GlidePolar) -> None:
     console.print(table)
     for label, best in (("slowest sink", polar.least_sink), ("flattest glide", polar.best_ratio)):
         console.print(f"{label}: {'not within the given angles' if best is None else _told(best)}")
-    console.print("path: angle below the horizontal; tail: moment needed from one; hold: flap torque of both wings")
+    console.print(
+        "path: angle below the horizontal; tail: moment that a tail must supply; hold: flap torque of both wings"
+    )
     for warning in polar.record()["warnings"]:
         console.print(f"- {warning}", style="yellow")
 

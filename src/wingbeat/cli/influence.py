@@ -1,4 +1,4 @@
-"""What an orbit hangs on, on a terminal: error bars, ranked sensitivities, prices of bounds."""
+"""What an orbit depends on, on a terminal: error bars, ranked sensitivities, prices of bounds."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def in_words(bar: ErrorBar) -> str:
 
 
 def price_in_words(price: Sensitivity, found: Sensitivities) -> str:
-    """Return what one more unit of a bound changes: ``1 deg more of bounds.flap_amplitude.upper: -0.1 Hz``."""
+    """Return what one unit more of a bound changes: ``1 deg more of bounds.flap_amplitude.upper: -0.1 Hz``."""
     parameter = price.parameter
     per, unit = (math.radians(1.0), "deg") if parameter.unit == "rad" else (0.01 * parameter.size, parameter.unit)
     amount = 1.0 if unit == "deg" else per

@@ -1,11 +1,11 @@
-"""Memory that a command needs: asked for before it starts, for the compiler ends the process where it gets none."""
+"""Memory that a command needs; checked before it starts, because the compiler ends the process if it gets none."""
 
 from __future__ import annotations
 
 from wingbeat.workers.affinity import core_count
 
-# Address space [bytes] that a solver takes: one orbit took 1.96 GB on two cores with an empty cache, 1.84 GB on two
-# and 1.65 GB on one with a full one, most of it set aside for threads. With 1.6 GB on two cores it aborts.
+# Address space [bytes] of a solver: one orbit took 1.96 GB on two cores with an empty cache; with a full one,
+# 1.84 GB on two cores and 1.65 GB on one. Most of it is set aside for threads. With 1.6 GB on two cores it aborts.
 _SOLVER = 1_700_000_000
 _SOLVER_PER_CORE = 200_000_000
 # What `wingbeat species` takes, which solves nothing.

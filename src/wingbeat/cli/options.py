@@ -92,7 +92,7 @@ DEFAULT_AIR_LOADS = AirLoadOptions()
 
 
 def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
-    """Load a species, change the numbers given with ``--set``, and load it; all faults of the settings at once."""
+    """Return a species with the numbers of ``--set`` and a payload; all faults of ``--set`` are told at once."""
     species = load_species(name)
     values, faults = {}, FaultList()
     if settings is not None and not settings:
@@ -111,7 +111,7 @@ def species_with(name: str, settings: list[str] | None, payload: float = 0.0) ->
 
 
 def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
-    """Return the options of a command, but those allowed, that are not at their default, as they are typed."""
+    """Return, as typed, the options of a command that are not at their default, except those allowed."""
     defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}
     names = []
     for name, value in values.items():
@@ -178,7 +178,7 @@ def _real(path: Path) -> str:
 
 
 def check_outputs(*paths: Path | None) -> None:
-    """Refuse a path that cannot be written before hours of work and not after; leave what stands there."""
+    """Refuse a path that cannot be written, before hours of work and not after; an existing file stays as it is."""
     for path in paths:
         if path is not None:
             with suppress(_Enough), writing(path):

@@ -111,8 +111,8 @@ def orbit(
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
-    With --kinematics what was filmed is held and the rest found, with the errors that the film's noise leaves.
-    Exit code 0: certified. 3: nothing certified, the message says what to change.
+    With --kinematics, what was filmed is kept and the rest is found, with errors due to the noise of the film.
+    Exit code 0: certified. 3: nothing certified; the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
     wingbeat orbit bat --speed 8 --aero dickinson --set wing.mass=0.006 -o bat.nc;

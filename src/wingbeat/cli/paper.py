@@ -1,4 +1,4 @@
-"""``wingbeat paper``: the figures and claims of Su et al. beside ours, and what the claims depend on."""
+"""``wingbeat paper``: the figures and claims of Su et al. beside wingbeat's, and what the claims depend on."""
 
 from __future__ import annotations
 
@@ -46,11 +46,11 @@ def paper(
     only: Annotated[str | None, Parameter(help="Pieces to run here, such as 1-10 or 3,5; default all.")] = None,
     processes: Annotated[int | None, Parameter(help="Worker processes; default: as many as cores.")] = None,
 ) -> int:
-    """Put Su et al. (arXiv 2302.09602) to the test: figures 1 to 8, every claim with a verdict, the orbits behind.
+    """Test Su et al. (arXiv 2302.09602): draw figures 1 to 8, judge every claim, and save the orbits behind them.
 
-    `wingbeat paper assumptions` samples what the paper leaves open and counts under which sets each claim holds.
-    It goes on from where it was stopped. Finished pieces lie in the folder's `pieces`, to which those that another
-    machine ran with --only can be copied; page, table and figure are of those that are there.
+    `wingbeat paper assumptions` samples the assumptions that Su et al. leave open, and counts the sets under which
+    each claim holds. An interrupted run resumes. Finished pieces lie in the subfolder `pieces`; you can copy pieces
+    there that another machine ran with --only. Page, table and figure cover the pieces in that folder.
 
     Examples: wingbeat paper --quick -o paper; wingbeat paper assumptions --sets 2000 --only 1 -o assumptions
     """

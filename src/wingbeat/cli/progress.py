@@ -1,4 +1,4 @@
-"""What long work says of itself: done and left, on a terminal only; that it stops, and with which exit code."""
+"""Progress of long work (on a terminal only), the notice that it stops, and its exit code."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
-    """Give a function to tell (done, in all) to, which shows it on stderr; None if that is no terminal."""
+    """Yield a function that shows (done, in all) on stderr; None if stderr is no terminal."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -42,7 +42,7 @@ def _show_cursor() -> None:
 
 @contextlib.contextmanager
 def study_bar() -> Iterator[Callable[[Tally], None] | None]:
-    """Give a function to tell a study's tally to, which shows it on stderr; None if that is no terminal."""
+    """Yield a function that shows a study's tally on stderr; None if stderr is no terminal."""
     if not sys.stderr.isatty():
         yield None
         return

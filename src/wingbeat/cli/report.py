@@ -30,7 +30,7 @@ def read_result(path: str | PathLike[str]) -> xr.Dataset:
     """
     dataset = load_dataset(path)
     if dataset.attrs.get(KIND) not in ("orbit", "flight", "curve"):
-        ways = "give a file of `wingbeat orbit -o`, `simulate -o` or `curve -o`"
+        ways = "give a file that `wingbeat orbit -o`, `simulate -o` or `curve -o` wrote"
         raise FileError(f"cannot read {os.fspath(path)!r}: it holds no orbit, flight or curve of wingbeat; {ways}")
     return dataset
 

@@ -67,9 +67,10 @@ def simulate(
 ) -> int:
     """Fly an initial state for some wingbeats with the wings prescribed.
 
-    The wingbeat is the species' own (change it with --set wingbeat.frequency=7 ...), that of a film (--kinematics;
-    what was not filmed is the species' own) or that of an orbit (--from), whose start is then disturbed by whatever
-    of --u, --w, --body-pitch-deg, --pitch-rate is given. For a film the power has the error that its noise leaves.
+    The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from a film (--kinematics;
+    the species gives what was not filmed) or from an orbit (--from). To disturb an orbit, give --u, --w,
+    --body-pitch-deg or --pitch-rate: each replaces that number of its initial state. For a film, power is printed
+    with the error due to the noise of the film.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)
@@ -122,7 +123,7 @@ def simulate(
 
 
 def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[float | None]:
-    """Return the standard error of each beat's mean power: how far it is in flights of other draws of the film."""
+    """Return the standard error of each beat's mean power, from flights of other draws of the film."""
     power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
     start, squares = State(*flight.states[0]), []
     for wingbeat in beat.draws(flight.wingbeat, DRAWS):
@@ -134,7 +135,7 @@ def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[
 
 
 def beat_rows(flight: Flight, samples: int) -> list[dict[str, Any]]:
-    """Return one row a beat: state at its end, mean velocities and mean power; None where it was lost."""
+    """Return one row per beat: state at its end, mean velocities and mean power; None once the vehicle tumbled."""
     period = 1.0 / flight.wingbeat.frequency
     power = flight.dataset["hinge_power"].to_numpy()
     rows = []

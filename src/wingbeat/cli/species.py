@@ -1,4 +1,4 @@
-"""``wingbeat species``: the animals in the box or a file of your own, with the source of every number."""
+"""``wingbeat species``: the built-in animals or a file of your own, with the source of every number."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def show(
     json: Annotated[bool, Parameter(negative="", help="Print JSON: SI units and radians.")] = False,
     schema: Annotated[bool, Parameter(negative="", help="Print the JSON schema of species files.")] = False,
 ) -> None:
-    """List the species in the box; with a name or a file, every number of it with its source."""
+    """List the built-in species; for a name or a file, show every number with its source."""
     if schema:
         from wingbeat.species_schema import json_schema
 
@@ -111,7 +111,7 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
 
 
 def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
-    """Return the settings; all that cannot be read are told at once."""
+    """Return the settings; all that cannot be read are reported at once."""
     from wingbeat.errors import FaultList, InvalidInputError
 
     faults, values = FaultList(), {}
@@ -183,9 +183,11 @@ def _print_list(everyone: list[Species]) -> None:
     console.print(table)
     if outside:
         names = ", ".join(outside)
-        line = f"warning: at {_SPEED:g} m/s beyond the Reynolds numbers of the paper's plate, 2e4 to 5e4: {names}"
+        line = f"warning: at {_SPEED:g} m/s outside the Reynolds numbers of Su et al.'s plate, 2e4 to 5e4: {names}"
         console.print(line, style="yellow")
-    console.print("wingbeat species NAME shows every number of one; wingbeat species new FILE starts your own.")
+    console.print(
+        "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."
+    )
 
 
 def _print_species(animal: Species) -> None:

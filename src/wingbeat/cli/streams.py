@@ -1,4 +1,4 @@
-"""Standard output and error of the process: what cannot be written to the one is an error, to the other is not."""
+"""Standard output and error of the process: failing to write to the first is an error, to the second it is not."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class StdoutError(Exception):
-    """Standard output takes no more; `number` says why, as errno does. No OSError: rich catches some of those."""
+    """Standard output cannot be written to; `number` is the errno. No OSError, as rich catches some of those."""
 
     def __init__(self, error: OSError) -> None:
         self.number = error.errno

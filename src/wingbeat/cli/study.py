@@ -63,10 +63,10 @@ def run(
         bool, Parameter(negative="", help="Exit with 0 even if points are not certified.")
     ] = False,
 ) -> int:
-    """Solve what has no answer yet, and keep every answer in the store beside the file.
+    """Solve all points without a result, and keep every result in the store beside the file.
 
-    Ctrl-C keeps what ends within a second and stops; run it again and it goes on from there.
-    Exit codes: 0 all certified, 2 bad input, 3 some points are not, 130 interrupted, 143 terminated.
+    Ctrl-C keeps the points that end within a second, then stops; run the study again to go on from there.
+    Exit codes: 0 all points certified, 2 bad input, 3 some points not certified, 130 interrupted, 143 terminated.
     Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
 
     Examples: wingbeat study designs.toml; wingbeat study run designs.toml --processes 8 --retry-failed;
@@ -94,7 +94,7 @@ def run(
 
 @study.command
 def status(file: File) -> None:
-    """Say how many points have which status, and why those without a certified orbit have none."""
+    """Print how many points have each status, and why points without a certified orbit have none."""
     asked = _read(file)
     _print_summary(asked, asked.status())
 
@@ -127,9 +127,9 @@ def plot(
 
 @study.command
 def salvage(file: File) -> None:
-    """Make a damaged store anew with every answer in it that is whole; run the study to solve the rest again.
+    """Rebuild a damaged store from every intact result in it; run the study to solve the rest again.
 
-    The damaged store is put aside, nothing is deleted. A store that is sound is left as it is.
+    The damaged store is put aside; nothing is deleted. An undamaged store is left as it is.
     """
     asked = _read(file)
     kept, aside = asked.salvage()
@@ -144,7 +144,7 @@ def salvage(file: File) -> None:
 def _written(
     output: Path | None, check_name: Callable[[FaultList, str, Path], None], examples: str
 ) -> Iterator[Path]:
-    """Give the file to write, once it is known to be one that can be written, and say that it was."""
+    """Yield the file to write, after checking that it can be written; afterwards say that it was."""
     faults = FaultList()
     if output is None:
         faults.add("--output", None, "is missing", f"give a file: -o {examples}")

@@ -32,10 +32,10 @@ def uncertainty(
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
-    """Say how sure frequency and power of an orbit are, and whether the first order can be trusted.
+    """Compute the uncertainty of an orbit's frequency and power, and whether to trust its first-order estimate.
 
-    Every number of the species file is drawn from its plausible range, all of it as likely, coefficients from the
-    covariance of their fit if `--aero` is one. Draws stay in the orbit's family.
+    Every number of the species file is drawn uniformly from its plausible range. If `--aero` names a fit, its
+    coefficients are drawn from their covariance. Draws stay in the orbit's family.
 
     Exit code 0: certified. 3: there is no orbit to begin with.
 
@@ -72,7 +72,7 @@ def uncertainty(
 
 
 def _processes(samples: int) -> int:
-    """Return how many processes are worth their start, each of which takes as long as some hundred draws."""
+    """Return how many processes are worth starting: each start takes as long as some hundred draws."""
     return max(1, min(core_count(), samples // 200))
 
 

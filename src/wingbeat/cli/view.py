@@ -27,7 +27,7 @@ def view(
 ) -> None:
     """Show a saved flight in motion: wings, air loads and time series at every phase of the beat.
 
-    The page holds all it needs, opens from disk, and asks for nothing from anywhere.
+    The page holds all it needs: it opens from disk and makes no network request.
 
     Examples: wingbeat view pigeon.nc -o pigeon.html; wingbeat view sufan.nc dickinson.nc -o both.html;
     wingbeat view bat.nc -o bat.gif

@@ -22,7 +22,7 @@ from wingbeat.files import write_atomically
 
 Array = NDArray[np.float64]
 _SU_FAN = SuFan()
-assert _SU_FAN.centre_terms is not None  # the paper has one
+assert _SU_FAN.centre_terms is not None  # Su et al. give one
 # The published formulas themselves, without blends, as a fit meets them.
 TRUTH: dict[str, FormulaTerms | CentreTerms] = {
     "C_L": _SU_FAN.lift_terms,
@@ -33,7 +33,7 @@ TRUTH: dict[str, FormulaTerms | CentreTerms] = {
 
 @dataclass(frozen=True)
 class Campaign:
-    """Points and errors of a synthetic campaign; the defaults are the paper's plate, water and sweep.
+    """Points and errors of a synthetic campaign; the defaults are the plate, water and sweep of Su et al.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ class Campaign:
     alpha_deg : angles of attack [deg].
     repeats : runs of each point.
     duration, rate : length of a record [s] and samples per second [Hz].
-    turbulence : standard deviation of each force coefficient within a record [-], and of C_M a quarter of it.
+    turbulence : standard deviation of each force coefficient within a record [-]; that of C_M is a quarter of it.
     memory : correlation time of that noise [s].
     cell_noise : standard deviation of white noise of the load cell, as shares of its scale (1 N, 0.1 N m).
     drift : largest change of the zero readings over a run, as a share of the same scale.
-    start : share by which loads overshoot when the stream starts, gone with a time constant of 1.5 s.
+    start : share by which loads overshoot when the stream starts; it decays with a time constant of 1.5 s.
     chord, span, thickness, channel_width : of plate and channel [m].
     density, viscosity : of the water [kg/m3, m2/s].
 

@@ -28,9 +28,9 @@ def draw(
 ) -> list[FormulaCoefficients]:
     """Return models with random terms from the normal distribution of a fit's parameters.
 
-    The parameters of lift, drag and centre of pressure are drawn each with their covariance, and independently of
-    one another. A sample that is not a valid formula (a decay that grows) is drawn again. The same seed gives the
-    same models.
+    The parameters of each curve (lift, drag, centre of pressure) are drawn with their covariance, and the curves
+    independently of one another. A sample that is not a valid formula (a decay that grows) is drawn again.
+    The same seed gives the same models.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ _LAWS = {"flap_deg": flap_angle, "pitch_deg": pitch_angle, "span_fraction": span
 _CLOCKS = {"phase": "", "time": "s"}
 _CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz"}
 _FEWEST = 8
-# A share of the beat without a frame in which a cosine and sine may do what they like.
+# Longest share of the beat without a frame; in a longer gap, cosine and sine are undetermined.
 _WIDEST_GAP = 0.35
 
 
@@ -99,13 +99,18 @@ class Film:
             faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
         largest = float(np.abs(values).max())
         if FILMED[name] == "deg" and 0 < largest < 3.0:
-            return [f"{where}: no angle beyond {largest:.2g} degrees; if these are radians, times 57.29578"]
+            return [
+                f"{where}: no angle exceeds {largest:.2g} degrees; if these are radians, multiply them by 57.29578"
+            ]
         if FILMED[name] == "deg" and largest > 180:
             faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
         if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
             faults.add(
-                where, worst, "is not a fraction of the semi-span", "divide by the semi-span, not in percent"
+                where,
+                worst,
+                "is not a fraction of the semi-span",
+                "divide the span by the semi-span; do not use percent",
             )
         return []
 
@@ -135,8 +140,8 @@ def read_film(path: str | Path) -> Film:
     """Read a filmed wingbeat from CSV.
 
     One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
-    beside it any of flap_deg, pitch_deg and span_fraction, a cell empty where the wing was not seen.
-    Others are refused.
+    the others are any of flap_deg, pitch_deg and span_fraction. A cell is empty where the wing was not seen.
+    Other columns are refused.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """From a film to a wingbeat: periodic smoothing splines, as Fourier series, with their errors.
 
-The spline's penalty is the square of its third derivative plus (2 pi)^2 times its first, of which a mean and a
-plain sine have nothing (Ramsay and Silverman 2005, doi 10.1007/b98888): order k pays ``k^2 (k^2 - 1)^2``. Its
-weight is that of greatest restricted likelihood, and the errors are those of the posterior that has the spline for
-its mean (Wahba 1983, doi 10.1111/j.2517-6161.1983.tb01239.x), so they hold the spline's bias too. What it finds is
-a `Wingbeat` with harmonics up to order 8, be they nothing, so that one compiled program serves all films.
+The penalty is the square of (third derivative plus (2 pi)^2 times first derivative) of the spline. It is zero for a
+mean and a plain sine (Ramsay and Silverman 2005, doi 10.1007/b98888): order k pays ``k^2 (k^2 - 1)^2``. Restricted
+maximum likelihood chooses its weight. The errors are those of the posterior whose mean is the spline (Wahba 1983,
+doi 10.1111/j.2517-6161.1983.tb01239.x), so they include the spline's bias. The result is a `Wingbeat` with
+harmonics up to order 8, even if they are zero, so that one compiled program serves all films.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from wingbeat.experiment.film import FILMED, Film
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat
 
-# Mean, cosine and sine of order 1 go free of the penalty.
+# Mean, cosine and sine of order 1 are free of the penalty.
 _PLAIN = 3
-# Weights of the penalty to look among, times the number of frames.
+# Range in which the weight of the penalty is searched, times the number of frames.
 _WEIGHTS = (1e-12, 1e8)
-# A retraction below nothing, in standard errors, that noise may bring about.
+# How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
 Array = NDArray[np.float64]
 
@@ -69,7 +69,7 @@ class FilmedLaw(NamedTuple):
 
 
 def _fit_law(phase: Array, values: Array) -> FilmedLaw:
-    """Fit a periodic smoothing spline of the weight of greatest restricted likelihood."""
+    """Fit a periodic smoothing spline; restricted maximum likelihood chooses its weight."""
     from scipy.optimize import minimize_scalar
 
     count, columns = len(values), _design(phase)
@@ -150,7 +150,7 @@ class FilmedBeat:
 
     @property
     def held(self) -> frozenset[str]:
-        """The parameters of a wingbeat that the film gives, of which an orbit may choose none."""
+        """The parameters of a wingbeat that the film gives; an orbit may choose none of them."""
         filmed = tuple(f"{name.partition('_')[0]}_" for name in self.laws)
         return frozenset(name for name in FREE_NAMES if name.startswith(filmed)) | self.numbers.keys()
 
@@ -160,7 +160,7 @@ class FilmedBeat:
         Parameters
         ----------
         wingbeat : holds what was not filmed.
-        count : number of wingbeats; one that cannot be, such as of no amplitude, is left out.
+        count : number of wingbeats; an impossible one, such as one without amplitude, is left out.
         seed : the same seed gives the same wingbeats.
         """
         random, found = np.random.default_rng(seed), []

@@ -20,7 +20,7 @@ from wingbeat.errors import FaultList
 
 Array = NDArray[np.float64]
 Kind = type[FormulaTerms] | type[CentreTerms]
-# Grids of what a formula is not linear in; the rest follows from linear least squares at each node.
+# Grids of the terms in which a formula is not linear; the others follow from linear least squares at each node.
 _RATES = np.concatenate([np.geomspace(0.3, 3.0, 12), [3.6, 4.5]])
 _WAVE_DECAYS = np.geomspace(0.02, 2.0, 10)
 _EXPONENTS = np.linspace(0.2, 2.0, 10)
@@ -52,7 +52,7 @@ def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
 
 
 def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
-    """Return terms without the checks of a model's: a search passes through what no model may hold."""
+    """Return terms without the checks of a model: a search passes through values that a model may not hold."""
     # All of them floats: JAX compiles anew for another type of number, and does not differentiate in integers.
     return unchecked(kind, {name: float(value) for name, value in terms.items()})
 
@@ -67,7 +67,7 @@ class CurveForm:
     function : of angles [deg], shape (n,), and of each parameter by its name; returns shape (n,).
     start : names of the parameters with values to begin at.
     lowest, highest : bounds of some of the parameters.
-    only_positive : whether it may not be evaluated at negative angles.
+    only_positive : True if the curve must not be evaluated at negative angles.
 
     Raises
     ------

@@ -52,7 +52,7 @@ def split_unit(text: str) -> Heading:
 
 
 def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> None:
-    """Note a unit that is written and is not the one the column is read in."""
+    """Note a unit that is written but differs from the one in which the column is read."""
     if unit is None:
         return
     plain = re.sub(r"\s+", " ", unit.strip().lower().replace("^", "").replace("²", "2").replace("³", "3"))
@@ -60,7 +60,7 @@ def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> 
     if _SAME.get(plain, plain) == wanted.lower():
         return
     fix = f"convert the column to {wanted} and write [{wanted}]" if wanted else "write it without a unit"
-    faults.add(where, unit, f"is another unit than [{wanted or '-'}], in which it is read", fix)
+    faults.add(where, unit, f"is not the unit in which the column is read, [{wanted or '-'}]", fix)
 
 
 def read_sheet(path: str | Path) -> Sheet:
@@ -97,7 +97,7 @@ def read_sheet(path: str | Path) -> Sheet:
 def parse_numbers(
     faults: FaultList, sheet: Sheet, names: list[str], *, blank: frozenset[str] = frozenset()
 ) -> NDArray[np.float64]:
-    """Return the numbers of all rows, shape (rows, columns); each that is none is noted and NaN.
+    """Return the numbers of all rows, shape (rows, columns); a cell that is no number is noted and becomes NaN.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ class LoadCellRun:
     alpha_deg : angle of attack read by the encoder [deg], shape (n,) or one number.
     speed, density, viscosity : of the stream [m/s, kg/m3, m2/s]; the viscosity is kinematic.
     chord, span : of the plate [m].
-    thickness : of the plate [m]; 0 if not told.
+    thickness : of the plate [m]; 0 if not known.
     channel_width : width of the channel across the span [m], or None.
     tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2).
 

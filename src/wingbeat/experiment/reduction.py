@@ -18,7 +18,7 @@ LAST_SECONDS = 20.0
 # Repeats of one point: a positioning stage returns within a quarter degree, a stream within some per cent.
 SAME_ALPHA_DEG = 0.5
 SAME_REYNOLDS = 1.05
-# A ratio is no measurement where its denominator is as small as its error, or too small for the moment's.
+# A ratio is no measurement if its denominator is as small as its own error, or too small beside the moment's error.
 CENTRE_SIGNAL = 5.0
 CENTRE_FLOOR = 0.02
 # Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.
@@ -178,7 +178,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
     """Return the coefficients of a campaign: one row for each angle and Reynolds number, repeats pooled.
 
     Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is that of
-    its runs; its standard error is ``sqrt(sum se^2 / R^2 + tau^2 / R)``, where tau^2 is what the repeats scatter
+    its runs; its standard error is ``sqrt(sum se^2 / R^2 + tau^2 / R)``, where tau^2 is the variance of the repeats
     beyond their own errors, estimated for each coefficient from all points of a Reynolds number together, and 0
     unless it stands out. The standard deviation is that of the samples within runs; x_cp is that of the pooled
     force and moment.

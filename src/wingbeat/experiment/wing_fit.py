@@ -207,7 +207,9 @@ def fit_wing(
         known = np.isfinite(table.mean["x_cp"])
         usable = known & (table.alpha_deg >= 0) if chosen.centre.only_positive else known
         if usable.sum() < len(chosen.centre.names) + 2:
-            notes.append(f"x_cp: {usable.sum()} usable rows are too few for its form; the model has no centre")
+            notes.append(
+                f"x_cp: {usable.sum()} usable rows are too few for its form; the model has no centre of pressure"
+            )
         else:
             centre = _fit(table, "x_cp", chosen.centre, usable)
             if usable.sum() < known.sum():

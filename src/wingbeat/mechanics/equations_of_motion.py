@@ -1,7 +1,7 @@
 """The five-coordinate equations of motion ``D q'' + C q' + h + g = tau + f_aero`` as arrays.
 
-Coordinates q = (x, z, body pitch psi, flap phi, root wing pitch theta); both wings counted. Span and fold follow
-time, so the equations are rheonomic; for rigid wings h vanishes and they are those of Su et al. 2023
+Coordinates q = (x, z, body pitch psi, flap phi, root wing pitch theta); both wings are counted. Span and fold are
+functions of time, so the equations are rheonomic; for rigid wings h vanishes and they are those of Su et al. 2023
 (doi 10.48550/arXiv.2302.09602). Every term is a sum over mass points of partial velocities ``dr/dq``, which are
 exact derivatives of where the wing is (`wing_motion.wing_shape`).
 """
@@ -31,7 +31,9 @@ if TYPE_CHECKING:
 
 
 class EquationsOfMotion(NamedTuple):
-    """The terms of the equations of motion ``D q'' + C q' + h + g``, with any leading axes.
+    """The terms on the left of the equations of motion ``D q'' + C q' + h + g = tau + f_aero``.
+
+    Each array may have further leading axes.
 
     C is in Christoffel form: ``D' - 2 C`` is skew for rigid wings.
 
@@ -39,8 +41,9 @@ class EquationsOfMotion(NamedTuple):
     ----------
     mass_matrix : D, shape (..., 5, 5) [kg, kg m, kg m2].
     velocity_matrix : C, shape (..., 5, 5).
-    time_force : h, of span, fold and sweep that follow time, shape (..., 5) [N, N m].
-    gravity_force : g, shape (..., 5) [N, N m].
+    time_force : h, generalised force that arises because span, fold and sweep are prescribed functions of time;
+        zero for rigid wings; shape (..., 5) [N, N m].
+    gravity_force : g, generalised force of gravity; shape (..., 5) [N, N m].
     """
 
     mass_matrix: CoordinateMatrix
@@ -239,7 +242,7 @@ def generalised_torques(
     q_acceleration: Coordinates,
     time: Phases,
 ) -> Coordinates:
-    """Return what must act on the coordinates, ``tau = D q'' + C q' + h + g - f_aero``.
+    """Return the generalised force that must act on the coordinates, ``tau = D q'' + C q' + h + g - f_aero``.
 
     Parameters
     ----------

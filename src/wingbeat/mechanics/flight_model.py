@@ -73,7 +73,7 @@ class FlightModel:
     kernel : of the coefficient model.
     strips : number of strips of a wing.
     at_centre_of_pressure : whether the force acts at the centre of pressure.
-    full_airspeed : whether the force goes with the whole airspeed of a strip.
+    full_airspeed : whether the force depends on the whole airspeed of a strip.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) 
     """
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    # The air feels the pitch state in three ways only, so three derivatives of the loads serve all four.
+    # The air loads depend on the pitch state in three ways only, so three derivatives of the loads serve all four.
     loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
     ax, az, pitch_acceleration = accelerations(
         model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate

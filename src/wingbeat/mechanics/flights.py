@@ -21,14 +21,15 @@ if TYPE_CHECKING:
 
 
 RTOL = 1e-10
-# The absolute tolerance over the relative one; states are in SI units, near one.
+# Absolute tolerance divided by the relative one; states are in SI units and of order one.
 _ATOL = 1e-2
-# The integrator steps onto every so many of the times asked for, and may take so many more steps in a beat and in a
-# flight with driven wings; the polynomials of all of them are kept.
+# The integrator steps onto every fourth of the times asked for. It may take so many further steps in a beat and
+# in a flight with driven wings; the polynomials of all steps are kept.
 _BETWEEN = 4
 _IN_A_BEAT = 1024
 _IN_A_FLIGHT = 4096
-# Strips that a vector unit takes at a time; a wing of 16, six of no effect, flies in .8 of the time of one of 10.
+# Strips that a vector unit takes at a time. A flight with 16 strips, six of them without effect, takes 0.8 of the
+# time of a flight with 10.
 _VECTOR = 8
 
 
@@ -59,7 +60,7 @@ def integrate(
     start : state at the first time, shape (n,).
     times : increasing, shape (K,).
     args : passed to `rates`.
-    most_steps : besides those onto the times.
+    most_steps : most steps, besides those onto the times.
     rtol : relative tolerance; the absolute one is a hundredth of it.
 
     Returns

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
 
 TRIMS = ("body-pitch", "flap", "tail")
-# Largest force over weight, and moment over weight times chord, of what counts as balance.
+# Balanced means: force / weight and moment / (weight times chord) are at most this.
 _BALANCED = 1e-11
-# Steps from no trim to either end of its reach in which a change of the moment's sign is looked for.
+# Steps, from no trim to each end of its range, in which a sign change of the moment is sought.
 _STEPS = 12
 
 
@@ -121,7 +121,7 @@ class GlideSolver:
     flap : angle at which the wings are held [rad].
     trim : what is turned until the pitching moment vanishes: ``"body-pitch"`` while the wings keep their angle of
         attack, ``"flap"`` while the body stays along the path, or ``"tail"`` for nothing.
-    reach : least and largest of the angle that trims [rad], body pitch or flap.
+    reach : lowest and highest value of the angle that trims [rad], body pitch or flap.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class GlideSolver:
     def at(self, angle_of_attack: float) -> Glide:
         """Return the glide at an angle of attack; all not-a-number where the forces do not balance.
 
-        A glide that nothing trims keeps its body along the path, and gives the moment that it lacks.
+        If nothing trims the glide, the body stays along the path and the glide gives the moment that is missing.
 
         Parameters
         ----------
@@ -153,7 +153,7 @@ class GlideSolver:
         return self._glide_of(turned or posture, trimmed=turned is not None)
 
     def _trimmed(self, untrimmed: Posture) -> Posture | None:
-        """Return the posture without a moment that is nearest to `untrimmed`, forces always in balance, or None."""
+        """Return the posture without a moment nearest to `untrimmed`, or None; forces always balance."""
         column, reach = 3, np.array(self._reach)
         if self._trim == "body-pitch":
             column, reach = 2, reach + untrimmed.glide_angle  # above the path, not the horizontal

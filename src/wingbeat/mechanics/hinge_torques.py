@@ -1,4 +1,4 @@
-"""What the hinges must give, and for what: torques and powers, from sums over the wing that depend on time alone.
+"""Torques and powers of the hinges, and their shares, from sums over the wing that depend on time alone.
 
 By d'Alembert the effort along a motion of the wing is ``sum m (r'' - g) . v - F . v``, v what that motion does to
 each point: for a hinge torque dr/d(angle), for the power of all actuators dr/dt in body axes. In stroke axes
@@ -65,7 +65,7 @@ class PartialMotion(NamedTuple):
 
 
 class HingeMotion(NamedTuple):
-    """Rates of the two hinge angles, and the motions that they and the whole wingbeat are.
+    """Rates of the two hinge angles, and the motions of flap, of wing pitch and of the whole wingbeat.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class HingeLoads(NamedTuple):
     actuator_power : that of all actuators, those of span, fold and sweep included [W].
     aerodynamic_power : share against the air loads [W].
     inertial_power : share that accelerates the wings as seen from the body [W].
-    body_power : the rest [W]: the body that carries the wings accelerates and turns, in gravity.
+    body_power : the rest [W], because the body that carries the wings accelerates and turns, and gravity acts.
     """
 
     flap_torque: Phases

@@ -27,7 +27,7 @@ _FEW_STRIPS = 32
 
 
 class WingMotion(NamedTuple):
-    """What air and body feel of the wing, in stroke axes, with any trailing axes of times.
+    """The wing's motion as it acts on air and body, in stroke axes, with any trailing axes of times.
 
     Speeds are those of the quarter chord; pitch turns a strip about its quarter chord and so changes none of them.
     Sums over mass points count both wings.
@@ -239,7 +239,7 @@ def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
 def wing_motion(
     vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int, vector: int = 1, along_span: bool = False
 ) -> WingMotion:
-    """Tabulate what air and body feel of the wing at given phases, in one pass.
+    """Tabulate, in one pass, the wing's motion at given phases as it acts on air and body.
 
     Parameters
     ----------

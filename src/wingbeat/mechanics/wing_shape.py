@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class Strips(NamedTuple):
-    """What of the strips of one wing does not change with time, shape (N,), or (N, 1, ...) beside axes of time.
+    """Numbers of one wing's strips that do not change with time, shape (N,), or (N, 1, ...) beside axes of time.
 
     Attributes
     ----------

@@ -16,38 +16,41 @@ from wingbeat.paper.treatments import MODELS
 from wingbeat.results.dataset import evaluate
 from wingbeat.results.record import beat_mean
 
-# Up to here the plate has more lift than Dickinson's wing.
+# Up to this angle the plate has more lift than Dickinson's wing.
 _SMALL = np.radians(13.0)
-# "Much closer": at most this part of the other's distance.
+# "Much closer" means that the distance is at most this share of the other distance.
 MUCH_CLOSER = 0.5
 _DISCUSSION = "discussion, simulations"
 
 
 def _drag(evidence: Evidence, model: str, alpha: np.ndarray) -> np.ndarray:
-    """Return C_D of a model, as the bat flies with it, at angles of attack [rad]."""
+    """Return the C_D that the bat's orbit with a coefficient model uses, at angles of attack [rad]."""
     return np.asarray(evidence.orbit("bat", model).problem.model.kernel.lift_drag(alpha)[1])
 
 
 def _share(where: np.ndarray) -> float:
-    """Return the share of the beat in which something is so."""
+    """Return the share of the wingbeat in which a condition holds."""
     return beat_mean(where.astype(float))
 
 
 def hand_leaves_small_angles(evidence: Evidence) -> TestResult:
-    """Return the least share of the beat that the hand spends beyond 13 degrees, both models."""
+    """Return the share of the wingbeat for which the hand's angle of attack is beyond 13 degrees.
+
+    It is the smaller of the two models' values.
+    """
     shares = [_share(np.abs(station_series(evidence, m, "alpha", HAND)) > _SMALL) for m in MODELS]
     return min(shares), min(shares) > 0.5
 
 
 def arm_nose_up(evidence: Evidence) -> TestResult:
-    """Return the share of the beat in which the arm's angle is positive and small, Su-Fan."""
+    """Return the share of the wingbeat for which the arm's angle is positive and small with Su-Fan."""
     alpha = station_series(evidence, "su-fan", "alpha", ARM)
     small = (alpha > 0) & (alpha <= _SMALL)
     return _share(small), bool(small.all())
 
 
 def arm_angle_smaller_throughout(evidence: Evidence) -> TestResult:
-    """Return the share of the beat in which the arm's angle is smaller with Su-Fan."""
+    """Return the share of the wingbeat for which the arm's absolute angle is smaller with Su-Fan."""
     fit, fly = (np.abs(station_series(evidence, model, "alpha", ARM)) for model in MODELS)
     return _share(fit < fly), bool((fit < fly).all())
 
@@ -59,19 +62,22 @@ def over_prediction(evidence: Evidence) -> TestResult:
 
 
 def closer_power(evidence: Evidence) -> TestResult:
-    """Return what the bat's peak power exceeds 4 W by, Su-Fan over Dickinson."""
+    """Return the bat's peak power minus 4 W with Su-Fan, divided by the same difference with Dickinson."""
     fit, fly = (float(evidence.record("bat", model)["peak_power"]) - BATS_NEED for model in MODELS)
     return fit / fly, abs(fit) <= MUCH_CLOSER * abs(fly)
 
 
 def higher_drag_penalty(evidence: Evidence) -> TestResult:
-    """Return the arm's mean drag, Dickinson over Su-Fan."""
+    """Return the arm's mean drag with Dickinson divided by that with Su-Fan."""
     fit, fly = (beat_mean(station_series(evidence, model, "drag", ARM)) for model in MODELS)
     return fly / fit, fly > fit
 
 
 def gains_at_speed(evidence: Evidence) -> TestResult:
-    """Return how much more Su-Fan betters the frequency from 10 m/s on than below, the least of all references."""
+    """Return how much more Su-Fan improves the frequency at 10 m/s and above than below 10 m/s.
+
+    The improvement is Dickinson's relative error minus Su-Fan's. The result is the smallest over all references.
+    """
     more = []
     for animal, measured in (*(("pigeon", pigeon_reference(n)) for n in PIGEON_REFERENCES), ("bat", BAT_MEASURED)):
         speeds = evidence.speeds(animal, *MODELS)
@@ -83,14 +89,17 @@ def gains_at_speed(evidence: Evidence) -> TestResult:
 
 
 def many_wingbeats(evidence: Evidence) -> TestResult:
-    """Return how many directions closure leaves the bat's unknowns to change in."""
+    """Return the number of the bat's unknowns minus the number of its closure conditions."""
     unknowns = len(evidence.orbit("bat", "su-fan").problem.unknowns().names)
     left = unknowns - len(evidence.record("bat", "su-fan")["closure"])
     return float(left), left > 0
 
 
 def small_angles_critical(evidence: Evidence) -> TestResult:
-    """Return the share of the power that Dickinson's drag would cost more in Su-Fan's flight, below 13 degrees."""
+    """Return the share of an extra power that arises at angles of attack up to 13 degrees.
+
+    The extra power is what Dickinson's drag would cost in addition in the flight with Su-Fan.
+    """
     flight = evidence.orbit("bat", "su-fan").dataset
     alpha = flight["alpha"].values
     fit, fly = (_drag(evidence, model, alpha) for model in MODELS)
@@ -100,7 +109,7 @@ def small_angles_critical(evidence: Evidence) -> TestResult:
 
 
 def drag_costs_thrust(evidence: Evidence) -> TestResult:
-    """Return the change of mean forward force over weight when Su-Fan's flight is given Dickinson's drag."""
+    """Return the change of mean forward force, divided by weight, if Su-Fan's flight has Dickinson's drag."""
     orbit = evidence.orbit("bat", "su-fan")
     problem, flight = orbit.problem, orbit.dataset
     theirs = evidence.orbit("bat", "dickinson").problem.aero.coefficients
@@ -119,9 +128,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "small-angles-critical",
             "abstract; discussion",
-            "lift with little drag at small angles of attack saves power and pitching (tested: Dickinson's C_D "
-            "would cost more power in the bat's flight with Su-Fan at 10 m/s; at least half of the extra arises "
-            "below 13 deg; ours: that share)",
+            "lift with little drag at small angles of attack saves power and pitching (tested: in the bat's "
+            "flight with Su-Fan at 10 m/s, Dickinson's C_D would cost extra power; at least half of this extra "
+            "arises below 13 deg; ours: the share that arises there)",
             "critical",
             "1",
             small_angles_critical,
@@ -129,8 +138,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "hand-leaves-small-angles",
             _DISCUSSION,
-            "with both models the hand does not use small angles (tested: more than half of the wingbeat beyond "
-            "13 deg at 3/4 span; ours: the smaller share)",
+            "with both models the hand does not use small angles (tested: at 3/4 span the angle of attack is "
+            "beyond 13 deg for more than half of the wingbeat; ours: this share of the wingbeat, the smaller of "
+            "the two models' values)",
             "> 0.5",
             "1",
             hand_leaves_small_angles,
@@ -138,8 +148,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-nose-up",
             _DISCUSSION,
-            "with Su-Fan the arm is slightly nose-up throughout the wingbeat (tested: alpha at 1/4 span is above "
-            "0 and at most 13 deg, which the paper calls small, at every phase; ours: the share of the wingbeat)",
+            "with Su-Fan the arm is slightly nose-up throughout the wingbeat (tested: at every phase the angle "
+            "of attack at 1/4 span is above 0 and at most 13 deg, which the paper calls small; ours: the share "
+            "of the wingbeat where this is so)",
             1.0,
             "1",
             arm_nose_up,
@@ -147,8 +158,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-angle-smaller-throughout",
             _DISCUSSION,
-            "with Su-Fan the arm's effective angle of attack is smaller throughout the wingbeat (tested: at every "
-            "phase at 1/4 span; ours: the share of the wingbeat)",
+            "with Su-Fan the arm's effective angle of attack is smaller throughout the wingbeat (tested: at "
+            "every phase the absolute angle at 1/4 span is smaller than with Dickinson; ours: the share of the "
+            "wingbeat where this is so)",
             1.0,
             "1",
             arm_angle_smaller_throughout,
@@ -156,8 +168,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "higher-drag-penalty",
             _DISCUSSION,
-            "with Dickinson's coefficients the arm's larger angle costs more drag (tested: mean drag at 1/4 span; "
-            "ours: its ratio to Su-Fan's)",
+            "with Dickinson's coefficients the arm's larger angle costs more drag (tested: the mean drag at 1/4 "
+            "span is larger than with Su-Fan; ours: Dickinson's drag divided by Su-Fan's)",
             "> 1",
             "1",
             higher_drag_penalty,
@@ -165,7 +177,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "over-prediction",
             "results, power",
-            "Dickinson's coefficients over-predict the frequency at 10 m/s (tested: the bat's against 6 Hz)",
+            "Dickinson's coefficients over-predict the frequency at 10 m/s (tested: the bat's frequency is above "
+            "the measured 6 Hz)",
             "> 6",
             "Hz",
             over_prediction,
@@ -173,8 +186,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "closer-power",
             _DISCUSSION,
-            "Su-Fan's power is much closer to that found for similar bats (tested: peak power minus 4 W at most "
-            "half of that with Dickinson's; the paper's own peaks of 30 and 150 W give 0.18; ours: the ratio)",
+            "Su-Fan's power is much closer to that found for similar bats (tested: the peak power minus 4 W is "
+            "at most half of the same difference with Dickinson; ours: Su-Fan's difference divided by "
+            "Dickinson's; the paper's own peaks of 30 and 150 W give 0.18)",
             "<= 0.5",
             "1",
             closer_power,
@@ -182,9 +196,10 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "gains-at-speed",
             _DISCUSSION,
-            "Su-Fan improves the frequencies of both animals most at high speed (tested: how much closer to the "
-            "measured frequency, relative, from 10 m/s on minus below; the pigeon by both references; ours: the "
-            "smallest)",
+            "Su-Fan brings the frequencies of both animals closer to the measured ones, most of all at high "
+            "speed (tested: Dickinson's relative error minus Su-Fan's; its mean at 10 m/s and above is larger "
+            "than its mean below 10 m/s; ours: the difference of the two means, the smallest of three: the "
+            "pigeon with each of its two references, and the bat)",
             "> 0",
             "1",
             gains_at_speed,
@@ -192,7 +207,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "many-wingbeats",
             "methods, simulation",
-            "many wingbeats may satisfy the conditions of one flight (tested: unknowns minus conditions, bat)",
+            "many wingbeats may satisfy the conditions of one flight (tested: the bat's flight has more unknowns "
+            "than conditions; ours: the difference)",
             "> 0",
             "1",
             many_wingbeats,
@@ -201,9 +217,8 @@ def argument_claims() -> list[FlightClaim]:
             "drag-costs-thrust",
             "introduction",
             "drag measured at low Reynolds number is too large, which may explain a low thrust of cruising bats "
-            "(tested: change of mean forward force over weight when the bat's flight with Su-Fan at "
-            "10 m/s is given "
-            "Dickinson's C_D)",
+            "(tested: Dickinson's C_D lowers the mean forward force in the bat's flight with Su-Fan at 10 m/s; "
+            "ours: the change divided by weight)",
             "< 0",
             "1",
             drag_costs_thrust,

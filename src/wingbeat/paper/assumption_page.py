@@ -35,7 +35,7 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
     ----------
     study : the study.
     folder : folder to write to.
-    heading : a line on how it was run: command, time.
+    heading : how the study was run: command and time.
 
     Raises
     ------
@@ -58,10 +58,11 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
     lines = [
         "# What the paper's claims depend on",
         "",
-        "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder, bounds or treatment of negative "
-        f"angles of attack. Here we use {len(study.sets)} sets of assumptions. They fill the plausible ranges "
-        f"below uniformly and keep the animals' whole masses of the paper. Each set needs {ORBITS} orbits of "
-        "lowest frequency: pigeon and bat, both coefficient models, at the speeds of the claims. "
+        "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder positions or bounds, and do not say "
+        f"how they treat negative angles of attack. Here we use {len(study.sets)} sets of assumptions. They fill "
+        "the plausible ranges below uniformly. The total masses of the animals are those of the paper. Each set "
+        f"needs {ORBITS} orbits of lowest frequency, for the pigeon and the bat with both coefficient models at "
+        "the speeds of the claims. "
         f"{100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of them were found and certified.",
         "",
         heading,
@@ -70,11 +71,11 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "",
         "## Claim by claim",
         "",
-        "*Testable* is the share of sets whose orbits exist to test the claim. *Holds* is the share of those that "
-        "satisfy it, with its standard error. *Depends on* names the assumptions that explain at least a "
-        "twentieth of the claim's number in a quadratic response surface (share of the variance of its rank). "
-        f"*Quality* is the share that the surface explains of numbers not used in the fit; below {TRUSTED:g} it "
-        "says little.",
+        "*Testable* is the share of sets that have the orbits to test the claim. *Holds* is the share of the "
+        "testable sets that satisfy it, with its standard error. *Depends on* comes from a quadratic response "
+        "surface, fitted to the ranks of the claim's number. It names each assumption that explains at least a "
+        "twentieth of the variance, and gives the explained share. *Quality* is the share of the variance that "
+        f"the surface explains in numbers not used in the fit; below {TRUSTED:g} the surface says little.",
         "",
         "| claim | holds [%] | testable [%] | depends on | quality |",
         "| --- | --- | --- | --- | --- |",
@@ -141,7 +142,7 @@ def _apart(study: Judged) -> list[str]:
     never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
     if never:
         lines.append(f"- in no set: {', '.join(f'`{name}`' for name in never)}")
-    return lines or ["- every pair of claims that hold in many sets holds together in some"]
+    return lines or ["- any two claims that each hold in many sets hold together in some set"]
 
 
 @drawing(font=9.0)

@@ -1,4 +1,4 @@
-"""The claims about flight judged under many sets of assumptions: a piece of the sample as a handful of studies."""
+"""The claims about flight, judged under many sets of assumptions; each piece of the sample is a few studies."""
 
 from __future__ import annotations
 
@@ -20,11 +20,12 @@ from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine
 from wingbeat.studies.study import Study, plan_study
 
-# The speeds that the claims need [m/s], in the order in which answers are handed on: slow flight is the harder.
+# The speeds that the claims need [m/s]. Each solution is a start for the next speed; slow flight is the hardest.
 SPEEDS = {"pigeon": (16.0, 12.0, 10.0), "bat": (12.0, 10.0, 8.0, 5.0)}
-# Orbits that a set asks for.
+# Orbits that one set needs.
 ORBITS = len(MODELS) * sum(len(speeds) for speeds in SPEEDS.values())
-# Identities, which every set says alike; what few searches cannot tell; what another claim's number says.
+# Claims left out: identities, which hold in every set; claims that need many starts; claims whose number is that of
+# another claim.
 _LEFT_OUT = {
     "closed-loops",
     "open-loop",
@@ -35,16 +36,23 @@ _LEFT_OUT = {
     "differentiable",
     "few-degrees",
 }
-# Searches of each orbit, one of them from the answer at the speed before, and how sure they are. Six missed 10
-# of the same orbits and ended 4 too high, at 1.4 times the cost.
+# Starts of each orbit, one of them from the solution at the previous speed, and how reliable they are. Six starts
+# missed 10 of the same orbits and gave 4 of them too high a frequency, at 1.4 times the cost.
 STARTS = 4
-SURENESS = "of 103 orbits that 20 starts found for 12 sets, these miss 11 and give 2 more than 0.5 % too high"
+SURENESS = (
+    "of 103 orbits that 20 starts found for 12 sets, these starts miss 11 and give 2 a frequency more than 0.5 % "
+    "too high"
+)
 _SET = "set"
 
 
 @dataclass(frozen=True)
 class Judged:
-    """Sets and what they say; arrays of shape (sets, claims), verdicts 0 or 1, not-a-number where untold."""
+    """Sets of assumptions and what they give.
+
+    ``numbers`` and ``holds`` have shape (sets, claims). ``holds`` is 0 or 1. Both are NaN where a claim cannot be
+    tested. ``flown`` counts the certified orbits of each set.
+    """
 
     sets: tuple[Values, ...]
     claims: tuple[FlightClaim, ...]
@@ -54,19 +62,22 @@ class Judged:
 
 
 class Group(NamedTuple):
-    """The sets of a piece that leave the same trims free, by their places in it, and a study of each series."""
+    """Sets of a piece with the same free trims: their indices in it, and a study by animal and model."""
 
     places: list[int]
     studies: dict[tuple[str, str], Study]
 
 
 def study_claims() -> tuple[FlightClaim, ...]:
-    """Return the claims that hang on assumptions."""
+    """Return the claims that depend on assumptions."""
     return tuple(claim for claim in flight_claim_list() if claim.id not in _LEFT_OUT)
 
 
 def plan_piece(sets: list[Values], folder: Path) -> list[Group]:
-    """Return the studies that fly the sets, whose stores lie in a folder: what is free is of a whole study."""
+    """Return the studies that solve the sets; their stores lie in a folder.
+
+    All sets of a study have the same free parameters.
+    """
     groups = []
     for trims in TRIMS:
         places = [i for i, values in enumerate(sets) if values["trims"] == trims]
@@ -100,14 +111,14 @@ def fly_piece(
     stop: Stop,
     progress: Callable[[int], None] | None = None,
 ) -> None:
-    """Solve what has no answer yet, study by study, until done or told to stop.
+    """Solve the orbits without a result, study by study, until all are done or a stop is requested.
 
     Parameters
     ----------
-    groups : of `plan_piece`.
-    engine : makes what does a study's work.
-    stop : asked between batches.
-    progress : called with how many orbits of the piece have an answer.
+    groups : groups from `plan_piece`.
+    engine : makes the engine that runs a study.
+    stop : checked between batches.
+    progress : called with the number of orbits of the piece that have a result.
     """
     before = 0
     for planned in (one for group in groups for one in group.studies.values()):
@@ -123,7 +134,7 @@ def fly_piece(
 
 
 def judge_piece(sets: list[Values], groups: list[Group]) -> Judged:
-    """Judge the claims under each set of a piece whose orbits have been flown, one set in memory at a time."""
+    """Judge the claims under each set of a solved piece, with the orbits of one set in memory at a time."""
     claims = study_claims()
     numbers, holds = (np.full((len(sets), len(claims)), np.nan) for _ in range(2))
     flown = np.zeros(len(sets), dtype=int)
@@ -150,5 +161,5 @@ def _sets_of_orbits(group: Group) -> Iterator[dict[Case, Orbit]]:
 
 
 def seconds_of(groups: list[Group]) -> float:
-    """Return what the orbits of a piece took, of one core [s]."""
+    """Return the time that the orbits of a piece took on one core [s]."""
     return sum(one.status().seconds for group in groups for one in group.studies.values())

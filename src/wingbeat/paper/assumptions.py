@@ -1,4 +1,4 @@
-"""Assumptions where the paper is silent: what is sampled, in what range, and what a set means for an animal."""
+"""Assumptions where the paper is silent: what is sampled, in what range, and what a set changes in an animal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS
 from wingbeat.species import Species
 
-# What the paper says is free, and the mean angles of which it does not tell.
+# Parameters that the paper says are free, and the mean angles of which it does not say whether they are.
 _FREE = ("frequency", "flap_amplitude", "pitch_amplitude")
 _MEANS = ("flap-mean", "pitch-mean")
 TRIMS = ("both", "pitch-mean", "flap-mean", "none")
@@ -45,62 +45,78 @@ class Assumption:
 
 
 _UNSAID = "the paper does not say, and may have treated the two sets of coefficients differently"
-# What only one of the animals does in its upstroke or along its wing.
+# The assumption that applies to one of the animals only.
 _OWN = {"pigeon": "span_retraction", "bat": "twist_ratio"}
 
 ASSUMPTIONS = (
     Assumption(
         "wing_mass_share",
-        "mass of one wing over that of the animal",
+        "mass of one wing divided by that of the animal",
         "pigeon 6.3 (van den Berg and Rayner 1995) to 9.6 % (Harvey et al. 2022), bats 5.4 to 7 %",
         0.05,
         0.10,
     ),
     Assumption(
         "mass_exponent",
-        "wing mass per span as (1 - s/L)^p",
+        "exponent p of the wing mass per span, (1 - s/L)^p",
         "0 is uniform; 2 and 4 match van den Berg and Rayner 1995 and Harvey et al. 2022",
         0.0,
         4.0,
     ),
-    Assumption("taper", "tip chord over root chord, same area", "the paper's rectangle is 1", 0.3, 1.0),
+    Assumption(
+        "taper", "tip chord divided by root chord, at the same area", "the paper's rectangle is 1", 0.3, 1.0
+    ),
     Assumption(
         "body_inertia_factor",
-        "pitch inertia of the body over the species file's",
-        "first guesses and a scaled dissection differ by 1.7",
+        "pitch inertia of the body divided by that of the species file",
+        "first guesses and a scaled dissection differ by a factor of 1.7",
         0.6,
         1.7,
     ),
     Assumption(
         "shoulder_ahead",
-        "shoulder ahead of the body's centre of mass over semi-span",
+        "distance of the shoulder ahead of the body's centre of mass, divided by semi-span",
         "0 by default; 0.13 in Harvey et al. 2022's pigeon",
         0.0,
         0.13,
     ),
     Assumption(
-        "shoulder_above", "shoulder above it over semi-span", "0 by default; 0.03 in the same pigeon", 0.0, 0.04
+        "shoulder_above",
+        "distance of the shoulder above the body's centre of mass, divided by semi-span",
+        "0 by default; 0.03 in the same pigeon",
+        0.0,
+        0.04,
     ),
     Assumption(
         "shoulder_aside",
-        "shoulder beside the plane of symmetry over semi-span",
+        "distance of the shoulder from the plane of symmetry, divided by semi-span",
         "0 by default; 0.10 in the same pigeon, half the difference between its span of 0.613 m and twice the "
         "wing's 0.278 m",
         0.0,
         0.10,
     ),
     Assumption(
-        "span_retraction", "share of span retracted at mid-upstroke, pigeon", "the paper gives no number", 0.0, 0.5
+        "span_retraction",
+        "share of the pigeon's span that is retracted at mid-upstroke",
+        "the paper gives no number",
+        0.0,
+        0.5,
     ),
-    Assumption("twist_ratio", "pitch at the tip over that at the root, bat", "1.6 in the paper", 1.3, 1.9),
+    Assumption(
+        "twist_ratio",
+        "pitch angle of the bat's wing at the tip divided by that at the root",
+        "1.6 in the paper",
+        1.3,
+        1.9,
+    ),
     Assumption(
         "flap_amplitude_deg",
         "largest flap amplitude allowed [deg]",
-        "half of 90 deg (Bullen and McKenzie 2002 at 10 m/s) to half of 140 deg (their largest)",
+        "half of the 90 deg of Bullen and McKenzie 2002 at 10 m/s, to half of their largest angle, 140 deg",
         40.0,
         70.0,
     ),
-    Assumption("trims", "mean angles that are free", "the paper names neither", choices=TRIMS),
+    Assumption("trims", "mean angles that are free", "the paper names neither mean angle", choices=TRIMS),
     Assumption(
         "flap_mean_deg",
         "largest mean flap angle allowed up and down, if it is free [deg]",
@@ -110,7 +126,7 @@ ASSUMPTIONS = (
     ),
     Assumption(
         "pitch_phase_deg",
-        "phase lead of pitch over flap [deg]",
+        "phase by which pitch leads flap [deg]",
         "the paper gives no phase; at 0 pitch is fastest where flap reverses; a twelfth of a wingbeat either way "
         "is a guess",
         -30.0,
@@ -120,19 +136,19 @@ ASSUMPTIONS = (
     Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
     Assumption(
         "airspeed",
-        "speed that determines a segment's loads: across its span only, or also along it",
-        "the paper says airspeed at each segment; strip theory uses the planar one",
+        "airspeed that determines a segment's loads: the component across the span only, or also that along it",
+        "the paper says airspeed at each segment; strip theory uses the component across the span",
         choices=AIRSPEEDS,
     ),
     Assumption(
         "force_point",
-        "where the force acts, Su-Fan (Dickinson's has no centre of pressure)",
-        "quarter chord in the paper, although it also fits a centre of pressure",
+        "where Su-Fan's force acts (Dickinson's model has no centre of pressure)",
+        "the paper uses the quarter chord, although it also fits a centre of pressure",
         choices=FORCE_POINTS,
     ),
     Assumption(
         "body_drag_factor",
-        "drag area of the body over 0.2 times Pennycuick's frontal area",
+        "drag area of the body divided by 0.2 times Pennycuick's frontal area",
         "the paper names no body drag",
         0.0,
         1.0,
@@ -155,7 +171,7 @@ def sample_sets(count: int, seed: int = 0) -> list[Values]:
 
 
 def free_under(trims: str) -> list[str]:
-    """Return what is free under a choice of trims.
+    """Return the parameters that are free under a choice of trims.
 
     >>> free_under("flap-mean")
     ['frequency', 'flap_amplitude', 'pitch_amplitude', 'flap_mean']
@@ -164,9 +180,9 @@ def free_under(trims: str) -> list[str]:
 
 
 def changes_under(values: Values, species: Species, model: str) -> dict[str, Any]:
-    """Return what a set of assumptions means for an animal and a coefficient model: values by path.
+    """Return the values, by path, that a set of assumptions gives an animal with a coefficient model.
 
-    Sets of the same trims have the same paths; what is free then says `free_under`.
+    Sets with the same trims have the same paths; `free_under` gives their free parameters.
     """
     number = {name: value for name, value in values.items() if isinstance(value, float)}
     vehicle, mass, span = species.vehicle, species.vehicle.mass, species.vehicle.wing.semi_span
@@ -184,7 +200,7 @@ def changes_under(values: Values, species: Species, model: str) -> dict[str, Any
         "wing.chord": [root, number["taper"] * root],
         "body.pitch_inertia": number["body_inertia_factor"] * vehicle.body.pitch_inertia,
         "wing.shoulder": [number[f"shoulder_{way}"] * span for way in ("ahead", "aside", "above")],
-        # Frontal area .00813 m^.666 (Pennycuick et al. 1988), drag coefficient .2.
+        # Frontal area 0.00813 m^0.666 (Pennycuick et al. 1988), drag coefficient 0.2.
         "body.drag_area": number["body_drag_factor"] * 0.2 * 0.00813 * mass**0.666,
         f"wingbeat.{own}": number[own],
         **dict.fromkeys(held, 0.0),

@@ -19,7 +19,7 @@ NOT_ASKED = "not asked with --quick"
 
 @dataclass(frozen=True)
 class Finding:
-    """What one set of assumptions says: our number, whether the claim holds (None: untold), the orbits."""
+    """One set of assumptions, our number, whether the claim holds (None: cannot be tested), the orbits used."""
 
     assumptions: str
     number: float | None
@@ -29,9 +29,9 @@ class Finding:
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim: where the paper makes it, what it says in our words with how we test it, its number, our findings.
+    """One claim: its place in the paper, its statement and our test in our words, the paper's number, our findings.
 
-    The first finding is under our default assumptions; its number is the one that stands beside the paper's.
+    The first finding is under our default assumptions; its number is shown beside the paper's.
     """
 
     id: str
@@ -44,7 +44,7 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """Holds under all assumptions tried, under some, or under none (fails); cannot be tested; not asked."""
+        """Holds under all assumptions, under some or under none (fails); or cannot be tested; or is not asked."""
         if not self.asked:
             return NOT_ASKED
         told = [finding.holds for finding in self.findings if finding.holds is not None]
@@ -84,16 +84,16 @@ def tested(name: str, where: str, claim: str, paper: float | str, unit: str, our
 
 
 def untestable(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, why: str) -> Claim:
-    """Return a claim that nothing here can test, with a number of ours to set beside it."""
+    """Return a claim that we cannot test, with a number of ours to compare."""
     return Claim(name, where, claim, paper, unit, (Finding(why, float(ours), None),))
 
 
 class NotFlownError(Exception):
-    """A claim asks for an orbit that was not certified, or not flown."""
+    """A claim needs an orbit that was not solved or not certified."""
 
 
 class Evidence:
-    """The certified orbits of one treatment; it remembers which of them were looked at."""
+    """The certified orbits of one treatment; `used` records which of them the claim's test has used."""
 
     def __init__(self, orbits: Orbits, treatment: str) -> None:
         self.treatment = treatment
@@ -119,7 +119,7 @@ class Evidence:
         return self.orbit(animal, model, speed).record()
 
     def speeds(self, animal: str, *models: str, above: float = 0.0, below: float = np.inf) -> np.ndarray:
-        """Return the speeds, ends included, at which all these models have a certified orbit [m/s].
+        """Return the speeds from `above` to `below` [m/s] at which all these models have a certified orbit.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class Evidence:
         return np.array(both)
 
     def frequencies(self, animal: str, model: str, speeds: np.ndarray) -> np.ndarray:
-        """Return the least frequencies at these speeds [Hz]."""
+        """Return the lowest frequencies at these speeds [Hz]."""
         return np.array([self.orbit(animal, model, speed).wingbeat.frequency for speed in speeds])
 
 
@@ -157,7 +157,7 @@ class FlightClaim:
     test: Callable[[Evidence], TestResult]
 
     def unasked(self) -> Claim:
-        """Return the claim without a verdict, where too few flights were solved to ask it."""
+        """Return the claim without a verdict, because too few flights were solved to test it."""
         finding = Finding(NOT_ASKED, None, None)
         return Claim(self.id, self.where, self.claim, self.paper, self.unit, (finding,), asked=False)
 

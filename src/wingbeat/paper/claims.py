@@ -1,4 +1,4 @@
-"""Every claim of the paper in one table: judged, and written as claims.json and .md with the records behind."""
+"""Every claim of the paper: judged, and written to claims.json and claims.md with the records of its orbits."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def judge_claims(orbits: Orbits, quick: bool = False) -> list[Claim]:
     Parameters
     ----------
     orbits : the orbits of all treatments (`wingbeat.paper.treatments.solve_cases`).
-    quick : whether too few flights were solved to ask the claims about them; those on print have the same verdicts.
+    quick : whether too few flights were solved to test the claims about flight; other verdicts stay the same.
     """
     flights = (*flight_claim_list(), *argument_claims())
     on_print = [*experiment_claims(), *coefficient_claims(), *premise_claims(), pigeon_data_claim()]
@@ -44,13 +44,13 @@ def judge_claims(orbits: Orbits, quick: bool = False) -> list[Claim]:
 def write_claims(
     claims: Sequence[Claim], orbits: Orbits, folder: Path, before: Sequence[dict[str, Any]] | None = None
 ) -> list[Path]:
-    """Write claims.json, claims.md and, under ``orbits``, the records of the orbits that the claims look at.
+    """Write claims.json, claims.md and, under ``orbits``, the records of the orbits that the claims use.
 
     Parameters
     ----------
-    claims, orbits : what was judged, and by which flights.
-    folder : where to.
-    before : claims of an earlier run (`read_verdicts`), with which the page compares.
+    claims, orbits : the judged claims, and the orbits on which they were tested.
+    folder : folder to write to.
+    before : claims of an earlier run (`read_verdicts`); the page lists the verdicts that differ.
 
     Raises
     ------
@@ -81,10 +81,10 @@ def markdown(claims: Sequence[Claim]) -> str:
         "# The paper's claims beside ours",
         "",
         "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
-        "directional claim. Our number is under our default assumptions, the first of those below. A claim "
-        "*holds* if it does under every set of assumptions tried, *holds under* some of them, or *fails* under "
-        "all. A claim that holds is consistent with the paper; this does not prove that the authors assumed the "
-        "same.",
+        "directional claim. The column *ours* gives our number under our default assumptions, the first in the "
+        "list below. A claim *holds* if it holds under every set of assumptions tried, and it *fails* if it "
+        "holds under none. *Holds under* means that it holds under some of them. If a claim holds, our result is "
+        "consistent with the paper; this does not prove that the authors made the same assumptions.",
         "",
         f"Verdicts of the {len(claims)} claims: {tally}.",
         "",

@@ -1,4 +1,4 @@
-"""The paper's claims about its formulas, tested on them as printed, from 0 to 110 degrees."""
+"""The paper's claims about its formulas, tested on the printed formulas from 0 to 110 degrees."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from wingbeat.aero import Dickinson, SuFan, ellington_normal_drag
 from wingbeat.paper.claim import NO_DATA, Claim, tested, untestable
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift, printed_moment
 
-# "Small": at most this part of the maximum. The paper calls the plate's drag up to 13 deg, 15 % of its maximum, a
-# small penalty, and its lift there, 68 %, large.
+# "Small" means at most this share of the maximum. Up to 13 deg the plate's drag reaches 15 % of its maximum, which
+# the paper calls a small penalty. Its lift there reaches 68 %, which the paper calls large.
 SMALL = 0.2
-# Where a formula is evaluated: from just above zero, past the blend, to the end of the measurements.
+# Angles at which a formula is evaluated: from 1 deg, above the blend at zero, to the largest measured angle.
 _ALPHA_DEG = np.arange(1.0, 110.01, 0.05)
 
 
@@ -39,8 +39,8 @@ def _about_lift() -> list[Claim]:
         tested(
             "lift-slope",
             "abstract; results; discussion",
-            "below 8 deg C_L rises by 2 pi per rad, as in thin-aerofoil theory (tested: least-squares line "
-            "through the formula at 0, 2, ... 8 deg within 10 %)",
+            "below 8 deg C_L rises by 2 pi per rad, as in thin-aerofoil theory (tested: the least-squares line "
+            "through the formula at 0, 2, ... 8 deg has this slope within 10 %)",
             2 * np.pi,
             "1/rad",
             slope,
@@ -49,7 +49,7 @@ def _about_lift() -> list[Claim]:
         tested(
             "exponential-term",
             "abstract",
-            "the exponential captures the rise of C_L at small angles (tested: it brings the slope below 8 deg "
+            "the exponential captures the rise of C_L at small angles (tested: with it, the slope below 8 deg is "
             "nearer to 2 pi; ours: the slope without it)",
             2 * np.pi,
             "1/rad",
@@ -68,7 +68,7 @@ def _about_lift() -> list[Claim]:
         tested(
             "lift-decay",
             "results",
-            "past its peak C_L falls monotonically (ours: largest rise between samples)",
+            "past its peak C_L falls monotonically (ours: the largest rise from one sampled angle to the next)",
             0.0,
             "1",
             max(falling.max(), 0.0),
@@ -77,8 +77,8 @@ def _about_lift() -> list[Claim]:
         tested(
             "dickinson-slope",
             "introduction; discussion",
-            "Dickinson's C_L rises at about 3.8 per rad (tested: line through its formula, 0 to 8 deg, within "
-            "10 %)",
+            "Dickinson's C_L rises at about 3.8 per rad (tested: the line through Dickinson's formula from 0 to "
+            "8 deg has this slope within 10 %)",
             3.8,
             "1/rad",
             fly_slope,
@@ -87,7 +87,8 @@ def _about_lift() -> list[Claim]:
         tested(
             "extra-lift",
             "discussion, simulations",
-            "C_L is above Dickinson's from 0 to 13 deg (ours: where the two cross; within 2 deg)",
+            "C_L is above Dickinson's from 0 to 13 deg (tested: the two curves cross within 2 deg of 13 deg; "
+            "ours: the angle where they cross)",
             13.0,
             "deg",
             float(upper),
@@ -124,7 +125,7 @@ def _about_drag() -> list[Claim]:
         tested(
             "drag-monotonic",
             "results",
-            "C_D rises monotonically from 0 to 90 deg (ours: smallest rise between samples)",
+            "C_D rises monotonically from 0 to 90 deg (ours: the smallest rise from one sampled angle to the next)",
             "> 0",
             "1",
             np.diff(drag[to_ninety]).min(),
@@ -133,7 +134,8 @@ def _about_drag() -> list[Claim]:
         tested(
             "drag-below-dickinson",
             "results",
-            "C_D is below Dickinson's at every angle (ours: smallest difference, 0 to 90 deg)",
+            "C_D is below Dickinson's at every angle (ours: the smallest difference between the two from 0 to 90 "
+            "deg)",
             "> 0",
             "1",
             (fly_drag - drag)[to_ninety].min(),
@@ -142,7 +144,7 @@ def _about_drag() -> list[Claim]:
         tested(
             "drag-normal-plate",
             "discussion",
-            "the largest C_D agrees very well with 1.95 + 50/Re (tested: within 5 % at Re 35 000)",
+            "the largest C_D agrees very well with 1.95 + 50/Re (tested: the two agree within 5 % at Re 35 000)",
             normal,
             "1",
             drag.max(),
@@ -160,8 +162,8 @@ def _small_below_13(name: str, symbol: str, values: np.ndarray, model: str = "Di
     return tested(
         name,
         "discussion, simulations",
-        f"{model}'s {symbol} is small between 0 and 13 deg (tested: there at most {100 * SMALL:.0f} % of its own "
-        "maximum up to 90 deg; ours: that share)",
+        f"{model}'s {symbol} is small between 0 and 13 deg (tested: there it is at most {100 * SMALL:.0f} % of its "
+        "own maximum up to 90 deg; ours: the largest share)",
         "small",
         "1",
         share,
@@ -184,8 +186,8 @@ def _about_moment() -> list[Claim]:
         tested(
             "moment-slope",
             "results",
-            "at small angles C_M about mid-chord rises by pi/2 per rad, as in thin-aerofoil theory (tested: line "
-            "through 0 and the formula at 2, 4, 6, 8 deg within 10 %)",
+            "at small angles C_M about mid-chord rises by pi/2 per rad, as in thin-aerofoil theory (tested: the "
+            "least-squares line through 0 at 0 deg and the formula at 2, 4, 6, 8 deg has this slope within 10 %)",
             np.pi / 2,
             "1/rad",
             slope,
@@ -194,7 +196,8 @@ def _about_moment() -> list[Claim]:
         tested(
             "moment-like-lift",
             "results",
-            "C_M follows a trend very like that of C_L (tested: correlation over 1 to 110 deg at least 0.9)",
+            "C_M follows a trend very like that of C_L (tested: the correlation of the two over 1 to 110 deg is "
+            "at least 0.9)",
             "very similar",
             "1",
             likeness,
@@ -248,7 +251,8 @@ def _about_moment() -> list[Claim]:
         tested(
             "centre-plateau",
             "discussion",
-            "the centre of pressure stays around 0.4 until 40 deg (tested: 10 to 40 deg within 0.01)",
+            "the centre of pressure stays around 0.4 until 40 deg (tested: it stays within 0.01 of 0.4 from 10 "
+            "to 40 deg; ours: its mean there)",
             0.4,
             "chord",
             centre[to_forty].mean(),
@@ -268,8 +272,8 @@ def _about_both() -> list[Claim]:
         tested(
             "smaller-lift",
             "discussion",
-            "the largest C_L is about 45 % smaller than Dickinson's (tested: within 5 points; read the other way, "
-            f"Dickinson's is {100 * (lifts[1].max() / lifts[0].max() - 1):.0f} % larger)",
+            "the largest C_L is about 45 % smaller than Dickinson's (tested: within 5 percentage points; "
+            f"conversely, Dickinson's is {100 * (lifts[1].max() / lifts[0].max() - 1):.0f} % larger)",
             45.0,
             "%",
             100 * less_lift,
@@ -278,8 +282,8 @@ def _about_both() -> list[Claim]:
         tested(
             "smaller-drag",
             "discussion",
-            "the largest C_D is about 65 % smaller than Dickinson's (tested: within 5 points; read the other way, "
-            f"Dickinson's is {100 * (drags[1].max() / drags[0].max() - 1):.0f} % larger)",
+            "the largest C_D is about 65 % smaller than Dickinson's (tested: within 5 percentage points; "
+            f"conversely, Dickinson's is {100 * (drags[1].max() / drags[0].max() - 1):.0f} % larger)",
             65.0,
             "%",
             100 * less_drag,
@@ -288,7 +292,8 @@ def _about_both() -> list[Claim]:
         tested(
             "lift-to-drag",
             "abstract; discussion",
-            f"C_L/C_D is higher at small angles (tested: best ratio above Dickinson's {fly_best:.2f})",
+            "C_L/C_D is higher at small angles (tested: the largest ratio is above Dickinson's largest, "
+            f"{fly_best:.2f})",
             "higher",
             "1",
             best,
@@ -298,7 +303,8 @@ def _about_both() -> list[Claim]:
             "rotation-gain",
             "discussion",
             "rotating wings gain a factor of 1.5 to 2.5 over non-rotating ones through a stable leading-edge "
-            "vortex (ours: Dickinson's largest C_L over the plate's, which differ in more than rotation)",
+            "vortex (ours: Dickinson's largest C_L divided by the plate's; the two wings differ in more than "
+            "rotation)",
             "1.5 to 2.5",
             "1",
             lifts[1].max() / lifts[0].max(),

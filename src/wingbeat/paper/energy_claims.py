@@ -8,17 +8,17 @@ from wingbeat.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
 from wingbeat.paper.treatments import ANIMALS, MODELS
 
-# What CFD and a quasi-steady model of like bats find at most [W].
+# The largest power that CFD and a quasi-steady model give for similar bats [W].
 BATS_NEED = 4.0
 
 
 def _peaks(evidence: Evidence) -> list[float]:
-    """Return the bat's peak powers at 10 m/s, Su-Fan's and Dickinson's [W]."""
+    """Return the bat's peak powers at 10 m/s with Su-Fan and with Dickinson [W]."""
     return [float(evidence.record("bat", model)["peak_power"]) for model in MODELS]
 
 
 def _ratio(evidence: Evidence, animal: str, key: str) -> TestResult:
-    """Return an animal's ratio of a number at 10 m/s, Su-Fan over Dickinson; below 1 holds."""
+    """Return a number at 10 m/s with Su-Fan divided by that with Dickinson; the claim holds below 1."""
     fit, fly = (float(evidence.record(animal, model)[key]) for model in MODELS)
     return fit / fly, fit < fly
 
@@ -34,7 +34,8 @@ def peak_power(model: str) -> FlightClaim:
     return FlightClaim(
         f"peak-power-{model}",
         "results, energetics",
-        f"the peak power at 10 m/s with {model}, which we read as the bat's (within 25 %)",
+        f"with {model.title()} the peak power at 10 m/s is {paper:g} W, which we read as the bat's (tested: "
+        "ours is within 25 % of this)",
         paper,
         "W",
         test,
@@ -42,7 +43,7 @@ def peak_power(model: str) -> FlightClaim:
 
 
 def four_times(evidence: Evidence) -> TestResult:
-    """Return the ratio of the bat's peak powers at 10 m/s, Dickinson over Su-Fan."""
+    """Return the bat's peak power at 10 m/s with Dickinson divided by that with Su-Fan."""
     fit, fly = _peaks(evidence)
     return fly / fit, 3 <= fly / fit <= 5
 
@@ -64,7 +65,10 @@ def measured_power_below(evidence: Evidence) -> TestResult:
 
 
 def lower_power(evidence: Evidence) -> TestResult:
-    """Return the largest ratio of mean positive powers at 10 m/s, Su-Fan over Dickinson, both animals."""
+    """Return the mean positive power at 10 m/s with Su-Fan divided by that with Dickinson.
+
+    It is the larger of the two animals' ratios.
+    """
     ratios = [_ratio(evidence, animal, "mean_positive_power")[0] for animal in ANIMALS]
     return max(ratios), max(ratios) < 1
 
@@ -77,12 +81,12 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
         found = float(np.degrees(evidence.record("bat", model)["body_pitch_range"]))
         return found, found <= paper if bound else abs(found / paper - 1) <= 0.25
 
-    words = "within its bound" if bound else "within 25 %"
+    amount, words = ("at most ", "ours is within this bound") if bound else ("", "ours is within 25 % of this")
     return FlightClaim(
         f"pitch-range-{model}",
         "results, body pitch",
-        f"with {model} body pitch varies by this much within a wingbeat, which we read as the bat's at 10 m/s "
-        f"({words})",
+        f"with {model.title()} body pitch varies by {amount}{paper:g} deg within a wingbeat, which we read as "
+        f"the bat's at 10 m/s (tested: {words})",
         paper,
         "deg",
         test,
@@ -104,8 +108,8 @@ def less_pitching(animal: str) -> FlightClaim:
     return FlightClaim(
         f"less-pitching-{animal}",
         "abstract; discussion",
-        f"with Su-Fan's coefficients the {animal}'s body pitches less (tested: range at 10 m/s; ours: its "
-        "ratio to Dickinson's)",
+        f"with Su-Fan's coefficients the {animal}'s body pitches less (tested: the range of body "
+        "pitch at 10 m/s; ours: Su-Fan's range divided by Dickinson's)",
         "< 1",
         "1",
         test,

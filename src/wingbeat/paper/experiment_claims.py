@@ -18,7 +18,7 @@ _USHERWOOD_REYNOLDS = 108_000.0
 
 
 def _reynolds_at(speed: float) -> Finding:
-    """Return whether both animals' chord Reynolds numbers at a flight speed [m/s] are those of the fit."""
+    """Return whether both animals' chord Reynolds numbers at a flight speed [m/s] are in the fitted range."""
     animals = [load_species(animal) for animal in ANIMALS]
     found = [speed * animal.vehicle.wing.mean_chord / animal.air.viscosity for animal in animals]
     low, high = REYNOLDS_FITTED
@@ -35,8 +35,9 @@ def experiment_claims() -> list[Claim]:
         tested(
             "blockage",
             where,
-            "the chord is under 10 % of the channel's width, so blockage is minor (tested: chord over width; "
-            f"broadside the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the section)",
+            "the chord is under 10 % of the channel's width, so blockage is minor (tested: the chord divided by "
+            f"the width; when broadside, the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the "
+            "cross-section)",
             "< 0.10",
             "1",
             CHORD / width,
@@ -46,8 +47,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "repeats",
             where,
-            "three repeats agree, and standard deviations are small: the forces are steady (ours: runs "
-            "that the sweep and its repeats make)",
+            "three repeats agree and their standard deviations are small, so the forces are steady (ours: the "
+            "number of runs in the sweep and its repeats)",
             "reproducible",
             "1",
             4 * 3 * (110 / 2 + 1),
@@ -56,8 +57,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "collapse",
             "results, centre of pressure",
-            "the four Reynolds numbers collapse (ours: how much the formulas vary with Reynolds number, which "
-            "they do not contain)",
+            "the results at the four Reynolds numbers collapse (ours: how much the formulas vary with Reynolds "
+            "number; they do not contain it)",
             "collapse",
             "1",
             0.0,
@@ -66,9 +67,9 @@ def experiment_claims() -> list[Claim]:
         Claim(
             "animals-reynolds",
             "introduction; title",
-            "birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made (tested: pigeon and "
-            f"bat of the paper, at each speed, within {REYNOLDS_FITTED[0]:.0f} to {REYNOLDS_FITTED[1]:.0f}; ours: "
-            "the Reynolds number farther from 40 000)",
+            "birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made (tested: at each "
+            f"speed, the Reynolds numbers of the paper's pigeon and bat are both within {REYNOLDS_FITTED[0]:.0f} "
+            f"to {REYNOLDS_FITTED[1]:.0f}; ours: the one farther from 40 000)",
             40000.0,
             "1",
             tuple(_reynolds_at(speed) for speed in SPEEDS),
@@ -77,7 +78,8 @@ def experiment_claims() -> list[Claim]:
             "r-squared",
             "abstract; results, after the formulas",
             "C_D is described by a sine alone and C_L by a sine and an exponential, both with R-squared above "
-            "0.995 (ours: the smaller of the two when those forms are fitted to a SYNTHETIC campaign like theirs)",
+            "0.995 (ours: we fit those forms to a SYNTHETIC campaign like the paper's and show the smaller "
+            "R-squared)",
             "> 0.995",
             "1",
             min(fitted.lift.r_squared, fitted.drag.r_squared),
@@ -86,9 +88,8 @@ def experiment_claims() -> list[Claim]:
         tested(
             "usherwood-reynolds",
             "introduction",
-            "Usherwood 2009 measured a dried pigeon wing up to a Reynolds number of 10 800 (tested: that "
-            "paper's own "
-            "abstract, PMC3380271)",
+            "Usherwood 2009 measured a dried pigeon wing up to a Reynolds number of 10 800 (tested: the number "
+            "in the abstract of Usherwood 2009, PMC3380271)",
             10800.0,
             "1",
             _USHERWOOD_REYNOLDS,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# The angles of the paper's measurements, finer drawn than measured.
+# The range of the paper's measurements, in finer steps than measured.
 ALPHA_DEG = np.linspace(0.0, 110.0, 441)
 _THIN = {"lift": thin_aerofoil_lift, "moment": thin_aerofoil_moment}
 _PANELS = (
@@ -24,11 +24,11 @@ _PANELS = (
     ("centre", "centre of pressure $x_{cp}/c$ [-]", (0.0, 0.8)),
 )
 _NOTE = (
-    "Coloured: the published formulas within the angles they were fitted to, 0 to 110 degrees (Su-Fan) and up to "
-    "90 degrees (Dickinson, who give no centre of pressure). Black, thin: what our simulations use where it "
-    "differs, a plate mirrored beyond 90 degrees and blended within 1 degree of 0 and 90. Grey, dotted: thin "
-    "aerofoil, 2πα and πα/2. C: about mid-chord; D: from the leading edge. The paper's measurements are not "
-    "public: no points are drawn."
+    "Coloured lines are the published formulas at the angles to which they were fitted: 0 to 110 degrees for "
+    "Su-Fan, and up to 90 degrees for Dickinson, who give no centre of pressure. Thin black lines are what our "
+    "simulations use where it differs: the formulas mirrored beyond 90 degrees and blended within 1 degree of 0 "
+    "and 90. Dotted grey lines are thin-aerofoil theory, 2πα and πα/2. In C the moment is about mid-chord; in D "
+    "the distance is from the leading edge. The paper's measurements are not public, so no points are drawn."
 )
 
 

@@ -66,7 +66,7 @@ def strip_series(orbit: Orbit, station: float) -> dict[str, np.ndarray]:
     Returns
     -------
     ``alpha_deg`` and horizontal and vertical force on that strip of both wings over the animal's weight, shape
-    (K,) each; between strip centres linear.
+    (K,) each; values are interpolated linearly between strip centres.
     """
     data, model = orbit.dataset, orbit.problem.model
     weight = model.vehicle.mass * model.air.gravity
@@ -91,10 +91,10 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
     shown = sample_orbits(orbits, sample, "bat")
     strips = {orbit.dataset.sizes["station"] for orbit in shown.values()} or {"N"}
     note = (
-        f"{_about(shown, sample)} Downstroke shaded. Forces are of one of {', '.join(map(str, strips))} equal "
-        "strips, both wings together, divided by the animal's weight; forward and up are positive. Values are "
-        f"interpolated linearly between strip centres. Hatched: {PAPER_SMALL_ALPHA_DEG[0]:g} to "
-        f"{PAPER_SMALL_ALPHA_DEG[1]:g} deg, which the paper calls small."
+        f"{_about(shown, sample)} The downstroke is shaded. Forces are those on one of "
+        f"{', '.join(map(str, strips))} equal strips, both wings together, divided by the animal's weight; "
+        "forward and up are positive. Values are interpolated linearly between strip centres. Hatched: "
+        f"{PAPER_SMALL_ALPHA_DEG[0]:g} to {PAPER_SMALL_ALPHA_DEG[1]:g} deg, which the paper calls small."
     )
     series = {(m, name): strip_series(o, s) for m, o in shown.items() for name, s in STATIONS.items()}
     note = f"{note} {told(6, _printed_of_forces(series))}"
@@ -138,8 +138,8 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     series = {model: {"hinge_power_W": orbit.dataset["hinge_power"].values} for model, orbit in shown.items()}
     peaks = [f"{LOOKS[m].name} {s['hinge_power_W'].max():.3g} W" for m, s in series.items()]
     note = (
-        f"{_about(shown, sample)} Power at the hinges, both wings. Downstroke shaded. "
-        f"Peaks: {', '.join(peaks) or 'none'}; dotted: the peaks that the paper prints for the same two "
+        f"{_about(shown, sample)} The power is that at the hinges of both wings. The downstroke is shaded. "
+        f"Peaks: {', '.join(peaks) or 'none'}; dotted lines: the peaks that the paper prints for the same two "
         "models. "
     ) + told(7, _printed_of_power(series))
     with drawing():

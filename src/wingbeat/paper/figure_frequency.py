@@ -32,15 +32,14 @@ if TYPE_CHECKING:
 FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
-    "Ours: certified orbits of minimum frequency; filled, thick line: coefficients mirrored at negative angles of "
-    "attack; open, thin line: formulas as printed at negative angles. Neighbouring points may be of different "
-    "families of orbits; the flap amplitude is at its bound in {leaning} of {all}. Crosses at the foot: no "
-    "certified orbit at that speed. Stars: what the paper prints for the bat (it prints no number for the pigeon). "
-    "Green: measured on animals, or a law "
-    "of such measurements for a vehicle of "
-    "this mass and span; A: as in the source, D: computed by us from it; full sources stand in the table beside "
-    "this figure. The frequencies of Tobalske and Dial (1996) that the paper draws could not be had; they were "
-    "flat in speed."
+    "Our points are certified orbits of minimum frequency. Filled points, thick lines: coefficients mirrored at "
+    "negative angles of attack. Open points, thin lines: formulas as printed at negative angles. Neighbouring "
+    "points may belong to different families of orbits. The flap amplitude is at its bound in {leaning} of {all} "
+    "orbits. Crosses at the foot mark speeds without a certified orbit. Stars show what the paper prints for the "
+    "bat (it prints no number for the pigeon). Green shows frequencies measured on animals, or a law of such "
+    "measurements for a vehicle of this mass and span. A: as in the source; D: we computed it from the source. "
+    "The table beside this figure gives the full sources. We could not obtain the frequencies of Tobalske and "
+    "Dial (1996) that the paper draws; they did not vary with speed."
 )
 
 
@@ -82,7 +81,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
 
 
 def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:
-    """Return how many of the orbits drawn flap as widely as they may, and how many there are."""
+    """Return how many of the orbits drawn have the largest flap amplitude allowed, and how many there are."""
     limits = [orbit.inputs["bounds"]["flap_amplitude"][1] for orbit in drawn]
     reached = [
         math.isclose(o.wingbeat.flap_amplitude, top, abs_tol=1e-4) for o, top in zip(drawn, limits, strict=True)
@@ -110,7 +109,7 @@ def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
 
 
 def _mark_printed(axes: Axes) -> None:
-    """Mark what the paper prints of the bat: Su-Fan's frequency, and Dickinson's at the highest speed it names."""
+    """Mark what the paper prints for the bat: Su-Fan's frequency, and Dickinson's at the highest speed named."""
     slow, fast = PAPER_BAT_SPEEDS
     marks = {
         "su-fan": ([slow, fast], [PAPER_BAT_FREQUENCY] * 2),
@@ -141,7 +140,7 @@ def _printed(orbits: Orbits) -> list[Printed]:
 
 
 def _reach(measured: Measured) -> np.ndarray:
-    """Return the speeds at which to draw a measurement [m/s]: its own, within those of the figure."""
+    """Return the speeds at which to draw a measurement [m/s]: those of its range within the figure."""
     low, high = measured.speeds
     if low == high:
         return np.array([low])

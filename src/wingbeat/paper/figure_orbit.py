@@ -60,7 +60,7 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     note = (
         f"Our {_ANIMAL} at {SAMPLE_SPEED:g} m/s{beat}, {LOOKS[_MODEL].name} coefficients; {assumptions(sample)}. "
         "Asterisk: beginning of the downstroke; black dot: beginning of the upstroke; solid: downstroke, dashed: "
-        "upstroke; arrow: direction of time. The paper does not say which animal its sample orbit is of."
+        "upstroke; arrow: direction of time. The paper does not say which animal its sample orbit belongs to."
     )
     with drawing():
         figure = sheet(PAGE, 55.0, note, absence(orbits, sample, _ANIMAL, (_MODEL,)))

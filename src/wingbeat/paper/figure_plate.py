@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# The angle at which the forces are drawn [deg], and the length of a coefficient of 1 over the chord.
+# The angle at which the forces are drawn [deg], and the length of an arrow for a coefficient of 1, in chords.
 ANGLE_DEG, _LENGTH = 30.0, 0.55
-# A name further than this from its arrow is joined to it by a line [points].
+# If a name is further than this from its arrow, a line joins them [points].
 _FAR = 15
 _NOTE = (
-    "A: the plate as the paper describes it, {span:g} by {chord:g} m, {thickness:g} mm thick, seen along the flow "
-    "in the water channel of {width:g} by {height:g} m, broadside, to scale; its height in the channel is a guess. "
-    "B: its section at {angle:g} degrees. Lift L is normal to the stream U and drag D along it, F_N normal to the "
-    "chord and F_T along it, all to one scale by the published Su-Fan formulas: L = F_N cos α - F_T sin α, "
-    "D = F_N sin α + F_T cos α. They act at the centre of pressure x_cp, {centre:.3f} chords from the leading "
-    "edge. M is their moment about mid-chord, where the load cell sits: C_M = C_N (0.5 - x_cp) = {moment:.3f}, "
-    "nose up."
+    "A: the plate as the paper describes it, {span:g} by {chord:g} m and {thickness:g} mm thick. It is broadside "
+    "in the water channel of {width:g} by {height:g} m, drawn to scale and seen along the flow; its height in "
+    "the channel is a guess. B: the section of the plate at {angle:g} degrees. Lift L is normal to the stream U, "
+    "and drag D is along it. F_N is normal to the chord, and F_T is along it. All forces are drawn to one scale, "
+    "from the published Su-Fan formulas: L = F_N cos α - F_T sin α, D = F_N sin α + F_T cos α. They act at the "
+    "centre of pressure x_cp, {centre:.3f} chords from the leading edge. M is their moment about mid-chord, "
+    "where the load cell sits: C_M = C_N (0.5 - x_cp) = {moment:.3f}, nose up."
 )
 
 

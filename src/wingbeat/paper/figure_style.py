@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 FONT_SMALL = 6.5
 _LINE = 3.2
-# Mean width of a letter of the notes over its height.
+# Mean width of a letter of the notes, divided by its height.
 _LETTER = 0.545
 MEASURED = GREEN
 
@@ -25,7 +25,7 @@ Table = Sequence[Row]
 
 @dataclass(frozen=True)
 class Look:
-    """A coefficient model's name for readers, and its colour, dash and marker: any one of them tells it."""
+    """A coefficient model's name for readers, and its colour, dash and marker; each of them alone identifies it."""
 
     name: str
     color: str

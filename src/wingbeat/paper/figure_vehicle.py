@@ -25,8 +25,8 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
 
     Parameters
     ----------
-    orbits : solved orbits by case; the animals are drawn at mid-downstroke of theirs at 10 m/s with Su-Fan, or of
-        the species' stock wingbeat where there is none.
+    orbits : solved orbits by case; each animal is drawn at mid-downstroke of its certified orbit at 10 m/s with
+        Su-Fan, or of the species' stock wingbeat if there is no such orbit.
     sample : name of the treatment.
 
     Returns
@@ -56,13 +56,18 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
 
 def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) -> str:
     beats = ", ".join(f"{animal} {flight.wingbeat.frequency:.3g} Hz" for animal, flight in flights.items())
-    guess = f" No certified orbit of the {' and the '.join(stock)}: the species' stock wingbeat." if stock else ""
+    guess = (
+        f" There is no certified orbit of the {' and the '.join(stock)}: the stock wingbeat is drawn."
+        if stock
+        else ""
+    )
     return (
-        f"Drawn from the model's own points at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s ({beats})."
-        f"{guess} Each wing: {strips} strips; dashed: quarter chord, which is the pitch axis; dot: shoulder. C: "
-        f"strip {strip + 1} of the pigeon across its span, forces to one scale, θ from the normal of the stroke "
-        "plane. D and F: the quarter chord also at both ends of the stroke (dotted) and at mid-upstroke (grey). "
-        "The body has no shape in the model: grey is the ellipsoid of water with its mass and pitch inertia."
+        f"Drawn from the model's own points at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s "
+        f"({beats}).{guess} Each wing has {strips} strips. Dashed line: quarter chord, which is the pitch axis; "
+        f"dot: shoulder. C: cross-section of strip {strip + 1} of the pigeon, with its forces to one scale and θ "
+        "measured from the normal of the stroke plane. D and F also show the quarter chord at both ends of the "
+        "stroke (dotted) and at mid-upstroke (grey). The model gives the body no shape: the grey ellipsoid is "
+        "one of water with the mass and pitch inertia of the body."
     )
 
 

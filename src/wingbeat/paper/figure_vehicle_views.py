@@ -21,7 +21,7 @@ _BODY, _WING, _EDGE = "0.80", TINT, "0.35"
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _GROUND = {"facecolor": "w", "linewidth": 0, "pad": 0.6, "alpha": 0.8}
 _WORDS: dict[str, Any] = {"fontsize": FONT_SMALL, "ha": "center", "va": "center"}
-# Half of the side of every view to scale [m]: room for either animal's wing.
+# Half of the width and of the height of every view to scale [m]; either animal's wing has room.
 _REACH = 0.31
 _HALF_HEIGHT = 0.28
 

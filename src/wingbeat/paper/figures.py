@@ -45,9 +45,9 @@ def draw_figures(orbits: Orbits, numbers: Iterable[int], folder: str | Path, sam
 
     Parameters
     ----------
-    orbits : solved orbits by case; what is missing or not certified is said in the figure.
+    orbits : solved orbits by case; the figure says which are missing or not certified.
     numbers : which figures, from 1 to 8.
-    folder : where to; made if it is missing.
+    folder : folder to write to; created if missing.
     sample : name of the treatment whose orbits at 10 m/s figures 2, 4 and 6 to 8 show.
 
     Returns
@@ -56,7 +56,7 @@ def draw_figures(orbits: Orbits, numbers: Iterable[int], folder: str | Path, sam
 
     Raises
     ------
-    InvalidInputError : a figure or a treatment that there is not.
+    InvalidInputError : the figure or treatment does not exist.
     FileError : a file cannot be written.
     """
     numbers = list(numbers)

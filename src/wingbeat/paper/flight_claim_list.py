@@ -1,4 +1,4 @@
-"""The list of the paper's claims about flight that every treatment, and every set of the sample, is asked about."""
+"""The paper's claims about flight that are tested under every treatment, and most of them under every set."""
 
 from __future__ import annotations
 
@@ -9,20 +9,16 @@ from wingbeat.paper.pigeon_claims import closer_at_speed, pigeon_claims
 from wingbeat.paper.treatments import ANIMALS
 
 _RESULTS, _DISCUSSION = "results, simulations", "discussion, simulations"
-_PARTS = (
-    "above 5 m/s the two models' frequencies for the bat diverge (tested: trend of Dickinson's frequency over "
-    "Su-Fan's "
-)
 
 
 def flight_claim_list() -> list[FlightClaim]:
-    """Return the claims about flight that every treatment is asked about."""
+    """Return the claims about flight that are tested under every treatment."""
     return [
         FlightClaim(
             "closed-loops",
             "results, sample orbit",
-            "height, pitch and velocities return after a wingbeat: their loops are closed (tested: largest "
-            "residual in SI units, at most 1e-6, when flown by an independent integrator)",
+            "height, pitch and velocities return after a wingbeat: their loops are closed (tested: when an "
+            "independent integrator flies the orbit, the largest residual in SI units is at most 1e-6)",
             "closed",
             "SI",
             flight.closed_loops,
@@ -30,7 +26,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "open-loop",
             "results, sample orbit",
-            "u against x stays open by the distance flown (tested: distance gained is speed times period)",
+            "the loop of u against x stays open by the distance flown (tested: the distance gained in a wingbeat "
+            "is speed times period)",
             "open",
             "m",
             flight.open_loop,
@@ -38,7 +35,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "printed-sign",
             "methods, periodic orbit",
-            "the condition as printed, q(t) = q(t+T) + U T, gives forward flight (ours: the speed it gives)",
+            "the periodicity condition as printed, q(t) = q(t+T) + U T, gives forward flight (ours: the speed it "
+            "gives)",
             10.0,
             "m/s",
             flight.printed_sign,
@@ -46,8 +44,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "stable",
             "methods, simulation",
-            "the solutions found are stable periodic ones (tested: largest modulus of a Floquet multiplier of "
-            "body pitch, velocities and pitch rate over all Su-Fan orbits, below 1)",
+            "the solutions found are stable periodic ones (tested: every Floquet multiplier of body pitch, "
+            "velocities and pitch rate has a modulus below 1; ours: the largest modulus over all Su-Fan orbits)",
             "stable",
             "1",
             flight.stable,
@@ -55,8 +53,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "least-frequency",
             "methods, simulation",
-            "the optimisation finds the one wingbeat of lowest frequency (tested: all starts end at one optimum, "
-            "otherwise the result depends on the start; ours: largest number of distinct optima of one orbit)",
+            "the optimisation finds the one wingbeat of lowest frequency (tested: all starts end at one optimum; "
+            "otherwise the result depends on the start; ours: the largest number of distinct optima found for "
+            "one orbit)",
             "the one",
             "1",
             flight.least_frequency,
@@ -66,17 +65,26 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "bat-slow-alike",
             _RESULTS,
-            "up to 5 m/s both models give the bat a similar frequency (tested: ratio within 15 %)",
+            "up to 5 m/s both models give the bat a similar frequency (tested: Dickinson's frequency divided by "
+            "Su-Fan's is within 15 % of 1; ours: the ratio farthest from 1)",
             "similar",
             "1",
             flight.bat_slow_alike,
         ),
-        FlightClaim("bat-parts", _RESULTS, f"{_PARTS}up to 12 m/s)", "> 0", "s/m", flight.bat_parts),
+        FlightClaim(
+            "bat-parts",
+            _RESULTS,
+            "above 5 m/s the two models' frequencies for the bat diverge (tested: Dickinson's frequency divided by "
+            "Su-Fan's rises with speed up to 12 m/s; ours: the slope of this ratio against speed)",
+            "> 0",
+            "s/m",
+            flight.bat_parts,
+        ),
         FlightClaim(
             "bat-agrees",
             _RESULTS,
             f"from 5 to 10 m/s the bat's frequency agrees very well with the measured {flight.BAT_MEASURED:g} Hz "
-            "(tested: mean deviation at most 15 %)",
+            "(tested: the mean deviation is at most 15 %)",
             "very well",
             "1",
             flight.bat_agrees,
@@ -85,7 +93,8 @@ def flight_claim_list() -> list[FlightClaim]:
             "bat-invariant",
             "results; discussion",
             "live animals' frequency does not change with speed, and the predicted one agrees from 5 to 10 m/s "
-            "(tested, in our reading: spread of the predicted frequency there over its mean at most 15 %)",
+            "(tested, in our reading: at these speeds the range of the predicted frequency is at most 15 % of "
+            "its mean)",
             "agrees",
             "1",
             flight.bat_invariant,
@@ -93,7 +102,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "twice-the-frequency",
             _DISCUSSION,
-            "near 10 m/s Dickinson's frequency is almost twice Su-Fan's (tested: bat, 1.7 to 2.3)",
+            "near 10 m/s Dickinson's frequency is almost twice Su-Fan's (tested: for the bat, the ratio is "
+            "between 1.7 and 2.3)",
             2.0,
             "1",
             flight.twice_the_frequency,
@@ -105,8 +115,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "hand-alpha",
             _DISCUSSION,
-            "with both models the hand has the larger angle of attack (tested: mean absolute value at 3/4 minus "
-            "that at 1/4 span, bat at 10 m/s; ours: the smaller of the two)",
+            "with both models the hand has the larger angle of attack (tested: for the bat at 10 m/s, the mean "
+            "absolute angle is larger at 3/4 span than at 1/4 span; ours: the difference, the smaller of the two "
+            "models' values)",
             "> 0",
             "deg",
             flight.hand_alpha_larger,
@@ -123,7 +134,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "hand-thrusts",
             _DISCUSSION,
-            "with both models the hand produces the thrust (tested: its mean forward force over weight)",
+            "with both models the hand produces the thrust (tested: its mean force points forward; ours: the "
+            "mean forward force divided by weight, the smaller of the two models' values)",
             "> 0",
             "1",
             flight.hand_thrusts,
@@ -131,8 +143,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "arm-drags",
             _DISCUSSION,
-            "with both models the arm has more drag than the hand (tested: mean forward force over weight at 1/4 "
-            "minus that at 3/4 span)",
+            "with both models the arm has more drag than the hand (tested: the mean forward force at 1/4 span is "
+            "below that at 3/4 span; ours: the difference divided by weight, the larger of the two models' "
+            "values)",
             "< 0",
             "1",
             flight.arm_drags,
@@ -140,8 +153,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "arm-pitches-least",
             _DISCUSSION,
-            "with Su-Fan the arm needs little pitching (tested: the root's pitch amplitude minus Dickinson's, bat "
-            "at 10 m/s)",
+            "with Su-Fan the arm needs little pitching (tested: for the bat at 10 m/s, the pitch amplitude of "
+            "the wing's root is smaller than with Dickinson; ours: Su-Fan's amplitude minus Dickinson's)",
             "< 0",
             "deg",
             flight.arm_pitches_least,
@@ -149,8 +162,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "force-balance",
             _DISCUSSION,
-            "over a wingbeat lift equals weight and thrust equals drag (tested: largest deviation over weight, "
-            "from 256 samples, below 0.01)",
+            "over a wingbeat lift equals weight and thrust equals drag (tested: the mean forces, from 256 "
+            "samples, deviate from this by less than 0.01 of the weight)",
             0.0,
             "1",
             flight.force_balance,
@@ -160,8 +173,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "four-times",
             _DISCUSSION,
-            "Dickinson's peak power at 10 m/s is four times Su-Fan's (tested: bat, 3 to 5; the paper's own "
-            "peaks give 5)",
+            "Dickinson's peak power at 10 m/s is four times Su-Fan's (tested: for the bat, the ratio is between "
+            "3 and 5; the paper's own peaks give 5)",
             4.0,
             "1",
             energy.four_times,
@@ -169,8 +182,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "power-exponent",
             _DISCUSSION,
-            "power goes roughly as frequency squared (tested: exponent from the two models' peaks at 10 m/s, 1.5 "
-            "to 2.5; 0 if the frequencies are within 5 %)",
+            "power goes roughly as frequency squared (tested: the two models' peak powers and frequencies at 10 "
+            "m/s give an exponent between 1.5 and 2.5; ours: this exponent, or 0 if the frequencies are within 5 "
+            "%)",
             2.0,
             "1",
             energy.power_exponent,
@@ -178,8 +192,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "measured-power-below",
             _DISCUSSION,
-            "the power found for similar bats, less than 4 W, is below that of both models (tested: lower peak "
-            "power)",
+            "the power found for similar bats, less than 4 W, is below the bat's power with either model "
+            "(tested: the peak powers of both models at 10 m/s are above 4 W; ours: the lower of the two)",
             "> 4",
             "W",
             energy.measured_power_below,
@@ -187,8 +201,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "lower-power",
             "abstract",
-            "Su-Fan's coefficients lead to lower power (tested: mean positive power at 10 m/s, both animals; "
-            "ours: the larger ratio to Dickinson's)",
+            "Su-Fan's coefficients lead to lower power (tested: for both animals, the mean positive power at 10 "
+            "m/s is lower than with Dickinson; ours: Su-Fan's power divided by Dickinson's, the larger of the "
+            "two animals' ratios)",
             "< 1",
             "1",
             energy.lower_power,
@@ -198,8 +213,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "few-degrees",
             _DISCUSSION,
-            "the bat's body pitches by only a few degrees, as in live bats (tested: Su-Fan's range at 10 m/s at "
-            "most 5 deg)",
+            "the bat's body pitches by only a few degrees, as in live bats (tested: with Su-Fan, the range of "
+            "body pitch at 10 m/s is at most 5 deg)",
             "few",
             "deg",
             energy.few_degrees,
@@ -209,7 +224,7 @@ def flight_claim_list() -> list[FlightClaim]:
             "differentiable",
             "discussion, last paragraph",
             "the formulas suit gradient-based optimisation (tested: the sample orbits, found by gradients, are "
-            "optima: largest residual of the optimality conditions at most 1e-5)",
+            "optima: the largest residual of their optimality conditions is at most 1e-5)",
             "suitable",
             "1",
             flight.differentiable,

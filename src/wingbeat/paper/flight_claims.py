@@ -17,20 +17,23 @@ BAT_MEASURED = PAPER_BAT_FREQUENCY
 
 
 def station_series(evidence: Evidence, model: str, name: str, station: float) -> np.ndarray:
-    """Return a strip quantity of the bat at 10 m/s over the beat at a span fraction (axes x, y, z last, if any)."""
+    """Return a quantity of the bat's strips at 10 m/s over the wingbeat, at a span fraction.
+
+    Axes x, y, z come last, if there are any.
+    """
     values = evidence.orbit("bat", model).dataset[name].values
     return at_station(np.moveaxis(values, 1, -1), station)
 
 
 def station_force(evidence: Evidence, model: str, axis: int, station: float) -> np.ndarray:
-    """Return the force of both wings' strips at a span fraction over weight, axis 0 forward, 2 up."""
+    """Return the force on both wings' strips at a span fraction, divided by weight; axis 0: forward, 2: up."""
     orbit = evidence.orbit("bat", model)
     vehicle, air = orbit.problem.vehicle, orbit.problem.air
     return 2.0 * station_series(evidence, model, "strip_force", station)[:, axis] / (vehicle.mass * air.gravity)
 
 
 def closed_loops(evidence: Evidence) -> TestResult:
-    """Return the largest miss of any state but x over all sample orbits."""
+    """Return the largest closure residual of any state except x over all sample orbits."""
     misses = [
         abs(miss)
         for animal in ("pigeon", "bat")
@@ -42,7 +45,7 @@ def closed_loops(evidence: Evidence) -> TestResult:
 
 
 def open_loop(evidence: Evidence) -> TestResult:
-    """Return the distance gained in a beat [m]."""
+    """Return the distance gained in a wingbeat [m]."""
     states = evidence.orbit("pigeon", "su-fan").dataset["x"].values
     gained = float(states[-1] - states[0])
     expected = SAMPLE_SPEED / evidence.orbit("pigeon", "su-fan").wingbeat.frequency
@@ -57,7 +60,7 @@ def printed_sign(evidence: Evidence) -> TestResult:
 
 
 def stable(evidence: Evidence) -> TestResult:
-    """Return the largest size of a Floquet multiplier over the Su-Fan orbits of both animals."""
+    """Return the largest modulus of a Floquet multiplier over the Su-Fan orbits of both animals."""
     sizes = []
     for animal in ("pigeon", "bat"):
         for speed in evidence.speeds(animal, "su-fan"):
@@ -67,7 +70,7 @@ def stable(evidence: Evidence) -> TestResult:
 
 
 def least_frequency(evidence: Evidence) -> TestResult:
-    """Return the most distinct optima that the searches of one orbit met."""
+    """Return the largest number of distinct optima that the starts of one orbit found."""
     counts = [
         evidence.record(animal, "su-fan", speed)["distinct_optima"]
         for animal in ("pigeon", "bat")
@@ -77,7 +80,10 @@ def least_frequency(evidence: Evidence) -> TestResult:
 
 
 def bat_slow_alike(evidence: Evidence) -> TestResult:
-    """Return the ratio of the bat's frequencies, Dickinson over Su-Fan, at 5 m/s and below, furthest from one."""
+    """Return the bat's frequency with Dickinson divided by that with Su-Fan, at 5 m/s and below.
+
+    Of the ratios at these speeds it is the one farthest from 1.
+    """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)
     worst = ratios[np.abs(np.log(ratios)).argmax()]
@@ -85,7 +91,10 @@ def bat_slow_alike(evidence: Evidence) -> TestResult:
 
 
 def bat_parts(evidence: Evidence) -> TestResult:
-    """Return the mean change per m/s of the ratio of frequencies from 5 m/s on."""
+    """Return the slope against speed of the bat's frequency with Dickinson divided by that with Su-Fan.
+
+    The speeds are 5 to 12 m/s.
+    """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", above=5.0, below=12.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)
     growth = float(np.polyfit(speeds, ratios, 1)[0]) if len(speeds) > 1 else 0.0
@@ -93,21 +102,21 @@ def bat_parts(evidence: Evidence) -> TestResult:
 
 
 def bat_agrees(evidence: Evidence) -> TestResult:
-    """Return the bat's mean relative deviation from 6 Hz from 5 to 10 m/s, Su-Fan."""
+    """Return the mean relative deviation of the bat's frequency with Su-Fan from 6 Hz, at 5 to 10 m/s."""
     speeds = evidence.speeds("bat", "su-fan", above=5.0, below=10.0)
     ours = deviation(evidence, "bat", "su-fan", speeds, BAT_MEASURED)
     return ours, ours <= 0.15
 
 
 def bat_invariant(evidence: Evidence) -> TestResult:
-    """Return the spread of the bat's predicted frequency over its mean from 5 to 10 m/s, Su-Fan."""
+    """Return the range of the bat's frequency with Su-Fan divided by its mean, at 5 to 10 m/s."""
     frequencies = evidence.frequencies("bat", "su-fan", evidence.speeds("bat", "su-fan", above=5.0, below=10.0))
     spread = float(np.ptp(frequencies) / frequencies.mean())
     return spread, spread <= 0.15
 
 
 def twice_the_frequency(evidence: Evidence) -> TestResult:
-    """Return the ratio of the bat's frequencies at 10 m/s, Dickinson over Su-Fan."""
+    """Return the bat's frequency at 10 m/s with Dickinson divided by that with Su-Fan."""
     fit, fly = (evidence.orbit("bat", model).wingbeat.frequency for model in ("su-fan", "dickinson"))
     return fly / fit, 1.7 <= fly / fit <= 2.3
 
@@ -126,8 +135,8 @@ def smaller_alpha(station: float) -> FlightClaim:
     return FlightClaim(
         f"smaller-alpha-{words.replace('/', '-of-')}",
         "results, forces; discussion",
-        f"at {words} span the bat's effective angles of attack are smaller with Su-Fan (tested: mean absolute "
-        "value over the wingbeat at 10 m/s; ours: Su-Fan's minus Dickinson's)",
+        f"at {words} span the bat's effective angles of attack are smaller with Su-Fan (tested: the mean "
+        "absolute angle over the wingbeat at 10 m/s; ours: Su-Fan's mean minus Dickinson's)",
         "< 0",
         "deg",
         test,
@@ -157,7 +166,10 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
 
 
 def hand_alpha_larger(evidence: Evidence) -> TestResult:
-    """Return the least excess of the hand's mean size of alpha over the arm's, both models [deg]."""
+    """Return the mean absolute alpha at 3/4 span (hand) minus that at 1/4 span (arm) [deg].
+
+    It is the smaller of the two models' values.
+    """
     sizes = [
         [np.degrees(np.abs(station_series(evidence, model, "alpha", s)).mean()) for s in (ARM, HAND)]
         for model in ("su-fan", "dickinson")
@@ -174,31 +186,40 @@ def _means(evidence: Evidence, axis: int) -> list[list[float]]:
 
 
 def arm_lifts(evidence: Evidence) -> TestResult:
-    """Return the least of the arm's mean upward force less the hand's, over weight, both models."""
+    """Return the mean upward force at 1/4 span (arm) minus that at 3/4 span (hand), divided by weight.
+
+    It is the smaller of the two models' values.
+    """
     means = _means(evidence, 2)
     return min(arm - hand for arm, hand in means), all(arm > hand and arm > 0 for arm, hand in means)
 
 
 def hand_thrusts(evidence: Evidence) -> TestResult:
-    """Return the least mean forward force of the hand, over weight, both models."""
+    """Return the hand's mean forward force divided by weight; the smaller of the two models' values."""
     hands = [hand for _, hand in _means(evidence, 0)]
     return min(hands), min(hands) > 0
 
 
 def arm_drags(evidence: Evidence) -> TestResult:
-    """Return the largest of the arm's mean forward force less the hand's, over weight, both models."""
+    """Return the mean forward force at 1/4 span (arm) minus that at 3/4 span (hand), divided by weight.
+
+    It is the larger of the two models' values.
+    """
     gaps = [arm - hand for arm, hand in _means(evidence, 0)]
     return max(gaps), max(gaps) < 0
 
 
 def arm_pitches_least(evidence: Evidence) -> TestResult:
-    """Return the root's pitch amplitude with Su-Fan less that with Dickinson, bat at 10 m/s [deg]."""
+    """Return the root's pitch amplitude with Su-Fan minus that with Dickinson, bat at 10 m/s [deg]."""
     fit, fly = (evidence.orbit("bat", model).wingbeat.pitch_amplitude for model in ("su-fan", "dickinson"))
     return float(np.degrees(fit - fly)), fit < fly
 
 
 def force_balance(evidence: Evidence) -> TestResult:
-    """Return the largest departure of the mean air load from (0, weight), over weight, all sample orbits."""
+    """Return how far the mean air force deviates from thrust 0 and lift equal to weight.
+
+    It is the largest deviation of all sample orbits, divided by weight.
+    """
     worst = 0.0
     for animal in ("pigeon", "bat"):
         for model in ("su-fan", "dickinson"):
@@ -206,7 +227,7 @@ def force_balance(evidence: Evidence) -> TestResult:
             weight = orbit.problem.vehicle.mass * orbit.problem.air.gravity
             lift, thrust = (beat_mean(orbit.dataset[name].values) / weight for name in ("force_z", "force_x"))
             worst = max(worst, abs(lift - 1), abs(thrust))
-    # The trapezoid over 256 samples, not the flight, sets how nearly the means are found.
+    # The trapezoidal rule over 256 samples, not the flight, limits the accuracy of the means.
     return worst, worst < 1e-2
 
 

@@ -1,4 +1,4 @@
-"""Which assumptions a claim hangs on: permutation importance in a quadratic response surface, with its quality."""
+"""Which assumptions a claim depends on: permutation importance in a quadratic response surface."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy as np
 from wingbeat.paper.assumptions import ASSUMPTIONS, Values
 
 _FOLDS = 10
-# Fewer outcomes than this for each term cannot carry a surface.
+# A surface needs at least this many outcomes for each of its terms.
 _PER_TERM = 2
 
 
 @dataclass(frozen=True)
 class Importance:
-    """How much of a claim's number each assumption explains, and how well the surface tells unseen numbers.
+    """How much of a claim's number each assumption explains, and how well the surface predicts unseen numbers.
 
-    ``shares`` : by assumption, the part of the variance that the surface loses when the assumption is shuffled.
+    ``shares`` : for each assumption, the share of the variance that the surface loses if it is shuffled.
     ``quality`` : R-squared in ten-fold cross-validation; importance means little where it is low.
     """
 
@@ -27,20 +27,20 @@ class Importance:
 
 
 def fewest_outcomes() -> int:
-    """Return how many outcomes a surface of all assumptions needs."""
+    """Return how many outcomes the surface of all assumptions needs."""
     one = [np.zeros((1, max(len(a.choices) - 1, 1))) for a in ASSUMPTIONS]
     return _PER_TERM * _surface(one).shape[1]
 
 
 def importance(sets: Sequence[Values], numbers: np.ndarray) -> Importance | None:
-    """Return what a number hangs on; None where too few sets gave one, or all gave the same.
+    """Return what a claim's number depends on; None if too few sets give a number or all give the same one.
 
-    Numbers are replaced by their ranks, so that a few wild ones do not rule the surface.
+    Numbers are replaced by their ranks, so that a few outliers do not dominate the surface.
 
     Parameters
     ----------
     sets : the assumptions, one for each number.
-    numbers : a claim's number under each set, not-a-number where untold, shape (sets,).
+    numbers : a claim's number under each set, NaN where it cannot be tested, shape (sets,).
     """
     from scipy.stats import rankdata
 
@@ -68,7 +68,7 @@ def importance(sets: Sequence[Values], numbers: np.ndarray) -> Importance | None
 
 
 def _coordinates(values: list[float | str], choices: tuple[str, ...]) -> np.ndarray:
-    """Return an assumption's columns: a number from -1 to 1, or a switch for each choice but the first."""
+    """Return an assumption's columns: numbers from -1 to 1, or 0 and 1 for each choice but the first."""
     if choices:
         return np.array([[float(value == choice) for choice in choices[1:]] for value in values])
     column = np.array(values, dtype=float)
@@ -81,7 +81,7 @@ def _surface(coordinates: list[np.ndarray]) -> np.ndarray:
     owner = np.concatenate([[i] * c.shape[1] for i, c in enumerate(coordinates)])
     terms = [np.ones((len(columns), 1)), columns]
     for i in range(columns.shape[1]):
-        # The square of a switch is the switch, and two switches of one choice are never on together.
+        # A column of 0 and 1 is its own square, and two such columns of one assumption are never 1 together.
         number = coordinates[owner[i]].shape[1] == 1
         others = [j for j in range(i, columns.shape[1]) if owner[i] != owner[j] or number]
         if others:

@@ -1,8 +1,9 @@
 """Wingbeat frequencies measured on animals, each with its source, spread and how sure we are of it.
 
-Grades: A read in the source's own text, D computed from such a text for our vehicle. Numbers that we know only
-second-hand are left out, among them those of Tobalske and Dial 1996 that the paper draws: their table was not to be
-had, and their abstract says only that the frequency does not change appreciably from 6 to 20 m/s.
+Grade A: we read the number in the source's own text. Grade D: we computed it from such a text for our vehicle. We
+leave out numbers that we know only second-hand. Among these are the frequencies of Tobalske and Dial 1996 that the
+paper draws: we could not obtain their table, and their abstract says only that the frequency does not change
+appreciably from 6 to 20 m/s.
 """
 
 from __future__ import annotations
@@ -17,10 +18,10 @@ from wingbeat.vehicle import Air, Vehicle
 PAPER = "Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602"
 PAPER_PEAK_POWER = {"su-fan": 30.0, "dickinson": 150.0}
 PAPER_PITCH_RANGE_DEG = {"su-fan": 10.0, "dickinson": 25.0}
-# The bat's frequency [Hz], from and to which speed [m/s] Su-Fan's agrees with it, and how much faster Dickinson's
-# is
-# at the higher; the angles of attack that the paper calls small [deg].
+# The bat's frequency [Hz]; the lowest and highest speed [m/s] at which Su-Fan's frequency agrees with it;
+# Dickinson's frequency at the higher speed divided by Su-Fan's.
 PAPER_BAT_FREQUENCY, PAPER_BAT_SPEEDS, PAPER_BAT_RATIO = 6.0, (5.0, 10.0), 2.0
+# The angles of attack that the paper calls small [deg].
 PAPER_SMALL_ALPHA_DEG = (0.0, 13.0)
 
 
@@ -30,9 +31,9 @@ class Measured:
 
     Parameters
     ----------
-    animal : which of our vehicles it is drawn beside.
+    animal : which of our vehicles it is compared with.
     label : short, for a legend.
-    speeds : lowest and highest flight speed it stands for [m/s]; the same twice for a point.
+    speeds : lowest and highest flight speed for which it stands [m/s]; the same twice for a point.
     value : frequency for a vehicle, its air and a flight speed [m/s]; in `unit`.
     spread : half width, in `unit`; 0 where the source states none.
     source, grade : where it was read, and how sure we are (A or D).
@@ -98,7 +99,9 @@ MEASURED_FREQUENCIES = (
         f"{_RAYNER}; {_FLAT}",
         "D",
     ),
-    Measured("pigeon", "birds by wing length, the same", (6, 20), _birds_by_wing, 0.0, f"{_RAYNER}; {_FLAT}", "D"),
+    Measured(
+        "pigeon", "birds by wing length, same source", (6, 20), _birds_by_wing, 0.0, f"{_RAYNER}; {_FLAT}", "D"
+    ),
     _BIRDS_BY_SIZE,
     _LOADED_PIGEONS,
     Measured(
@@ -121,6 +124,6 @@ MEASURED_FREQUENCIES = (
         "A",
     ),
 )
-# What the pigeon's frequency is judged by. The paper's own reference, the measurements of Tobalske and Dial 1996,
-# could not be had; these two are drawn in our figure 5. One is of loaded birds in slow flight, the other a law.
+# What the pigeon's frequency is judged by. We could not obtain the paper's own reference, the measurements of
+# Tobalske and Dial 1996. Our figure 5 draws these two: loaded birds in slow flight, and a scaling law.
 PIGEON_REFERENCES = {"usherwood": _LOADED_PIGEONS, "pennycuick": _BIRDS_BY_SIZE}

@@ -1,7 +1,6 @@
-"""Flight powers and speeds of live animals, each with its source and how sure we are of it; grades as in bands.
+"""Flight powers and speeds of live animals, each with its source and grade as in `measured_bands`.
 
-None of them is a measurement of what our power is, the mean of the positive hinge power: each label says what
-it is.
+None of them measures what we compute, the mean positive hinge power; each label says what was measured.
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ MEASURED_POWERS = (
         "W",
     ),
 )
-# Speeds of least power [m/s].
+# Speeds of minimum power [m/s].
 MEASURED_MINIMUM_POWER_SPEEDS = {
     "pigeon": ("speed of minimum power, Pennycuick 1968", (8.0, 9.0), _PENNYCUICK),
 }
@@ -55,7 +54,7 @@ _POINTS = 33
 
 
 def published_for(animal: str, vehicle: Vehicle, air: Air, slowest: float, fastest: float) -> list[Published]:
-    """Return what is known of a live animal between two speeds [m/s]; laws of size are those of this vehicle."""
+    """Return what is known of a live animal between two speeds [m/s]; scaling laws are those for this vehicle."""
     beside = []
     if animal in MEASURED_MINIMUM_POWER_SPEEDS:
         label, speeds, _ = MEASURED_MINIMUM_POWER_SPEEDS[animal]

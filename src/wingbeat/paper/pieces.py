@@ -1,4 +1,4 @@
-"""A sample of assumptions run in pieces: each is flown, judged and kept as one small file, once."""
+"""A sample of assumptions, run in pieces: each piece is solved, judged and saved once, as one small file."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class Sample:
-    """Which sets are asked for, and in what pieces.
+    """Which sets are requested, and in which pieces.
 
     Parameters
     ----------
-    sets, seed : of `sample_sets`.
-    piece : sets in a piece; the last one may hold fewer.
+    sets, seed : arguments of `sample_sets`.
+    piece : number of sets in a piece; the last piece may hold fewer.
     """
 
     sets: int
@@ -59,7 +59,7 @@ class Sample:
         return range((number - 1) * self.piece, min(number * self.piece, self.sets))
 
     def about(self) -> dict[str, int | str]:
-        """Return what tells its answers from those to another question: what is sampled and judged, no words."""
+        """Return what identifies this sample: its ranges, speeds, starts and claims, but none of their words."""
         ranges = [(a.name, a.low, a.high, a.choices) for a in ASSUMPTIONS]
         asked = repr((ranges, SPEEDS, STARTS, [claim.id for claim in study_claims()]))
         digest = hashlib.sha256(asked.encode()).hexdigest()[:12]
@@ -67,16 +67,16 @@ class Sample:
 
 
 class Pieces:
-    """The folder that keeps a sample's pieces: a finished one as a table, the one in work as stores of its studies.
+    """The folder of a sample's pieces: a finished piece is a table, an unfinished one a folder of study stores.
 
     Parameters
     ----------
-    sample : what is asked for.
-    folder : made if there is none; it may hold pieces of this sample that other machines finished.
+    sample : the requested sample.
+    folder : created if missing; it may hold pieces of this sample that other machines finished.
 
     Raises
     ------
-    FileError : it holds another sample, or cannot be read or written.
+    FileError : the folder holds another sample, or cannot be read or written.
     """
 
     def __init__(self, sample: Sample, folder: Path) -> None:
@@ -108,21 +108,21 @@ class Pieces:
         stop: Stop,
         progress: Progress | None = None,
     ) -> Iterator[int]:
-        """Fly and judge those of the pieces that are not finished, and yield the number of each as it is kept.
+        """Solve and judge those of the pieces that are not finished, and yield the number of each once it is saved.
 
         Parameters
         ----------
-        numbers : of the pieces, from 1.
-        engine : makes what does a study's work.
-        stop : asked between batches; what has been flown of a piece is kept for the next run.
-        progress : called with (orbits with an answer, orbits in all) of the pieces asked for.
+        numbers : numbers of the pieces, from 1.
+        engine : makes the engine that runs a study.
+        stop : checked between batches; the next run resumes an unfinished piece.
+        progress : called with (orbits with a result, all orbits) of the requested pieces.
         """
         wanted = list(numbers)
         left = [number for number in wanted if not self.path(number).is_file()]
         total = ORBITS * sum(len(self.sample.range(number)) for number in wanted)
         done = total - ORBITS * sum(len(self.sample.range(number)) for number in left)
         sets = sample_sets(self.sample.sets, self.sample.seed)
-        for number in self.finished():  # one that was killed between keeping a piece and clearing up
+        for number in self.finished():  # a run may be killed between saving and clearing up
             shutil.rmtree(self._stores(number), ignore_errors=True)
         for number in left:
 
@@ -175,7 +175,7 @@ class Pieces:
         return judged, seconds
 
     def joined(self) -> tuple[Judged, float]:
-        """Return the sets of the finished pieces and what they say, and what the orbits took [core-s]."""
+        """Return the judged sets of the finished pieces, and the time that their orbits took [core-s]."""
         read = [self._read(number) for number in self.finished()]
         parts = [judged for judged, _ in read]
         judged = Judged(
@@ -206,7 +206,7 @@ def _check_same(about: object, sample: Sample, path: Path) -> None:
 
 
 def table(parts: Iterable[Judged]) -> str:
-    """Return every set in a line: its assumptions, orbits certified, each claim's number and verdict."""
+    """Return one line for each set: its assumptions, its certified orbits, each claim's number and verdict."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_columns())
@@ -231,7 +231,7 @@ def _cell(number: float, form: str) -> str:
 
 
 def _judged(text: str) -> Judged:
-    """Return what `table` wrote of."""
+    """Return the judged sets that `table` wrote in this text."""
     names, *rows = csv.reader(io.StringIO(text))
     if names != _columns():
         raise ValueError("its columns do not match")

@@ -1,4 +1,4 @@
-"""The paper's claims about the pigeon's frequency, judged by each reference that there is, or not at all."""
+"""The paper's claims about the pigeon's frequency, each judged by every reference that we have."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from wingbeat.species import load_species
 
 _RESULTS = "results, simulations"
 _WORDS = {
-    "usherwood": "loaded pigeons at 4.46 m/s, Usherwood et al. 2005",
-    "pennycuick": "Pennycuick's law of 1996 for this mass, span and area",
+    "usherwood": "from loaded pigeons at 4.46 m/s, Usherwood et al. 2005",
+    "pennycuick": "from Pennycuick's law of 1996 for this mass, span and area",
 }
 # "Agrees very well": the mean deviation is at most this. Usherwood et al. 2005 state 8.02 +- 0.69 Hz, a spread of
-# 9 %; with a spread as large in what it is compared with, a difference of 12 % is within one standard deviation.
+# 9 %. If the other quantity has the same spread, a difference of 12 % is within one standard deviation.
 AGREES = 0.15
 
 
@@ -34,7 +34,7 @@ def pigeon_reference(name: str) -> float:
 
 
 def deviation(evidence: Evidence, animal: str, model: str, speeds: np.ndarray, measured: float) -> float:
-    """Return the mean relative deviation of least frequencies from a measured one [Hz]."""
+    """Return the mean relative deviation of the lowest frequencies from a measured frequency [Hz]."""
     return float(np.mean(np.abs(evidence.frequencies(animal, model, speeds) / measured - 1)))
 
 
@@ -50,8 +50,9 @@ def closer_at_speed(name: str, animal: str, measured: float, words: str) -> Flig
         name,
         "abstract; discussion, simulations",
         f"the {animal}'s frequency is closer to the measured one with Su-Fan's than with Dickinson's "
-        f"coefficients, especially at high speed (tested: mean relative deviation from {measured:.3g} Hz, "
-        f"{words}, at 10 m/s and above; ours: Dickinson's over Su-Fan's)",
+        f"coefficients, especially at high speed (tested: the mean relative deviation at 10 m/s and above is "
+        "smaller with Su-Fan; ours: Dickinson's deviation divided by Su-Fan's; reference "
+        f"{measured:.3g} Hz, {words})",
         "> 1",
         "1",
         test,
@@ -76,9 +77,9 @@ def pigeon_claims() -> list[FlightClaim]:
             FlightClaim(
                 f"pigeon-agrees-{name}",
                 _RESULTS,
-                f"above 10 m/s the pigeon's frequency agrees very well with the measured one (tested: mean "
-                f"deviation from {by}, at most {100 * AGREES:.0f} %; the spread that Usherwood et al. state is 9 "
-                "%)",
+                "above 10 m/s the pigeon's frequency agrees very well with the measured one (tested: the mean "
+                f"deviation is at most {100 * AGREES:.0f} %; Usherwood et al. state a spread of 9 %; reference "
+                f"{by})",
                 "remarkably well",
                 "1",
                 _by_model("su-fan", measured, lambda found: found <= AGREES),
@@ -86,8 +87,8 @@ def pigeon_claims() -> list[FlightClaim]:
             FlightClaim(
                 f"pigeon-dickinson-off-{name}",
                 _RESULTS,
-                "above 10 m/s Dickinson's coefficients agree poorly for the pigeon (tested: mean deviation from "
-                f"{by}, above {100 * AGREES:.0f} %)",
+                "above 10 m/s Dickinson's coefficients give the pigeon a frequency that agrees poorly with "
+                f"measurement (tested: the mean deviation is above {100 * AGREES:.0f} %; reference {by})",
                 "poor",
                 "1",
                 _by_model("dickinson", measured, lambda found: found > AGREES),
@@ -98,14 +99,14 @@ def pigeon_claims() -> list[FlightClaim]:
 
 
 def pigeon_data_claim() -> Claim:
-    """Return the claim against the data that the paper itself draws, which cannot be tested."""
+    """Return the claim as compared with the data that the paper draws; we cannot test it."""
     return untestable(
         "pigeon-agrees",
         _RESULTS,
         "above 10 m/s the pigeon's frequency agrees very well with that of Tobalske and Dial 1996 (ours: the "
-        "nearer of two other references; other rows judge the claim by each of them)",
+        "lower of two other references; other rows judge the claim by each of them)",
         "remarkably well",
         "Hz",
         min(pigeon_reference(name) for name in PIGEON_REFERENCES),
-        "cannot be tested with the paper's data: neither it nor the abstract of its source gives the numbers",
+        "cannot be tested with the paper's data: neither the paper nor the abstract of its source gives them",
     )

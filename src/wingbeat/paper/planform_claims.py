@@ -7,21 +7,21 @@ import numpy as np
 from wingbeat.paper.claim import Claim, Evidence, Finding, NotFlownError
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, PLANFORMS, Orbits
 
-# "Does not have a significant impact": the median change of frequency is at most this. It is what the strips cost:
-# ten of them, the paper's number, leave an error of some per cent (docs/convergence.md).
+# "Does not have a significant impact" means that the median change of frequency is at most this. The error of the
+# strips is as large: ten strips, the paper's number, leave an error of some per cent (docs/convergence.md).
 INSIGNIFICANT = 0.05
 
 
 def planform_claim(orbits: Orbits) -> Claim:
-    """Return the claim judged by each planform: of equal area alone, and of equal area and second moment."""
+    """Return the claim judged by two planforms: equal area alone, and equal area and second moment of area."""
     findings = tuple(_beside_the_rectangle(orbits, name) for name in PLANFORMS)
     return Claim(
         "wing-shape",
         "methods, simulation",
-        "the shape of the wing does not change the optimum much (tested: a taper of 3 to 1 with the rectangle's "
-        "area, and a leaf shape with its area and its second moment of area about the shoulder, both with the "
-        "same span; median change of frequency over all speeds, animals and models at most "
-        f"{100 * INSIGNIFICANT:.0f} %)",
+        "the shape of the wing does not change the optimum much (tested: the median change of frequency over all "
+        f"speeds, animals and models is at most {100 * INSIGNIFICANT:.0f} % when another wing of the same span "
+        "replaces the rectangle: one tapered 3 to 1 with the rectangle's area, or a leaf shape with the "
+        "rectangle's area and second moment of area about the shoulder)",
         "not significant",
         "1",
         findings,

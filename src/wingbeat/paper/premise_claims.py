@@ -1,4 +1,4 @@
-"""What the paper takes for granted of its plate and its formulas, tested on what it prints."""
+"""What the paper assumes about its plate and its formulas, tested on what it prints."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from wingbeat.paper.claim import Claim, tested, untestable
 from wingbeat.paper.experiment_claims import CHORD, REYNOLDS_FITTED, SPAN
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift
 
-# "In line with": the lift at the other's angle is within this part of the largest. The paper's own "conforms very
-# well", 1.95 for a formula that reaches 2.04, is a difference of 4.6 %.
+# "In line with" means that the lift at the angle of the other peak is below its maximum by at most this share.
+# Where it says "conforms very well", the paper compares 1.95 with a formula that reaches 2.04: a gap of 4.6 %.
 IN_LINE = 0.05
-# Seconds of a record left out, and the kinematic viscosity of water [m2/s].
+# Seconds left out at the start of a record, and the kinematic viscosity of water [m2/s].
 _LEFT_OUT, _WATER = 10.0, 1.0e-6
 
 
 def shortfall(model: FormulaCoefficients, alpha_deg: float) -> float:
-    """Return by how much C_L at an angle [deg] is below the model's largest, relative."""
+    """Return how far C_L at an angle [deg] is below its maximum, as a share of this maximum."""
     lift = printed_lift(model, np.append(np.arange(0.5, 90.01, 0.05), alpha_deg))
     return float(1.0 - lift[-1] / lift.max())
 
 
 def premise_claims() -> list[Claim]:
-    """Return the claims about plate and formulas that the paper's argument rests on."""
+    """Return the claims about plate and formulas on which the paper's argument rests."""
     fit, fly = SuFan(), Dickinson()
     alpha = np.arange(0.5, 90.01, 0.05)
     small = np.arange(0.0, 8.01, 2.0)
@@ -41,7 +41,8 @@ def premise_claims() -> list[Claim]:
             "two-dimensional",
             "methods, experimental setup; discussion",
             "at aspect ratio 6 the flow is largely two-dimensional (ours: the formula's lift slope over 0 to 8 "
-            f"deg; theory gives 2 pi in two dimensions and {finite:.2f} per rad for a finite wing, 2 pi A/(A + 2))",
+            f"deg; theory gives 2 pi in two dimensions and 2 pi A/(A + 2), here {finite:.2f} per rad, for a "
+            "finite wing of aspect ratio A)",
             2 * np.pi,
             "1/rad",
             slope,
@@ -50,9 +51,9 @@ def premise_claims() -> list[Claim]:
         tested(
             "formulas-differentiable",
             "discussion, last paragraph",
-            "the formulas are differentiable (tested: slope of the centre of pressure at 0, which is "
-            "infinite because it grows as the angle to the power 0.6; ours: its slope at 1e-4 deg; C_L is "
-            f"{float(printed_lift(fit, np.zeros(1))[0]):.3f} there, so it jumps when mirrored)",
+            "the formulas are differentiable (tested: the slope of the centre of pressure at 0 deg; it is "
+            "infinite, because the centre moves as the angle to the power 0.6; ours: the slope at 1e-4 deg; C_L "
+            f"is {float(printed_lift(fit, np.zeros(1))[0]):.3f} at 0 deg, so it jumps there when mirrored)",
             "differentiable",
             "1/rad",
             steepness,
@@ -61,9 +62,9 @@ def premise_claims() -> list[Claim]:
         tested(
             "same-peak-as-insects",
             "discussion, experiment",
-            "the peak of C_L near 40 deg is in line with that of Dickinson's insect wing (tested: its C_L at 40 "
-            f"deg within {100 * IN_LINE:.0f} % of its maximum, which the paper calls very good elsewhere; ours: "
-            f"the shortfall; its peak is at {peak:.0f} deg)",
+            "the peak of C_L near 40 deg is in line with that of Dickinson's insect wing (tested: at 40 deg the "
+            f"C_L of the insect wing is within {100 * IN_LINE:.0f} % of its maximum, which is at {peak:.0f} deg; "
+            "elsewhere the paper calls such a difference very good; ours: the shortfall at 40 deg)",
             0.0,
             "1",
             shortfall(fly, 40.0),
@@ -72,9 +73,9 @@ def premise_claims() -> list[Claim]:
         tested(
             "same-peak-as-bird-wing",
             "discussion, experiment",
-            "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: the plate's C_L at "
-            f"the 43 deg that the paper prints for the wing within {100 * IN_LINE:.0f} % of its maximum; ours: "
-            "the shortfall)",
+            "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: at 43 deg, which "
+            f"the paper prints for the pigeon wing, the plate's C_L is within {100 * IN_LINE:.0f} % of its "
+            "maximum; ours: the shortfall at 43 deg)",
             0.0,
             "1",
             shortfall(fit, 43.0),
@@ -83,8 +84,8 @@ def premise_claims() -> list[Claim]:
         tested(
             "drag-alike-in-form",
             "results; discussion, experiment",
-            "C_D has the form of that of insect wings (tested: correlation with Dickinson's, 0 to 90 deg, at "
-            "least 0.99)",
+            "C_D has the form of that of insect wings (tested: its correlation with Dickinson's C_D from 0 to 90 "
+            "deg is at least 0.99)",
             "similar",
             "1",
             likeness,
@@ -93,9 +94,8 @@ def premise_claims() -> list[Claim]:
         tested(
             "own-reynolds",
             "discussion, experiment",
-            "the study's Reynolds number is of the order of 1e5 (tested: nearer to 1e5 than to 1e4 "
-            "in decades; ours: "
-            "the middle of 20 000 to 50 000)",
+            "the study's Reynolds number is of the order of 1e5 (tested: on a logarithmic scale, the middle of "
+            "20 000 to 50 000 is nearer to 1e5 than to 1e4; ours: this middle)",
             1e5,
             "1",
             middle,
@@ -104,9 +104,8 @@ def premise_claims() -> list[Claim]:
         tested(
             "transient-cut",
             "methods, experimental setup",
-            "leaving out the first 10 s leaves out the transient (tested: at least 10 chords of "
-            "travel at the lowest "
-            "Reynolds number, in water)",
+            "leaving out the first 10 s leaves out the transient (tested: in this time the water travels at "
+            "least 10 chords at the lowest Reynolds number)",
             "excluded",
             "chord",
             chords,
@@ -115,20 +114,18 @@ def premise_claims() -> list[Claim]:
         untestable(
             "comparable-magnitudes",
             "discussion, experiment",
-            "C_L and C_D are comparable to those of a pitching plate (Granlund et al. 2013) and of a "
-            "translating one "
-            "(Dickinson and Goetz 1993) (ours: the formula's largest C_L)",
+            "C_L and C_D are comparable to those of a pitching plate (Granlund et al. 2013) and of a translating "
+            "one (Dickinson and Goetz 1993) (ours: the formula's largest C_L)",
             "comparable",
             "1",
             float(printed_lift(fit, alpha).max()),
-            "their data were not available",
+            "the data of these two studies were not available",
         ),
         untestable(
             "edge-vortex",
             "discussion, experiment",
-            "a leading-edge vortex produces the lift past stall, grows up to 40 deg and is shed beyond "
-            "(ours: angle of the "
-            "formula's largest C_L)",
+            "a leading-edge vortex produces the lift past stall, grows up to 40 deg and is shed beyond (ours: "
+            "the angle of the formula's largest C_L)",
             40.0,
             "deg",
             float(alpha[printed_lift(fit, alpha).argmax()]),

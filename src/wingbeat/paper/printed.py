@@ -1,4 +1,4 @@
-"""The formulas as printed, without the extension and the blends that flight needs, on their own side of zero."""
+"""The formulas as printed, at positive angles, without the extension and the blends that flight needs."""
 
 from __future__ import annotations
 

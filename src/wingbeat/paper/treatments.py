@@ -1,4 +1,4 @@
-"""What the paper leaves open, as named sets of assumptions, and the orbits that its figures and claims rest on."""
+"""Named sets of assumptions for what the paper leaves open, and the orbits for its figures and claims."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Treatment:
 
     Parameters
     ----------
-    name : as in file names and tables.
-    words : the same for a reader.
+    name : name in file names and tables.
+    words : description for readers.
     extension : how the coefficients reach negative angles of attack (`wingbeat.aero.EXTENSIONS`).
-    uniform_wings : whether the wings' mass is spread evenly, rather than as dissected wings have it.
-    flap_amplitude_deg : largest flap amplitude allowed [deg]; None for that of the species file.
-    taper : tip chord over root chord at the same mean chord; 1 is the paper's rectangle.
-    leaf : whether the wing is a leaf of the rectangle's span, area and second moment of area, `leaf_chord`.
+    uniform_wings : whether the wing mass is uniform along the span, not distributed as in dissected wings.
+    flap_amplitude_deg : largest flap amplitude allowed [deg]; None takes the bound of the species file.
+    taper : tip chord divided by root chord, at the same mean chord; 1 is the paper's rectangle.
+    leaf : whether the wing is leaf-shaped, with the rectangle's span, area and second moment of area: `leaf_chord`.
     """
 
     name: str
@@ -51,35 +51,42 @@ class Treatment:
     leaf: bool = False
 
 
-_HEAVY = "flap amplitude at most 45 deg, uniform wing mass"
+_HEAVY = "but the flap amplitude is at most 45 deg and the wing mass is uniform along the span"
 TREATMENTS = (
     Treatment(
         "mirrored",
         "coefficients mirrored at negative angles; wing mass as in the species file",
         "mirrored",
     ),
-    Treatment("signed", "formulas used as printed at negative angles where finite", "signed"),
-    Treatment("mirrored-heavy", f"mirrored; {_HEAVY}", "mirrored", True, 45.0),
-    Treatment("signed-heavy", f"signed; {_HEAVY}", "signed", True, 45.0),
-    Treatment("mirrored-tapered", "mirrored; wings tapered 3 to 1, same area", "mirrored", taper=1 / 3),
+    Treatment(
+        "signed",
+        "at negative angles of attack the printed formula gives C_D, and also C_L if it has no exponential term. "
+        "Such a term grows without bound, so Su-Fan's C_L is mirrored here too",
+        "signed",
+    ),
+    Treatment("mirrored-heavy", f"as mirrored, {_HEAVY}", "mirrored", True, 45.0),
+    Treatment("signed-heavy", f"as signed, {_HEAVY}", "signed", True, 45.0),
+    Treatment(
+        "mirrored-tapered", "as mirrored, but with wings of the same area tapered 3 to 1", "mirrored", taper=1 / 3
+    ),
     Treatment(
         "mirrored-leaf",
-        "mirrored; leaf-shaped wings, same area and same second moment of area about the shoulder",
+        "as mirrored, but with leaf-shaped wings of the same area and second moment of area about the shoulder",
         "mirrored",
         leaf=True,
     ),
 )
 DEFAULT = TREATMENTS[0].name
-# Those that figures show.
+# The treatments that the figures show.
 DRAWN = TREATMENTS[:2]
 PLANFORMS = tuple(treatment.name for treatment in TREATMENTS if treatment.leaf or treatment.taper != 1.0)
-# Where the chord of the leaf is given along the span, and that at the root over that of the rectangle.
+# Number of stations at which the leaf's chord is given, and its root chord divided by the rectangle's chord.
 _STATIONS, _ROOT = 11, 0.25
 
 
 @dataclass(frozen=True, order=True)
 class Case:
-    """One orbit asked for: which treatment, animal, coefficient model and speed [m/s]."""
+    """One orbit to solve: its treatment, animal, coefficient model and speed [m/s]."""
 
     treatment: str
     animal: str
@@ -109,11 +116,11 @@ def all_cases(speeds: Iterable[float], treatments: Iterable[Treatment] = TREATME
 def leaf_chord(chord: float) -> tuple[float, ...]:
     """Return the chords of a leaf at stations from root to tip [m]: widest past mid-span, narrow at root and tip.
 
-    To a rectangle of this chord a parabola is added that changes neither the area nor the second moment of area
-    about the shoulder, ``int s^2 c ds``, of the chord that is linear between the stations.
+    The chord is that of the rectangle plus a parabola. This changes neither the area nor the second moment of area
+    about the shoulder, ``int s^2 c ds``. Between the stations the chord is linear.
     """
     eta = np.linspace(0.0, 1.0, _STATIONS)
-    # By Simpson's rule, which is exact for cubics, as which a chord that is linear between stations enters.
+    # Simpson's rule is exact here: between stations the integrands are at most cubic.
     fine = np.linspace(0.0, 1.0, 2 * (_STATIONS - 1) + 1)
     weight = np.where(np.arange(fine.size) % 2, 4.0, 2.0)
     weight[[0, -1]] = 1.0
@@ -124,7 +131,7 @@ def leaf_chord(chord: float) -> tuple[float, ...]:
 
 
 def problem_of(case: Case) -> OrbitProblem:
-    """Return the orbit problem of a case: level flight at least frequency."""
+    """Return the orbit problem of a case: level flight at the lowest frequency."""
     treatment = next(t for t in TREATMENTS if t.name == case.treatment)
     species = load_species(case.animal)
     if treatment.uniform_wings:
@@ -144,7 +151,7 @@ def problem_of(case: Case) -> OrbitProblem:
 
 
 def chain(treatment: str, animal: str, speeds: Iterable[float]) -> list[Case]:
-    """Return an animal's cases in a row in which neighbours are alike: one model up in speed, the other down."""
+    """Return an animal's cases, similar ones side by side: one model up in speed, then the other down."""
     up = sorted(speeds)
     rows = zip(MODELS, (up, up[::-1]), strict=True)
     return [Case(treatment, animal, model, speed) for model, row in rows for speed in row]
@@ -157,17 +164,17 @@ def _solve_row(row: list[Case], starts: int) -> list[Solution]:
 def solve_cases(
     cases: Iterable[Case], starts: int, processes: int = 1, progress: Progress | None = None
 ) -> dict[Case, Orbit]:
-    """Solve and certify the orbits of the cases; a failed search is data.
+    """Solve and certify the orbits of the cases; failed ones are returned, too.
 
-    The cases of an animal under a treatment are solved in a row, so that each is searched from its neighbours'
-    answers, too.
+    The cases of one animal under one treatment are solved as a series, so that each also starts from the solutions
+    of its neighbours.
 
     Parameters
     ----------
     cases : which orbits.
-    starts : searches of each before answers are handed on.
-    processes : Python processes that share the rows.
-    progress : called with (rows done, rows in all).
+    starts : starts of each case before solutions are passed on to its neighbours.
+    processes : Python processes that share the series.
+    progress : called with (series done, all series).
     """
     wanted = sorted(set(cases))
     rows = []

@@ -24,7 +24,7 @@ class Posture(NamedTuple):
     """A vehicle at one instant, its body's centre of mass at the origin; world axes, left wing, metres, radians.
 
     ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3); ``quarter_chord`` and the
-    unit vectors ``chordwise`` and ``spanwise`` (N, 3); ``stroke`` is how far stroke axes are pitched nose-up;
+    unit vectors ``chordwise`` and ``spanwise`` (N, 3); ``stroke`` is the nose-up pitch of the stroke axes;
     ``body_axes`` are the half length and half depth of the body drawn as an ellipsoid.
     """
 
@@ -42,9 +42,10 @@ class Posture(NamedTuple):
 
 
 class Section(NamedTuple):
-    """One strip across its span: angles [rad] from the axis about which it would have no pitch, speed and forces.
+    """The cross-section of one strip: angles [rad] from the direction of its chord at zero pitch, speed and forces.
 
-    ``pitch`` of the chord, ``motion`` of the velocity, their difference ``alpha``; lift and drag [N] of one strip.
+    ``pitch`` is the angle of the chord, ``motion`` that of the velocity, and ``alpha`` their difference. ``lift``
+    and ``drag`` are those of one strip [N].
     """
 
     pitch: float
@@ -70,7 +71,7 @@ class Flown(NamedTuple):
 
 
 def flown(animal: str, orbit: Orbit | None) -> Flown:
-    """Return a certified orbit's flight, or without one the species' stock wingbeat in level, even flight."""
+    """Return the flight of a certified orbit, or if there is none the stock wingbeat in steady level flight."""
     if orbit is None:
         species = load_species(animal)
         aero = BladeElement(load_coefficients(MODELS[0]))

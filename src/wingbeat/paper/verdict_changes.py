@@ -1,4 +1,4 @@
-"""What changed in each verdict since an earlier run, and why: one table beside the claims."""
+"""Which verdicts changed since an earlier run, and why: one table beside the claims."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from wingbeat.paper.claim import Claim
 
 _LIMIT = 1 << 26
 _NONE = "-"
-# A claim of before, and those that are asked in its place.
+# An earlier claim, and the claims that replace it.
 REPLACED = {
     "pigeon-agrees": ("pigeon-agrees", "pigeon-agrees-usherwood", "pigeon-agrees-pennycuick"),
     "pigeon-dickinson-off": ("pigeon-dickinson-off-usherwood", "pigeon-dickinson-off-pennycuick"),
@@ -22,15 +22,79 @@ REPLACED = {
 }
 _REFERENCE = "judged by each reference drawn in figure 5, no longer by 6.25 Hz, which was our own guess"
 _SMALL = (
-    "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for its own "
-    "drag"
+    "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for the drag "
+    "of its plate"
 )
+_SEPARATELY = "each animal is now judged separately; before, the worse of the two hid the other"
 _IN_LINE = (
-    "'in line with' now compares the lift at the other's angle; the curves are flat there, and 2 degrees was too "
-    "strict"
+    "'in line with' now compares the lift at the angle of the other peak; the curves are flat there, and a limit "
+    "of 2 degrees was too strict"
 )
-# Why a claim is asked otherwise than before, by its name now.
+# Claims whose test is the one of before, in clearer words.
+_CLEARER = (
+    "blockage",
+    "repeats",
+    "collapse",
+    "r-squared",
+    "usherwood-reynolds",
+    "lift-slope",
+    "exponential-term",
+    "lift-decay",
+    "dickinson-slope",
+    "extra-lift",
+    "drag-monotonic",
+    "drag-below-dickinson",
+    "drag-normal-plate",
+    "moment-slope",
+    "moment-like-lift",
+    "centre-plateau",
+    "smaller-lift",
+    "smaller-drag",
+    "lift-to-drag",
+    "rotation-gain",
+    "formulas-differentiable",
+    "drag-alike-in-form",
+    "own-reynolds",
+    "transient-cut",
+    "edge-vortex",
+    "closed-loops",
+    "open-loop",
+    "printed-sign",
+    "stable",
+    "least-frequency",
+    "bat-slow-alike",
+    "bat-parts",
+    "bat-agrees",
+    "bat-invariant",
+    "twice-the-frequency",
+    "smaller-alpha-1-of-4",
+    "smaller-alpha-3-of-4",
+    "hand-alpha",
+    "hand-thrusts",
+    "arm-drags",
+    "arm-pitches-least",
+    "force-balance",
+    "peak-power-su-fan",
+    "peak-power-dickinson",
+    "four-times",
+    "power-exponent",
+    "measured-power-below",
+    "lower-power",
+    "pitch-range-su-fan",
+    "pitch-range-dickinson",
+    "few-degrees",
+    "differentiable",
+    "small-angles-critical",
+    "hand-leaves-small-angles",
+    "arm-angle-smaller-throughout",
+    "higher-drag-penalty",
+    "over-prediction",
+    "many-wingbeats",
+    "drag-costs-thrust",
+)
+# Why a claim is worded differently from before, by its id now.
 ASKED_OTHERWISE = {
+    **dict.fromkeys(_CLEARER, "the same test in clearer words; only the flights can differ"),
     "pigeon-agrees": "the data that the paper draws were not available, and 6.25 Hz was our own guess",
     **{
         f"pigeon-{what}-{by}": _REFERENCE
@@ -39,15 +103,15 @@ ASKED_OTHERWISE = {
     },
     "gains-at-speed": _REFERENCE,
     "bat-closer-at-speed": "the same test; its words now say whose 6 Hz it is",
-    "less-pitching-pigeon": "each animal separately: the worse of the two hid the other",
-    "less-pitching-bat": "each animal separately: the worse of the two hid the other",
+    "less-pitching-pigeon": _SEPARATELY,
+    "less-pitching-bat": _SEPARATELY,
     "animals-reynolds": "judged at each speed, no longer only at 10 m/s",
-    "two-dimensional": "the flow was not measured, and the lift slope of a thick plate does not decide it",
+    "two-dimensional": "the flow was not measured, and the lift slope of a thick plate does not decide this",
     "same-peak-as-insects": _IN_LINE,
     "same-peak-as-bird-wing": f"new: the paper's own second example; {_IN_LINE}",
     "dickinson-drag-small": _SMALL,
-    "dickinson-lift-small": f"new: the paper says it of lift as well; {_SMALL}",
-    "drag-penalty-small": f"new: the drag that the paper calls small; {_SMALL}",
+    "dickinson-lift-small": f"new: the paper says this of lift as well; {_SMALL}",
+    "drag-penalty-small": f"new: this is the drag that the paper calls small; {_SMALL}",
     "arm-nose-up": "'a small nose-up pitch' now means positive and at most 13 degrees, no longer only positive",
     "closer-power": "'much closer' now means at most half as far, no longer closer by any amount",
     "wing-shape": "judged also at equal second moment of area, no longer only at equal area",
@@ -55,7 +119,7 @@ ASKED_OTHERWISE = {
 
 
 class Change(NamedTuple):
-    """A claim, its verdict before and now, and why they differ; `same` where they do not."""
+    """A claim, its earlier and its present verdict, and why they differ; `same` says that they do not."""
 
     id: str
     before: str
@@ -64,7 +128,7 @@ class Change(NamedTuple):
 
     @property
     def same(self) -> bool:
-        """Whether the verdict is the one of before."""
+        """Whether the verdict is unchanged."""
         return self.before == self.now
 
 
@@ -73,7 +137,7 @@ def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
 
     Raises
     ------
-    FileError : it cannot be read, or is none.
+    FileError : the file cannot be read, or does not hold claims.
     """
     try:
         rows = json.loads(read_text(path, limit=_LIMIT))
@@ -88,9 +152,9 @@ def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
 
 
 def verdict_changes(before: Sequence[dict[str, Any]], claims: Sequence[Claim]) -> list[Change]:
-    """Return what became of the claims of an earlier run, and which are new, in the order of now.
+    """Return what became of the claims of an earlier run, and which are new, in the present order.
 
-    Claims that the run of now does not ask are left out.
+    Claims that the present run does not ask are left out.
     """
     old = {row["id"]: row for row in before}
     origin = {new: name for name in old for new in REPLACED.get(name, (name,))}

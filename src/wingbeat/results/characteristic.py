@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-# Powers this close to the minimum count as its width.
+# Speeds are `within_2_percent` if their value exceeds the minimum by at most this share.
 _FLAT = 0.02
 
 
 def characteristic_speeds(
     speed: np.ndarray, power: np.ndarray, joined: np.ndarray, power_limit: float | None = None
 ) -> dict[str, Any]:
-    """Return the speeds of minimum power and of maximum range, and those between which a power limit suffices.
+    """Return the speeds of minimum power and of maximum range, and the slowest and fastest within a power limit.
 
     Parameters
     ----------
@@ -26,9 +26,10 @@ def characteristic_speeds(
     Returns
     -------
     ``minimum_power``, ``maximum_range`` (minimum power over speed, the tangent from the origin) and, with a limit,
-    ``fastest_sustained`` and ``slowest_sustained``; each None where there is none. ``speed`` [m/s], ``power`` [W],
-    ``at_edge``: the range of speeds or a gap cuts it off, so that the true one may lie beyond; ``jump_beside``: the
-    curve changes branch there; ``within_2_percent``: the speeds between which the minimised value is within 2 %.
+    ``fastest_sustained`` and ``slowest_sustained``; each is None where there is none. Each holds ``speed`` [m/s],
+    ``power`` [W], ``at_edge`` (the range of speeds or a gap ends there, so the true speed may lie beyond) and
+    ``jump_beside`` (the curve changes branch there). The first two also hold ``within_2_percent``: the speeds
+    between which the minimised value is within 2 % of its minimum.
 
     >>> u = np.arange(4.0, 13.0)
     >>> found = characteristic_speeds(u, 60 / u + 0.01 * u**3, np.ones(8, bool))
@@ -89,7 +90,7 @@ def _least(
 
 
 def _reach(speed: np.ndarray, value: np.ndarray, start: int, way: int, level: float) -> float:
-    """Return the speed at which a value that is below a level first reaches it, going one way, or the last one."""
+    """Return the first speed, going one way, at which a value that starts below a level reaches it, or the last."""
     here = start
     while 0 <= here + way < len(value) and np.isfinite(value[here + way]):
         there = here + way

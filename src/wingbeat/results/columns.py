@@ -28,7 +28,7 @@ def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield what `flat` does, but lists of anything else as they are."""
+    """Yield what `flat` does, but leave lists of anything else as they are."""
     for key, value in record.items():
         path = f"{before}{key}"
         if isinstance(value, dict):
@@ -44,7 +44,7 @@ def _numeric(value: list[Any]) -> bool:
 
 
 def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
-    """Return the unit of a single value beside a data set's series, nothing where it is none that could have one.
+    """Return the unit of a single value beside a data set's series, or an empty text where none is known.
 
     Parameters
     ----------

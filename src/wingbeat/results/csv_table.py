@@ -1,4 +1,4 @@
-"""A result as a flat CSV table: units and single numbers in the head, behind ``#``, then a row a sample.
+"""A result as a flat CSV table: units and single numbers in the head, behind ``#``, then one row per sample.
 
 The head can be skipped as comments: ``pandas.read_csv(file, comment="#")`` in Python, ``readtable(file,
 CommentStyle="#")`` in MATLAB, ``read.csv(file, comment.char = "#")`` in R.
@@ -19,7 +19,7 @@ from wingbeat.results.columns import leaves, result_unit
 if TYPE_CHECKING:
     import xarray as xr
 
-# Along what each kind of result has a row.
+# The coordinate along which each kind of result has its rows.
 _ROWS = {"orbit": "phase", "flight": "phase", "curve": "speed", "glide": "angle_of_attack"}
 
 
@@ -36,7 +36,7 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     Parameters
     ----------
     dataset : an orbit's, a flight's, a curve's or a glide polar's.
-    results : what its attributes hold, as `results_of` says it.
+    results : what its attributes hold, from `results_of`.
     """
     kind = results["wingbeat_kind"]
     along = _ROWS[kind]
@@ -72,7 +72,7 @@ def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
 
 
 def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
-    """Return what a column's name and its meaning say of one place along a dimension; places count from 1."""
+    """Return the parts of a column's name and meaning for one place along a dimension; places count from 1."""
     if dim == "optimum":  # the best of each speed is what most readers want, so it has the plain name
         return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
     label = dataset[dim].values[index]
@@ -82,7 +82,7 @@ def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
 
 
 def _single_values(dataset: xr.Dataset, along: str, results: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield what has no row: results by their dotted names, then variables along other dimensions, whole."""
+    """Yield what has no rows: results by their dotted names, then whole variables along other dimensions."""
     yield from leaves(results)
     for name, variable in dataset.variables.items():
         if along not in variable.dims and name != "optimum":

@@ -132,18 +132,18 @@ def solve_curve(
 ) -> Curve:
     """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
-    Every optimum that is found is continued to the neighbouring speeds, both ways, until nothing is new, in
-    steps that change no unknown by much. Where the best of one speed does not lead to the best of the next, the
-    curve carries a mark.
+    Every optimum that is found is continued to the neighbouring speeds, up and down, until nothing new appears.
+    Each step changes every unknown only a little. Where the best optimum of one speed does not lead to the best of
+    the next, the curve carries a mark.
 
     Parameters
     ----------
     problem : the problem at each speed; its own speed is ignored.
     speeds : at least two, increasing [m/s]; 0 is hover.
-    starts : starts at both ends of the range, and a third as many at each speed in between.
+    starts : number of starts at each end of the range; each speed in between gets a third as many.
     seed : of the random starts.
-    power_limit : the mean power that can be sustained [W], if the speeds within it are wanted.
-    progress : called with (tasks done, tasks known of).
+    power_limit : the mean power that can be sustained [W]; if given, the speeds within it are found too.
+    progress : called with (tasks done, tasks known so far).
     options : of the solvers.
 
     Raises
@@ -206,7 +206,9 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":
-        raise FileError(f"cannot read {shown} as a curve: it is not one; give a file of `wingbeat curve -o`")
+        raise FileError(
+            f"cannot read {shown} as a curve: it is not one; give a file that `wingbeat curve -o` wrote"
+        )
     try:
         curve = Curve(dataset)
         if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POINTS = ("speed", "optimum")
-# Numbers of the orbit record that stand along the curve.
+# Numbers of the orbit record that the curve holds at each speed.
 _NUMBERS = (
     "objective_value",
     *("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"),
@@ -36,7 +36,7 @@ _NUMBERS = (
 
 
 def _harmonic(wingbeat: dict[str, Any], law: str, place: int) -> float:
-    """Return one number of a harmonic, 0 where it is not there."""
+    """Return one number of a harmonic, 0 if the law has no such harmonic."""
     pairs = wingbeat[law]
     return pairs[place] if place < len(pairs) else 0.0
 
@@ -48,7 +48,7 @@ def curve_dataset(
     inputs: dict[str, Any],
     seconds: float,
 ) -> xr.Dataset:
-    """Assemble the records of all optima, shape (speed, optimum), the best first, filled up with not-a-number."""
+    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number."""
     import xarray as xr
 
     labels = families(branches)
@@ -146,7 +146,7 @@ def _largest_multiplier(record: dict[str, Any]) -> float | None:
 
 
 def power_name(objective: str) -> str:
-    """Return which power a curve is a curve of: minimised quantity, if that is a mean power."""
+    """Return which power a curve shows: the minimised quantity if it is a mean power, else mean positive power."""
     known = QUANTITIES.get(objective)
     is_mean = objective.startswith(("mean_", "power_cost")) and (known is None or known.unit == "W")
     return "objective_value" if is_mean else "mean_positive_power"
@@ -175,7 +175,7 @@ def _attributes(
 
 
 def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:
-    """Return the warnings of the best orbits, those that differ in their numbers only once, with their speeds."""
+    """Return the warnings of the best orbits with their speeds; those that differ only in numbers appear once."""
     speeds: dict[str, list[float]] = {}
     texts: dict[str, str] = {}
     for record in records:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _BLOCK = 257
 _STRIP, _VECTOR = ("phase", "station"), ("phase", "station", "axis")
-# Along what each variable stands; a variable of one number a phase is not here.
+# Dimensions of each variable; a variable that is not listed has one number per phase.
 _DIMS = {
     **{name: (name,) for name in ("station", "axis", "corner")},
     **dict.fromkeys(("strip_position", "strip_velocity", "strip_force"), _VECTOR),
@@ -37,7 +37,7 @@ def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: 
 def _in_blocks(
     function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray
 ) -> Iterator[Any]:
-    """Evaluate in blocks of one length, the last filled up with its end: every length would be compiled anew."""
+    """Evaluate in blocks of equal length, the last padded with its end: JAX compiles anew for each length."""
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
         yield function(model, wingbeat, State(*states[here].T), phase[here])

@@ -37,10 +37,10 @@ class GlidePolar(Saveable):
     ----------
     species : what glides.
     aero : its air loads.
-    trim : what was turned until the pitching moment vanished.
+    trim : the angle that was turned until the pitching moment vanished.
     glides : one for each angle of attack, in the order asked for.
-    least_sink, best_ratio : slowest sink and flattest path between the angles of attack asked for; None where these
-        end before it is reached.
+    least_sink, best_ratio : the glides of slowest sink and of flattest path between the angles of attack asked for;
+        None if the optimum is at an end of these angles.
     """
 
     species: Species
@@ -95,9 +95,9 @@ def glide_polar(
 ) -> GlidePolar:
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
-    Lift, drag, weight and, where it can be, the pitching moment balance, with the same air loads as in flapping
-    flight. If no angle trims the moment, the body stays along the path and `Glide.tail_moment` is what is
-    lacking.
+    Lift, drag and weight balance, and the pitching moment too where possible, with the same air loads as in
+    flapping flight. If no angle trims the moment, the body stays along the path, and `Glide.tail_moment` is the
+    moment that a tail would need to supply.
 
     Parameters
     ----------
@@ -105,8 +105,8 @@ def glide_polar(
     aero : as in `OrbitProblem`, `SuFan()` if not given.
     angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
-    trim : what turns until the moment is zero: ``"body-pitch"`` under wings that keep their angle of attack,
-        ``"flap"`` with the body along the path, or ``"tail"``, nothing.
+    trim : what turns until the pitching moment is zero: ``"body-pitch"`` (the wings keep their angle of attack),
+        ``"flap"`` (the body stays along the path), or ``"tail"`` (nothing turns).
 
     Raises
     ------
@@ -144,7 +144,7 @@ def glide_polar(
 
 
 def _best(solver: GlideSolver, glides: tuple[Glide, ...], cost: Any) -> Glide | None:
-    """Return the glide of least cost between the neighbours of the cheapest, None if that is at an end."""
+    """Return the glide of minimum cost between the neighbours of the cheapest, or None if that one is at an end."""
     from scipy.optimize import minimize_scalar
 
     costs = np.nan_to_num([cost(glide) for glide in glides], nan=np.inf)

@@ -24,7 +24,7 @@ def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
     Parameters
     ----------
     dataset : an orbit's, a flight's, a curve's or a glide polar's.
-    results : what its attributes hold, as `results_of` says it.
+    results : what its attributes hold, from `results_of`.
     """
     from scipy.io import savemat
 

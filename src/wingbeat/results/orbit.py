@@ -39,7 +39,7 @@ class Summary(NamedTuple):
     relaxations: tuple[Relaxation, ...] = ()
 
 
-# A flight to be shown: problem, wingbeat, and what the certifier flew.
+# A flight to be shown: problem, wingbeat, and the flight of the certifier.
 _Flown = tuple[OrbitProblem, Wingbeat, Certificate]
 
 

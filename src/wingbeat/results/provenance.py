@@ -38,7 +38,7 @@ class NotInFileError(ValueError):
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
-    """Return all inputs of a problem and its search; of the solvers' options those that are not the defaults."""
+    """Return all inputs of a problem and its search, and those options of the solvers that are not the defaults."""
     species, coefficients = problem.species, problem.aero.coefficients
     aero = aero_record(problem.aero)
     if isinstance(coefficients, TableCoefficients):
@@ -199,7 +199,7 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
 
 
 def _asked_for(quantity: Quantity) -> str:
-    """Return the name that brings a quantity back, or one that never will: a user's function is in no file."""
+    """Return the name that brings a quantity back; a user's function is in no file and gets a name that cannot."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
     except InvalidInputError:

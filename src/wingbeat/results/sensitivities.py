@@ -1,4 +1,4 @@
-"""What an orbit hangs on most, what its bounds cost, and how sure its numbers are."""
+"""What an orbit depends on most, what its bounds cost, and how uncertain its numbers are."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Sensitivities:
         )
 
     def ranked(self, quantity: str = QUANTITIES[0]) -> list[Sensitivity]:
-        """Return the sensitivities to the parameters, those that can change a quantity most first.
+        """Return the sensitivities to the parameters; those that can change a quantity most come first.
 
         They are ranked by the change over the plausible range, or, where there is none, by the change for one
         percent.
@@ -84,7 +84,7 @@ class Sensitivities:
     def swing(self, slope: Sensitivity, quantity: str) -> tuple[float, float]:
         """Return the change of a quantity to the low and to the high end of a parameter's plausible range.
 
-        Where there is no range, the ends are one percent less and more.
+        Where there is no range, the ends are one percent below and above the value.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class Sensitivities:
         Parameters
         ----------
         fit : the fit that the coefficients come from, read with `read_model`; without it they count as exact.
-        share : narrows every range about its value to this share, and the covariance likewise.
+        share : share of every range, about its value, that is used; the covariance is narrowed likewise.
 
         Raises
         ------
@@ -147,7 +147,7 @@ class Sensitivities:
 def sensitivities(
     orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES, options: SolverOptions = DEFAULTS
 ) -> Sensitivities:
-    """Differentiate an orbit by every number it depends on, and price the bounds and limits that bind.
+    """Differentiate an orbit with respect to every number it depends on, and price the bounds and limits that bind.
 
     The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
     other quantities follow from the conditions of the optimum (implicit function theorem; Fiacco 1983, Introduction
@@ -155,7 +155,7 @@ def sensitivities(
 
     Parameters
     ----------
-    orbit : certified, of `solve_orbit` or `load_orbit`.
+    orbit : a certified orbit, from `solve_orbit` or `load_orbit`.
     quantities : what to differentiate besides objective and wingbeat, quantities or their names.
     options : of the solvers.
 
@@ -197,7 +197,7 @@ def _plain(slope: Sensitivity) -> dict[str, Any]:
 def _of_fit(
     problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float
 ) -> list[ParameterSpread]:
-    """Return the spreads of a fit's terms, one for each curve, for their errors go together."""
+    """Return the spreads of a fit's terms, one for each curve, because their errors are correlated."""
     by_path = {p.path: p for p in parameters}
     coefficients, found = problem.aero.coefficients, []
     for name in ("lift", "drag", "centre"):
@@ -206,15 +206,16 @@ def _of_fit(
         if curve is None or not paths or not any(path in by_path for path in paths):
             continue
         if getattr(coefficients, f"{name}_terms", None) != curve.terms:
-            rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that was flown"
+            rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that the orbit used"
             raise InvalidInputError([Fault("fit", fit.name, rule, fix)])
         members = tuple(by_path[path] for path in paths)
         found.append(ParameterSpread(f"aero.{name}", members, share**2 * np.asarray(curve.covariance)))
     return found
 
 
-# Share of the draws' variance that first order must foretell: 97 to 99.9 % at a tenth and three tenths of every
-# range, where both deviations agree, 6 % over the bat's whole ranges, where they do not (docs/sensitivities.md).
+# Share of the draws' variance that the first order must predict. It predicts 97 to 99.9 % at a tenth and three
+# tenths of every range, where both deviations agree, and 6 % over the bat's whole ranges, where they do not
+# (docs/sensitivities.md).
 _BORNE_OUT = 0.9
 
 

@@ -87,9 +87,9 @@ def solve_orbits(
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem, in their order; similar problems help one another.
 
-    Of problems that differ in numbers only, the first are solved as by `solve_orbit`. The first start of a
-    later one starts from what their answers predict, and counts if it ends in a certified orbit. Where a problem
-    has several optima, that may differ from the one found alone. The results do not depend on
+    Of problems that differ in numbers only, the first are solved as by `solve_orbit`. The first start of each
+    later one begins at what their answers predict, and counts if it ends in a certified orbit. Where a problem has
+    several optima, that orbit may differ from the one that `solve_orbit` finds. The results do not depend on
     `processes`.
 
     Records and time series are computed on demand, so you can hold thousands of orbits and look at a few.
@@ -102,8 +102,8 @@ def solve_orbits(
         problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
     most_starts : starts for a problem without an orbit before the solver gives up, default 50; fewer end sooner.
-    advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does; it
-        takes seconds each.
+    advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does;
+        this takes seconds for each.
     in_order : the problems are a series, such as speeds in order, with the same free parameters. After its own
         starts, each also starts from its neighbours' results, up and down the series until nothing improves. The
         best family of orbits found anywhere thus spreads as far as it exists.

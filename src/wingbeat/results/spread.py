@@ -1,4 +1,4 @@
-"""How far an orbit's numbers move with the wingbeat that was measured: the same flight for other draws of it."""
+"""How much an orbit's numbers vary with a measured wingbeat: the same flight, solved for other draws of it."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Spread(NamedTuple):
     Attributes
     ----------
     values : numbers of the draws that were certified, by their name in the record, shape (certified,) each.
-    estimates : those of the orbit that they are draws of.
-    asked : number of draws.
+    estimates : the same numbers of the orbit itself.
+    asked : number of all draws.
     """
 
     values: dict[str, np.ndarray]

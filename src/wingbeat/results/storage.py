@@ -1,4 +1,4 @@
-"""NetCDF-4 files: datasets written whole or not at all, and read with every fault named."""
+"""NetCDF-4 files: datasets are written whole or not at all; a file that cannot be read is refused with a reason."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ _KINDS: dict[str, tuple[type, ...]] = {
     "inputs": (dict,),
 }
 _NUMBER = (int, float, type(None))
+_GIVE = "give a file that `wingbeat orbit -o` wrote"
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n",)
 
 
@@ -39,7 +40,7 @@ def inputs_hash(inputs: dict[str, Any]) -> str:
 def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
     """Return a record and its inputs as attributes: numbers and texts as they are, all else as JSON.
 
-    What is said of closure and plausibility stands beside them as two texts.
+    The statements on closure and plausibility are added as two texts.
     """
     attributes = {name: _encode(name, value) for name, value in record.items()}
     said = statements(record)
@@ -58,9 +59,9 @@ def parse_attributes(
     """
     if attributes.get(KIND) != "orbit":
         kind = attributes.get(KIND, "not from wingbeat")
-        raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; give a file of `orbit -o`")
+        raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; {_GIVE}")
     try:
-        # Any other attribute is somebody else's, as the `history` of other tools.
+        # Other attributes come from other programs, such as `history`.
         own = {name: value for name, value in attributes.items() if name in _KINDS or name in NOMENCLATURE}
         record = {name: _decode(name, value) for name, value in own.items()}
         inputs = record.pop("inputs")
@@ -116,20 +117,20 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
         # A pipe or a terminal would wait for ever.
         mode = os.stat(path).st_mode
         if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
-            raise FileError(f"cannot read {shown}: it is not a plain file; give a file of `orbit -o`")
+            raise FileError(f"cannot read {shown}: it is not a plain file; {_GIVE}")
         with open(path, "rb") as file:
             start = file.read(8)
     except (OSError, ValueError) as error:
         reason = system_reason(error)
         raise FileError(f"cannot read {shown}: {reason}; check the path") from None
     if start not in _SIGNATURES:
-        raise FileError(f"cannot read {shown}: it is not a NetCDF-4 file; give a file of `orbit -o`")
+        raise FileError(f"cannot read {shown}: it is not a NetCDF-4 file; {_GIVE}")
     import h5py
     import xarray as xr
 
     try:
         with h5py.File(path, "r") as whole:
-            dict(whole.attrs)  # damage here would have h5netcdf complain once more on stderr when it is let go
+            dict(whole.attrs)  # if these are damaged, h5netcdf would complain once more on stderr when it is freed
         return xr.load_dataset(path, engine="h5netcdf")
     except Exception as error:
         # HDF5 reports damage through many kinds of exception, each with its own inner words.

@@ -36,7 +36,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
-            notes.append(f"the optimum is at the bound of {name}, which is a guess: see the species file")
+            notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
         if name in ("u", "w", "pitch_rate"):
             notes.append(f"the initial {name} is at the solver's limit; do not trust this orbit")
     swing = float(np.ptp(solution.certificate.pitch))

@@ -20,10 +20,10 @@ _MEASURED = {
     if key.path not in ("vehicle.mass", "vehicle.body.mass")
     for path in key.spellings
 }
-# Limits of what the laws go on from: shares of the whole mass and the span, and anything on a planet.
+# Limits within which the laws work: shares of the whole mass or the span; wide limits for the rest.
 _SHARES = {"wing_mass": ("mass", 1e-6, 0.5), "semi_span": ("wing_span", 0.01, 1.0)}
 _LIMITS = {"frequency": (1e-3, 1e4), "density": (1e-3, 1e3), "gravity": (1e-3, 1e3)}
-# Shorter than its chord no span is; a hundred chords are a slip of units.
+# A span is longer than its chord; one of more than a hundred chords is a slip of units.
 _MOST_CHORDS = 100.0
 
 
@@ -48,13 +48,13 @@ def bird(
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
     name, common_name, scientific_name : its names.
-    measured : any number of a species file by its name, which replaces that of the laws: ``wing_mass``,
+    measured : any number of a species file, by its name; it replaces the one from the laws: ``wing_mass``,
         ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density`` and so on.
 
     Raises
     ------
-    InvalidInputError : not positive, not finite, an area larger than the square of the span, an unknown name; all
-        faults at once.
+    InvalidInputError : a number that is not positive or not finite, an area larger than the square of the span, or
+        an unknown name; all faults are listed at once.
 
     >>> import wingbeat as wb
     >>> crow = wb.bird(mass=0.3, wing_span=0.62, wing_area=0.06)
@@ -78,7 +78,7 @@ def bat(
     """Return a bat from its mass, wing span and wing area, with twist and fold.
 
     The rest follows from published scaling laws, as in `bird`. No law of bats' wing mass was found: 7 % of the
-    whole for each wing is a guess, and its source says so.
+    whole mass for each wing is a guess, and its source says so.
 
     Parameters
     ----------
@@ -113,18 +113,18 @@ def robot(
 ) -> Species:
     """Return a flapping robot from its mass [kg], wing span [m] and wing area [m2], as `bird`, with rigid wings.
 
-    No law of robots was found: masses and inertias are those of one robot by isometry, the stock frequency is that
-    of a bird of this size. Give what you know of yours.
+    No law of robots was found. Masses and inertias are scaled by isometry from single robots; the stock frequency
+    is that of a bird of this size. Give the numbers that you know of your robot.
 
     Parameters
     ----------
     mass, wing_span, wing_area, name, common_name, scientific_name, measured : as in `bird`.
     frequency_range : lowest and highest wingbeat frequency of its motor [Hz]; by default a wide guess,
-        and a warning names it if an orbit is at it.
+        and a warning says so if an orbit is at one of these bounds.
 
     Raises
     ------
-    InvalidInputError : as in `bird`, and a frequency range that is none.
+    InvalidInputError : as in `bird`, and a frequency range that is not (lowest, highest).
 
     >>> import wingbeat as wb
     >>> wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055, frequency_range=(1, 5)).bounds["frequency"]
@@ -165,7 +165,7 @@ def _species(
 
 def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     mass, span, area = size.values()
-    faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the mass of the whole in kg")
+    faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the whole mass in kg")
     good = faults.number(
         "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
     )
@@ -175,9 +175,11 @@ def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     ):
         return
     if area > span * span:
-        faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "m and m2?")
+        faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "use m and m2")
     elif area * _MOST_CHORDS < span * span:
-        faults.add("wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "m and m2?")
+        faults.add(
+            "wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "use m and m2"
+        )
 
 
 def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: FaultList) -> None:
@@ -206,7 +208,7 @@ def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: 
 
 
 def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) -> bool:
-    """Say whether the laws can go on from a measured number."""
+    """Say whether the laws can use a measured number."""
     if name in _LIMITS:
         low, high = _LIMITS[name]
         return faults.number(name, value, at_least=low, at_most=high)
@@ -216,7 +218,10 @@ def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) ->
     if low * size[whole] <= value <= high * size[whole]:
         return True
     faults.add(
-        name, value, f"must be {low:g} to {high:g} of the {whole}, {size[whole]:g}", "of one wing, in kg and m"
+        name,
+        value,
+        f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}",
+        "give that of one wing, in kg or m",
     )
     return False
 
@@ -226,7 +231,7 @@ def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None
         return None
     where = "frequency_range"
     if not isinstance(limits, tuple | list) or len(limits) != 2:
-        faults.add(where, shown(limits), "must be (lowest, highest)", "in Hz")
+        faults.add(where, shown(limits), "must be (lowest, highest)", "give both in Hz")
     elif all([faults.number(where, value, above=0, unit="Hz") for value in limits]):
         if limits[0] < limits[1]:
             return float(limits[0]), float(limits[1])

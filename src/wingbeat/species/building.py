@@ -1,4 +1,4 @@
-"""From numbers to records; faults of the constructors are told in the words of the file."""
+"""From numbers to records; faults of the constructors are reported in the words of the file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _DEFAULTS: dict[str, Any] = {
 
 
 def default_of(path: str) -> Any:
-    """Return the default of a number, or 1.0, which every constructor takes, where it has none."""
+    """Return the default of a number; if it has none, 1.0, which every constructor accepts."""
     return _DEFAULTS.get(path, 1.0)
 
 
@@ -49,7 +49,7 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
 
 
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:
-    """Set the mass of the body to the whole mass less both wings."""
+    """Set the mass of the body to the whole mass minus that of both wings."""
     whole, wing = (numbers[path].value if path in numbers else None for path in (WHOLE, WING))
     where, value = given.written.get(WHOLE) or given.written.get(WING, (WHOLE, whole))
     if not isinstance(whole, float):
@@ -57,15 +57,15 @@ def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -
     if whole <= 0:
         faults.add(where, value, "must be > 0 kg", "give the mass of the whole animal")
     elif not isinstance(wing, float) or wing <= 0:
-        return  # the wing's own fault is told elsewhere
+        return  # the wing's own fault is reported elsewhere
     elif whole <= 2 * wing:
-        faults.add(where, value, f"leaves no mass for the body: whole {whole:g} kg, each wing {wing:g} kg")
+        faults.add(where, value, f"leaves no mass for the body: the whole has {whole:g} kg, each wing {wing:g} kg")
     else:
         numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass less both wings")
 
 
 def check_bounds(content: SpeciesText, faults: FaultList) -> None:
-    """Note bounds that reach to where no wingbeat is: a frequency of 0, a negative amplitude."""
+    """Note bounds that allow an impossible wingbeat: a frequency of 0, a negative amplitude."""
     for name, bound in content.free.items():
         for end in bound.bounds:
             number = Numbers()

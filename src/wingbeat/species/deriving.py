@@ -1,4 +1,4 @@
-"""What nobody measured of an animal: numbers, bounds and alternatives from its mass, wing span and wing area."""
+"""Numbers of an animal that were not measured: values, bounds, alternatives from mass, wing span and wing area."""
 
 from __future__ import annotations
 
@@ -17,16 +17,17 @@ from wingbeat.species_schema import Alternative, Bound, Number, Numbers, Range, 
 from wingbeat.vehicle import Air
 
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
-# The bounds of a search, times the lower and the higher of the stock frequency and the cruising law of birds, which
-# knows size, weight and air: 1 to 30 Hz for a pigeon. Of 63 flights of derived animals and robots (1 g to 10 kg, at
-# 0.5 to 1.6 times the speed of a lift coefficient of 0.6) least frequency was 0.98 to 1.74 times that law.
+# Bounds of the frequency in a search: these factors times the lower and the higher of two frequencies, the stock
+# one and that of the cruising law of birds, which depends on size, weight and air. For a pigeon, 1 to 30 Hz. In
+# 63 flights of derived animals and robots (1 g to 10 kg, at 0.5 to 1.6 times the speed of a lift coefficient of
+# 0.6), the minimum frequency was 0.98 to 1.74 times that law.
 _WIDE = 1 / 8, 4.0
 _SU_FAN = "Su et al., arXiv 2302.09602"
 
 
 @dataclass(frozen=True)
 class Kind:
-    """The laws of birds, bats or robots, and their guesses where there is none."""
+    """The laws of birds, bats or robots, and guesses where there is no law."""
 
     wing_length: Law
     wing_mass: Law
@@ -79,8 +80,8 @@ def derive(
     ----------
     kind : whose laws.
     content : holds what was measured, by path.
-    mass, span, area : of the whole animal [kg], tip to tip [m], of both wings [m2].
-    frequencies : bounds of the wingbeat frequency [Hz]; wide ones around the stock frequency where None.
+    mass, span, area : mass of the whole animal [kg], span tip to tip [m], area of both wings [m2].
+    frequencies : bounds of the wingbeat frequency [Hz]; None for wide ones around the stock frequency.
     """
     found = _vehicle(kind, content.numbers, mass, span, area) | _air()
     air = [single(content.numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
@@ -99,7 +100,7 @@ def derive(
 
 def _shoulder(mass: float, span: float) -> Number:
     half_width = scaling.BODY_HALF_WIDTH.number(mass)
-    beside = f"guess: level with the body's centre of mass; to the side by half its width, {half_width.source}"
+    beside = f"guess: level with the body's centre of mass; half the body's width to the side, {half_width.source}"
     return Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span))
 
 
@@ -187,7 +188,7 @@ def _guess(path: str, degrees: float | None, low: float, high: float, source: st
 
 
 def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
-    """Return the bounds of what an orbit may choose, and those along the path; `usual` are frequencies [Hz]."""
+    """Return the bounds of the free parameters and those along the path; `usual` holds typical frequencies [Hz]."""
     low, high = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
     frequency = Bound((low, high), "guess: an eighth to four times what the laws of the frequency give", True)
     if given is not None:

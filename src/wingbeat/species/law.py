@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 from wingbeat.species_schema import Number
 
-# Stands in the source of a number that a law gave outside its data, before what is outside of what.
+# In the source of a number that a law gave outside its data: precedes the value and the range that it leaves.
 OUTSIDE = "outside its data: "
 
 
 @dataclass(frozen=True)
 class Data:
-    """What a law was fitted to: lowest and highest value of its inputs, SI units, and where these were read.
+    """The data a law was fitted to: lowest and highest value of each input in SI units, and where they were read.
 
     Parameters
     ----------
@@ -37,10 +37,10 @@ class Law:
     inputs : symbol and unit of each value that it takes.
     function : the formula.
     source : where it was read.
-    spread : factors between which measured values lie, of the value that the law gives.
+    spread : lowest and highest ratio of measured values to the value that the law gives.
     scatter : where the spread comes from.
     data : what it was fitted to.
-    beyond : how it goes on outside its data, if not by its formula.
+    beyond : how the law continues outside its data, if not by its formula.
 
     >>> from wingbeat.species.scaling import BIRD_WING_MASS
     >>> number = BIRD_WING_MASS.number(0.316)
@@ -71,7 +71,7 @@ class Law:
         return Number(value, self.unit, source + self.outside(*values), (low * value, high * value))
 
     def outside(self, *values: float) -> str:
-        """Return what of these values is outside the law's data, as the end of a source; empty if nothing is."""
+        """Return, as the end of a source, which of these values are outside the law's data; empty if none is."""
         found = []
         for pair, value in zip(self.inputs, values, strict=True):
             symbol, unit = pair.split()

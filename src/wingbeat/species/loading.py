@@ -21,14 +21,14 @@ from wingbeat.species_schema import (
     species_names,
 )
 
-# Nose straight up or down: where a file sets no limit, no more than this can be flight.
+# Nose straight up or down: the limit where a file sets none.
 _UPRIGHT = (-math.pi / 2, math.pi / 2)
 _PATH = {
     "body_pitch": Bound(_UPRIGHT, "no limit given: nose straight down to straight up", True),
     "flap": Bound(_UPRIGHT, "no limit given: wing straight down to straight up", True),
 }
 _SEPARATORS = [separator for separator in ("/", os.sep, os.altsep) if separator]
-_LARGEST = 1 << 18  # bytes; ours have 12 000
+_LARGEST = 1 << 18  # bytes; the built-in files have 12 000
 
 
 def load_species(name_or_path: str | os.PathLike[str]) -> Species:
@@ -36,7 +36,7 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
 
     Parameters
     ----------
-    name_or_path : ``"pigeon"``, ``"bat"``, or a path: whatever ends in .toml or contains a separator.
+    name_or_path : ``"pigeon"``, ``"bat"``, or a path; a text that ends in .toml or contains a separator is a path.
 
     Raises
     ------

@@ -112,7 +112,7 @@ class Species:
 
         Raises
         ------
-        InvalidInputError : an unknown path, a path given twice, a wrong type or shape, the impossible.
+        InvalidInputError : an unknown path, a path given twice, a wrong type or shape, or an impossible value.
         """
         faults, given = FaultList(), Numbers()
         for path, value in values.items():
@@ -129,7 +129,7 @@ class Species:
         return self._rebuilt(self.numbers | given, given, faults)
 
     def with_record(self, record: Vehicle | Wingbeat) -> Species:
-        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` in step.
+        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` to match.
 
         Parameters
         ----------
@@ -162,7 +162,7 @@ class Species:
 
         Raises
         ------
-        InvalidInputError : a negative payload, not finite, no number.
+        InvalidInputError : a payload that is negative, not finite, or not a number.
 
         >>> from wingbeat.species import load_species
         >>> round(load_species("pigeon").with_payload(0.03).vehicle.mass, 3)
@@ -202,7 +202,7 @@ class Species:
         return self._rebuilt(numbers, patch, faults)
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
-        """Return a copy with other numbers: records checked, whole mass and warnings made anew."""
+        """Return a copy with other numbers; records are checked, whole mass and warnings are made anew."""
         records = build_records(numbers, given, faults)
         faults.raise_if_any()
         mass, whole = records["vehicle"].mass, numbers[WHOLE]

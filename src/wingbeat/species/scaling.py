@@ -15,26 +15,31 @@ RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, doi 10.1242/jeb.198
 PENNYCUICK = "Pennycuick 1996, J Exp Biol 199:1613, doi 10.1242/jeb.199.7.1613"
 BULLEN = "Bullen and McKenzie 2002, J Exp Biol 205:2615, doi 10.1242/jeb.205.17.2615"
 HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, data of the R package AvInertia"
-FLAPPER = "parameters of the Flapper Nimble+ in federicoangioni/flapper-dynamic-model, how found not stated"
+FLAPPER = "parameters of the Flapper Nimble+ in federicoangioni/flapper-dynamic-model; it is not stated how found"
 
 
 # --- what the laws were fitted to ---
 
 # Of the table that `BIRD_MASS` was fitted to; rows marked as outliers left out.
 _BIRD_TABLE = Data({"b": (0.087, 3.25)}, "689 species of that table")
-# The paper's own table was not read.
-_RAYNER_BIRDS = Data({"m": (0.01, 10.0), "l": (0.085, 1.31)}, "29 birds: the axes of its figures 5 and 6")
-_RAYNER_WINGS = Data({"m_w": (4.5e-4, 0.885), "l": (0.085, 1.31)}, "29 birds of 0.01 to 10 kg, by its own laws")
-_PENNYCUICK_BIRDS = Data({"m": (0.0054, 11.9), "b": (0.154, 3.04)}, "219 birds that the same author measured")
+# The table of van den Berg and Rayner themselves was not read.
+_RAYNER_BIRDS = Data(
+    {"m": (0.01, 10.0), "l": (0.085, 1.31)}, "29 birds; the ranges are the axes of figures 5 and 6"
+)
+_RAYNER_WINGS = Data(
+    {"m_w": (4.5e-4, 0.885), "l": (0.085, 1.31)},
+    "29 birds of 0.01 to 10 kg; the ranges follow from the same paper's laws",
+)
+_PENNYCUICK_BIRDS = Data({"m": (0.0054, 11.9), "b": (0.154, 3.04)}, "219 birds that Pennycuick measured")
 _BATS = "65 species whose frequency is known: Norberg and Norberg 2012, J Exp Biol 215:711, abstract"
 _BATS_MASSES, _BATS_AREAS = (0.002, 0.87), (0.0028, 0.16)
 _NO_DATA = Data({}, "none: not fitted to anything")
 
 
 def _one(whose: str, mass: float) -> Data:
-    """Return the range in which one animal may be scaled by isometry: three times as long or short, a guess."""
+    """Return the range in which one animal may be scaled by isometry; a guess: a third to 3 times its length."""
     return Data(
-        {"m": (mass / 27, mass * 27)}, f"one {whose} of {mass:g} kg and those to 3 times its length, a guess"
+        {"m": (mass / 27, mass * 27)}, f"one {whose} of {mass:g} kg; a guess: a third to 3 times its length"
     )
 
 
@@ -81,7 +86,7 @@ MEAN_CHORD = Law(
     _NO_DATA,
 )
 
-# Span over mean chord, whole table or guess.
+# Span over mean chord: the range of a whole table of birds, or a guess.
 BIRD_ASPECT_RATIO = (3.6, 16.6), "all of 613 bird species in BirdWingData_tidy_ver2.1"
 BAT_ASPECT_RATIO = (4.0, 12.0), "a guess around the 6 of the built-in bat and the 7 to 9 of 24 noctules"
 ROBOT_ASPECT_RATIO = (2.5, 10.0), "a guess around the 3.4 to 7.0 of four robots"
@@ -113,7 +118,7 @@ ROBOT_WING_MASS = Law(
     "0.042 m",
     ("m kg",),
     lambda mass: 0.5 * (0.103 - 0.0943) / 0.103 * mass,
-    f"no law found: one robot, 103 g with and 94.3 g without wings; {FLAPPER}",
+    f"no law found: one robot that weighs 103 g with and 94.3 g without its wings; {FLAPPER}",
     (0.4, 2.5),
     "guess",
     _one("robot", 0.103),
@@ -143,9 +148,10 @@ ROBOT_MASS_EXPONENT = Law(
     "1.1, a wing whose centre of mass is at 0.32 of its length",
     (),
     lambda: 1 / 0.32 - 2,
-    "no law found: one robot's wing, 0.08 m of 0.25 m, in code of Fan, Gehrke and Breuer, arXiv 2408.15577",
+    "no law found: the centre of mass of one robot's wing, 0.08 m from the root of a 0.25 m wing, "
+    "read in the code of Fan, Gehrke and Breuer, arXiv 2408.15577",
     (0.0, 2.0),
-    "guess: uniform to as a bird",
+    "guess: from a uniform wing to one like a bird's",
     _NO_DATA,
 )
 BIRD_PITCH_INERTIA = Law(
@@ -231,7 +237,7 @@ def _pennycuick(mass: float, span: float, area: float, density: float, gravity: 
 
 
 def _bullen(mass: float, speed: float) -> float:
-    """Return the law of bats, outside its data as a power: from 10 kg on its logarithm gives no frequency."""
+    """Return the law of bats; outside its data, a power of mass: from 10 kg on the logarithm gives none."""
     inside = min(max(mass, _BATS_MASSES[0]), _BATS_MASSES[1])
     fitted = 5.54 - 3.068 * math.log10(inside) - 2.857 * math.log10(speed)
     return fitted * (mass / inside) ** -0.26
@@ -254,7 +260,8 @@ ROBOT_FREQUENCY = Law(
     _pennycuick,
     f"no law of robots found: that of birds, {PENNYCUICK}",
     (0.7, 1.3),
-    "four robots lie at 0.80 to 1.16 (USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust)",
+    "four robots lie at 0.80 to 1.16 times the law "
+    "(USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust)",
     _PENNYCUICK_BIRDS,
 )
 BAT_FREQUENCY = Law(
@@ -264,9 +271,9 @@ BAT_FREQUENCY = Law(
     _bullen,
     f"{BULLEN}, abstract: 23 Australian species",
     (0.75, 1.3),
-    "21 of the 23 within 1 Hz, and speeds from 4 to 10 m/s",
+    "room for 1 Hz more or less, as for 21 of the 23 species, and for speeds from 4 to 10 m/s",
     Data({"m": _BATS_MASSES}, _BATS),
-    "as m^-0.26, the power of those species, from the nearest end",
+    "it goes on from the nearest end of the data as m^-0.26, the exponent of those species",
 )
 BIRD_FLAP_AMPLITUDE = Law(
     "rad",
@@ -276,7 +283,7 @@ BIRD_FLAP_AMPLITUDE = Law(
     "Nudds, Taylor and Thomas 2004, as quoted in code",
     (0.5, 1.6),
     "guess",
-    Data({}, "60 species of birds, their spans not read"),
+    Data({}, "60 species of birds, whose spans were not read"),
 )
 BAT_FLAP_AMPLITUDE = Law(
     "rad",
@@ -295,7 +302,7 @@ ROBOT_FLAP_AMPLITUDE = Law(
     lambda: math.radians(0.5 * (80 + 105 + 50 + 90) / 4),
     "no law found: the mean of USTButterfly, USTButterfly-II, AirPulse and one of Zhang et al.; low trust",
     (0.6, 1.35),
-    "those four, of 50 to 105 degrees",
+    "those four robots have 50 to 105 degrees",
     _NO_DATA,
 )
 
@@ -314,11 +321,11 @@ CRUISE_BY_MASS = Law(
 
 
 def exponent_of_inertia(share: float) -> float:
-    """Return the p of strip masses ``(1 - s/L)**p`` that gives a flap inertia; 0, a uniform wing, where none does.
+    """Return the p of strip masses ``(1 - s/L)**p`` that gives a flap inertia; 0, a uniform wing, if none does.
 
     Parameters
     ----------
-    share : inertia about the shoulder over wing mass times length squared; ``2/((p + 2) (p + 3))``.
+    share : inertia about the shoulder, divided by wing mass times length squared: ``2/((p + 2) (p + 3))``.
 
     >>> exponent_of_inertia(1 / 3), round(exponent_of_inertia(0.1), 9)
     (0.0, 2.0)

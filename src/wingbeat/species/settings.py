@@ -7,7 +7,7 @@ from typing import Any
 from wingbeat.errors import FaultList, FileError, suggest
 from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
-# The whole mass is not among them: it follows from body and wings, and nothing moves unasked.
+# The whole mass is not among them: it follows from body and wings, and nothing changes unasked.
 _SETTABLE = {
     path: key
     for key in KEYS
@@ -51,7 +51,7 @@ def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
     if isinstance(path, str) and path in _SETTABLE:
         return _SETTABLE[path]
     if path in ("mass", "vehicle.mass"):
-        fix = "set body.mass or wing.mass, the whole mass follows from both"
+        fix = "set body.mass or wing.mass; the whole mass follows from both"
     else:
         fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
     faults.add(spoken(path), shown(value), "is not the path of a number", fix)
@@ -59,7 +59,7 @@ def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
 
 
 def plain(value: Any) -> Any:
-    """Return a value as a file would hold it: numbers and lists in place of NumPy's and tuples."""
+    """Return a value as a file would hold it: plain numbers and lists in place of NumPy arrays and tuples."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     return [plain(item) for item in value] if isinstance(value, list | tuple) else value

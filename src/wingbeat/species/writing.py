@@ -98,7 +98,7 @@ def _quoted(text: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Return a text in quotes, over several lines where one is too long: readers put them together again."""
+    """Return a text in quotes, over several lines if one would be too long; readers join them again."""
     quoted = _quoted(text)
     if len(quoted) < 100:
         return quoted

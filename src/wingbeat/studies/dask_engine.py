@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from distributed.deploy.cluster import Cluster
 
 _LOCAL, _REMOTE = re.compile(r"local:([1-9][0-9]{0,3})"), re.compile(r"(tcp|tls)://\S+:[0-9]+")
-# Seconds: to wait for a scheduler's first word, between two looks at who works for it, to wait for an answer that
-# is there but whose worker may just have died.
+# Seconds: to wait for a scheduler's first reply; between two checks of its workers; to wait for an answer that is
+# there, but whose worker may just have died.
 _CONNECT, _LOOK, _FETCH = 10.0, 2.0, 5.0
 # Where a cluster of our own may listen: nobody else can reach it, at any port that is free.
 _LOOPBACK = "127.0.0.1:0"
@@ -43,18 +43,18 @@ def check_dask(faults: FaultList, where: str, value: Any) -> None:
 
 
 class DaskEngine:
-    """Workers of a Dask cluster, one batch a thread, each thread with a process of its own.
+    """Workers of a Dask cluster; each thread of theirs takes one batch and runs it in a process of its own.
 
     Parameters
     ----------
     where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
         cluster of Dask's own, as of dask-jobqueue.
     timeout : seconds without a word from a process that has work, after which it is ended.
-    told : called with what a user should know: no workers yet, other versions there.
+    told : called with notices for the user: no workers yet, other versions on the workers.
 
     Raises
     ------
-    ClusterError : Dask is not installed, the scheduler does not answer, a worker's wingbeat is another one.
+    ClusterError : Dask is not installed, the scheduler does not answer, a worker has another version of wingbeat.
     InvalidInputError : `where` names no cluster.
     """
 
@@ -159,11 +159,11 @@ class DaskEngine:
     def _check(self) -> None:
         """Raise if the scheduler is gone."""
         if self._client.status != "running":
-            fix = "stored results remain: start it again and run the study again"
+            fix = "stored results remain: start the scheduler again and run the study again"
             raise ClusterError(f"the Dask scheduler at {self._where} is gone; {fix}")
 
     def _look(self) -> None:
-        """See from time to time who works for the scheduler, and meet those who are new."""
+        """Check from time to time which workers the scheduler has, and examine new ones."""
         self._check()
         if time.monotonic() < self._looked + _LOOK:
             return
@@ -180,7 +180,7 @@ class DaskEngine:
         self._looked = time.monotonic()
 
     def _meet(self, addresses: Iterable[str]) -> list[str]:
-        """Return which of new workers answer; refuse those with other numbers, tell of other versions."""
+        """Return the new workers that answer; refuse other numerical versions, report other package versions."""
         if not (new := sorted(addresses)):
             return []
         _, ours = greet()

@@ -21,7 +21,7 @@ from wingbeat.errors import ClusterError, WorkerError
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 
-# What the last digit of an answer hangs on, beside the machine.
+# What the last digit of an answer depends on, besides the machine.
 _TOLD = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
 # Seconds that a process without work is kept.
 _KEPT = 60.0
@@ -36,8 +36,8 @@ class Order(NamedTuple):
     units : its points.
     work : what the processes run, ``module:function``.
     timeout : seconds without a word from a process, after which it is ended.
-    driver : the name of who asks.
-    numerical_version : of who asks.
+    driver : name of the driver that asks.
+    numerical_version : of that driver.
     """
 
     batch: int
@@ -49,7 +49,7 @@ class Order(NamedTuple):
 
 
 def greet() -> tuple[int, dict[str, str]]:
-    """Return the numerical version, and the versions of all that an answer's last digit hangs on."""
+    """Return the numerical version, and the versions of all that an answer's last digit depends on."""
     versions = {name: importlib.metadata.version(name) for name in _TOLD}
     return NUMERICAL_VERSION, {"wingbeat": __version__, "Python": platform.python_version(), **versions}
 

@@ -29,7 +29,7 @@ CREATE INDEX points_status ON points (key, status, run_number);
 
 
 class DamagedStoreError(FileError):
-    """Something in a store is not what was written there."""
+    """Something in a store differs from what was written there."""
 
 
 def connect(path: Path, mode: str) -> sqlite3.Connection:
@@ -48,7 +48,7 @@ def connect_reader(path: Path) -> sqlite3.Connection:
     try:
         connection = connect(path, "mode=rw")
     except sqlite3.OperationalError:
-        # Without a log beside it nobody writes to it.
+        # Without a log beside it, nobody is writing to it.
         logged = path.with_name(path.name + "-wal").exists()
         connection = connect(path, "mode=ro" if logged else "mode=ro&immutable=1")
     connection.execute("PRAGMA query_only = 1")
@@ -102,5 +102,5 @@ def in_words(path: Path) -> Iterator[None]:
             fix = "check the path, or copy the study to a folder that you can write to"
             raise FileError(f"cannot open the store {str(path)!r}: {told}; {fix}") from None
         if "locked" in told or "busy" in told:
-            raise FileError(f"the store {str(path)!r} is in use by another program; close that") from None
+            raise FileError(f"the store {str(path)!r} is in use by another program; close that program") from None
         raise refusal(path, told) from None

@@ -15,7 +15,7 @@ _BYTES = 16
 
 
 def _told(values: Iterable[Any]) -> bytes:
-    """Return a row as bytes: the type and length of each value before them all: no two rows are alike."""
+    """Return a row as bytes, type and length of each value first, so that different rows give different bytes."""
     texts, heads = [], []
     for value in values:
         text = value if type(value) is str else repr(value)

@@ -1,4 +1,4 @@
-"""The driver of a study: hands out what has no answer yet, and keeps every answer before it asks for more."""
+"""The driver of a study: hands out points without an answer, and saves every answer before it asks for more."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
 # Seconds of work that make a batch: long beside what handing it out costs, short beside a user's patience.
 _BATCH_SECONDS = 1.5
 _MOST = 256
-# Processes that a point may take along, by how they ended, before it is given up: a kill from outside is no fault
-# of the point, and hardly meets the same one three times.
+# Processes that may die over a point, by how they ended, before the point is given up. A kill from outside
+# is not the point's fault, and hardly hits the same point three times.
 _TRIES = {"crashed": 3, "timeout": 2}
-# Seconds that batches in flight are waited for after the first request to stop.
+# Seconds to wait for batches in flight after the first request to stop.
 GRACE = 1.0
 
 
 @dataclass
 class Stop:
-    """Whether to stop: 1 soon, with the batches that end till then, 2 now; `by` is the signal that said so.
+    """A request to stop: level 1 is soon, keeping batches that end until then, 2 is now; `by` is the signal.
 
     Only a driver that has batches in flight is asked; at any other time signals do what they did before.
     """
@@ -38,7 +38,7 @@ class Stop:
     driving: bool = False
 
     def ask(self, level: int, by: int = signal.SIGINT) -> None:
-        """Ask to stop; whoever asked for more before is not taken back."""
+        """Ask to stop; an earlier request of a higher level remains."""
         if level > self.level:
             self.level, self.by, self.since = level, by, time.monotonic()
 
@@ -50,7 +50,7 @@ class Stop:
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Let SIGINT ask to stop soon, a second one and SIGTERM to stop now; `told` hears the level asked for."""
+    """Let SIGINT ask to stop soon, a second one and SIGTERM to stop now; `told` is called with the level."""
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
@@ -115,7 +115,7 @@ class Tally:
 
     @property
     def seconds_left(self) -> float | None:
-        """At this rate, None before there is one."""
+        """Seconds left at this rate; None before a point is solved."""
         return (self.total - self.done) / self.rate if self.here else None
 
     def add(self, outcomes: list[Outcome]) -> None:
@@ -138,7 +138,7 @@ class _Job(NamedTuple):
 
 
 class _Queue:
-    """Jobs in the order in which they are handed out: those that were lost one by one, then those of the plan."""
+    """Jobs in the order in which they are handed out: first lost ones, one by one, then those of the plan."""
 
     def __init__(self, waiting: Iterator[Waiting], engine: Engine, points: int) -> None:
         self._waiting = waiting
@@ -181,7 +181,7 @@ def drive(
     progress: Progress | None = None,
     retry_failed: bool = False,
 ) -> Tally:
-    """Solve what has no answer in a store, and keep each batch's answers at once.
+    """Solve all points of a store without an answer, and save each batch's answers at once.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def drive(
 
 
 def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: Tally, run: int) -> None:
-    """Keep what a batch gave; of one that was lost hand out the rest again, and give up what was lost too often."""
+    """Save the outcomes of a batch; of a lost batch, hand out the rest again and give up points lost too often."""
     jobs.learn(len(ended.outcomes), sum(outcome.seconds for outcome in ended.outcomes))
     wanted = frozenset().union(*(job.wanted for job in batch))
     outcomes = [outcome for outcome in ended.outcomes if outcome.key in wanted]
@@ -236,7 +236,7 @@ def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: 
 def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
     """Return the points to give up, and the jobs to hand out again.
 
-    The first point that nobody told of is the one to blame. Where an engine tells nothing before a batch's end,
+    The first point that was not reported is the one to blame. If an engine reports nothing before a batch ends,
     each unit goes into a process of its own before any is blamed.
     """
     told = {outcome.key for outcome in ended.outcomes}
@@ -248,7 +248,7 @@ def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_J
         if not left:
             continue
         if blamed:
-            # Of a chain all is asked for again, for an answer hangs on the one before it.
+            # All points of a chain are asked for again, because each answer depends on the one before it.
             again.append(job._replace(wanted=job.wanted - told))
             continue
         blamed = True

@@ -1,4 +1,4 @@
-"""Where the work is done: an engine takes batches of units and says how each ended. Local processes are one."""
+"""Where the work is done: an engine takes batches of units and reports how each ended. Here: local processes."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _ONE_THREAD = {
     "MKL_NUM_THREADS": "1",
     "VECLIB_MAXIMUM_THREADS": "1",
 }
-# Workers that die in a row before they are ready, after which no more are started: no point is to blame.
+# After this many workers in a row that die before they are ready, no more are started: no point is to blame.
 _STARTS = 3
-# How many times the timeout a worker may be silent that its driver cannot end, and some seconds for short ones.
+# A worker that its driver cannot end ends itself after a silence of this many timeouts plus these seconds.
 _BACKSTOP, _BACKSTOP_SECONDS = 2.0, 60.0
 
 
@@ -32,11 +32,12 @@ class Ended(NamedTuple):
     Parameters
     ----------
     batch : its number.
-    outcomes : of its points, in their order; of a batch that was lost, those that were told before.
-    worker : the name of who did it.
+    outcomes : outcomes of its points, in order; of a lost batch, those that were reported before it was lost.
+    worker : name of the worker.
     lost : None, or how the worker ended: ``crashed`` or ``timeout``.
-    text : what is known of that.
-    told : whether a worker tells each point as it is done, so that the first one untold is the one to blame.
+    text : what is known about the loss.
+    told : whether a worker reports each point when it is done; the first unreported point of a lost batch is then
+        to blame.
     """
 
     batch: int
@@ -48,20 +49,20 @@ class Ended(NamedTuple):
 
 
 class Engine(Protocol):
-    """What the driver asks of an engine; the driver alone decides what is done, again, or given up."""
+    """The interface of an engine. The driver alone decides which points are solved, retried or given up."""
 
     @property
     def free(self) -> int:
-        """How many more batches it takes now."""
+        """Number of further batches that the engine accepts now."""
         ...
 
     @property
     def workers(self) -> int:
-        """How many batches it works on at a time."""
+        """Number of batches that the engine works on at the same time."""
         ...
 
     def submit(self, batch: int, units: list[Unit]) -> None:
-        """Take a batch; its number comes back with how it ended."""
+        """Take a batch; `wait` later returns its number and how it ended."""
         ...
 
     def wait(self, seconds: float) -> Ended | None:
@@ -177,7 +178,7 @@ class LocalProcesses:
             self._end(worker, "crashed", f"its process raised {type(message.value).__name__}: {message.value}")
 
     def _end_silent(self) -> None:
-        """End workers that have work and said nothing for too long."""
+        """End workers that have work but have sent nothing for too long."""
         now = time.monotonic()
         for worker in list(self._crew):
             if worker.batch is not None and now - worker.heard > self._timeout:
@@ -185,7 +186,7 @@ class LocalProcesses:
                 self._bury(worker, "timeout")
 
     def _bury(self, worker: _Worker, how: str) -> None:
-        """Take leave of a worker that has ended, and say what became of its batch."""
+        """Remove a worker that has ended, and report how its batch ended."""
         self._crew.remove(worker)
         ending = worker.process.bury()
         if not worker.ready and how == "crashed":
@@ -196,7 +197,7 @@ class LocalProcesses:
         self._end(worker, how, text)
 
     def _end(self, worker: _Worker, lost: str | None = None, text: str = "") -> None:
-        """Say how the batch of a worker ended, if it has one."""
+        """Report how the batch of a worker ended, if it has one."""
         if worker.batch is not None:
             self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, lost, text))
             worker.batch = None

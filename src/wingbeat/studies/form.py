@@ -27,7 +27,7 @@ def _listed(value: Any) -> Any:
 
 
 def _twice_listed(value: Any) -> Any:
-    """Return limits as a list of sets of limits: one text is a set of one, a list of texts one set."""
+    """Return limits as a list of sets of limits: one text is a set of one limit, a list of texts is one set."""
     listed = _listed(value)
     return listed if listed and all(isinstance(item, list) for item in listed) else [listed]
 
@@ -48,7 +48,7 @@ _Values = Annotated[list[Any], _Some]
 
 
 class Vary(BaseModel):
-    """The values of one varied parameter: exactly one of the five."""
+    """The values of one varied parameter, given in exactly one of five ways."""
 
     model_config = _STRICT
     # Named otherwise than in the file where Python has the name already.
@@ -60,12 +60,12 @@ class Vary(BaseModel):
 
     @property
     def given(self) -> tuple[str, ...]:
-        """Which of the five are given."""
+        """Which of the five ways are used."""
         return tuple(self.model_dump(by_alias=True, exclude_none=True))
 
     @property
     def how(self) -> str:
-        """Which of them it is, once there is exactly one."""
+        """The way that is used, once it is known to be exactly one."""
         return self.given[0]
 
     @property
@@ -84,7 +84,7 @@ class Sample(BaseModel):
 
 
 class StudyForm(BaseModel):
-    """A study. Every key above `vary` may be a list, and lists multiply; one limit set or ``free`` is a list."""
+    """A study. Each key above `vary` may be a list; lists multiply. One limit set or ``free`` is a list already."""
 
     model_config = _STRICT
     species: _Texts
@@ -193,7 +193,11 @@ def _known(loc: tuple[Any, ...]) -> list[str]:
 
 
 def _check_vary(form: StudyForm, faults: FaultList) -> None:
-    """Note what is wrong between the ways in which values are given."""
+    """Record faults in how the study form gives values.
+
+    These are: more than one way for a parameter, repeated values, lists of unequal length, ranges without a sample
+    (and the reverse), and a chain or advice that does not fit.
+    """
     ranged, rows = [], {}
     for path, vary in form.vary.items():
         where, given = dotted(("vary", path)), vary.given
@@ -212,7 +216,12 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
             faults.add(f"{where}.{given[0]}", shown(values), "names a value twice", "keep one of them")
     if len(set(rows.values())) > 1:
         lengths = ", ".join(f"{path} {count}" for path, count in rows.items())
-        faults.add("vary", lengths, "lists go row by row and must be equally long", "or give grid instead of list")
+        faults.add(
+            "vary",
+            lengths,
+            "lists are combined row by row, so they must have equal lengths",
+            "or give grid instead of list",
+        )
     if ranged and form.sample is None:
         fix = 'add [sample] with method = "sobol" and n = 256'
         faults.add("sample", NOTHING, f"must be given, since {ranged[0]} has a range", fix)
@@ -229,9 +238,14 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         fix = f"chain along {' or '.join(gridded)}" if gridded else "leave chain out"
         faults.add("chain", form.chain, "is not a parameter varied by grid or relative", fix)
     elif form.chain is not None and form.vary[form.chain].given == ("list",):
-        faults.add("chain", form.chain, "goes with its list row by row", "give it as grid")
+        faults.add(
+            "chain",
+            form.chain,
+            "is varied by a list, which is combined with other lists row by row",
+            "give it as grid",
+        )
     if form.advise and not form.explain:
-        faults.add("advise", True, "cannot go with explain = false", "leave one of them out")
+        faults.add("advise", True, "cannot be combined with explain = false", "leave one of them out")
 
 
 def number(value: Any) -> Any:

@@ -151,7 +151,7 @@ def _frames(path: Path) -> tuple[bytes, list[bytes]]:
 
 
 def _is_of(frame: bytes, head: bytes) -> bool:
-    """Say whether a frame is of a log's own time: both salts of an older one differ, a flipped bit changes one."""
+    """Say whether a frame is of the current log: in an older one both salts differ, a flipped bit changes one."""
     return frame[8:12] == head[16:20] or frame[12:16] == head[20:24]
 
 

@@ -1,4 +1,4 @@
-"""From the form of a study to its points, every fault of it found before anything runs."""
+"""From the form of a study to its points; every fault is found before anything runs."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class Plan:
 
     @functools.cached_property
     def digest(self) -> str:
-        """Tells whether two plans are of the same points."""
+        """Digest of the plan: equal if two plans have the same points."""
         vary = [[path, self.form.vary[path].model_dump(by_alias=True, exclude_none=True)] for path in self.paths]
         sample = self.form.sample.model_dump() if self.form.sample else None
         bases = [[base.hash, base.motion] for base in self.bases]
@@ -149,7 +149,7 @@ class Plan:
 def _point(
     base: Base, index: int, unit: int, values: dict[str, Any], stock: dict[str, Any], before: list[Any]
 ) -> Point:
-    # What is varied to what it was anyway is no change: the point is that of a study that does not vary it.
+    # A value equal to the base's is no change: the point is the same as in a study that does not vary it.
     changes = base.motion | {p: v for p, v in values.items() if p in MOTION or _floats(v) != _floats(stock[p])}
     told = [NUMERICAL_VERSION, base.hash, changes, *([before] if before else [])]
     return Point(hashlib.sha256(canonical(told).encode()).hexdigest(), index, unit, changes, list(values.values()))
@@ -167,7 +167,7 @@ def _between(low: Any, high: Any, share: float) -> Any:
 
 
 def _scaled(form: StudyForm, path: str, stock: Any, values: list[Any]) -> list[Any]:
-    """Return values, those that are given relative to the base's own times that."""
+    """Return values; relative ones are multiplied by the base's own value."""
     if not form.vary[path].how.startswith("relative"):
         return values
     return [[factor * v for v in stock] if isinstance(stock, list) else factor * stock for factor in values]
@@ -206,7 +206,9 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     faults.raise_if_any()
     plan = Plan(form, tuple(bases.values()))
     if len(plan) > MOST_POINTS:
-        faults.add("vary", len(plan), f"points are more than {MOST_POINTS}", "vary less, or in several studies")
+        faults.add(
+            "vary", len(plan), f"points are more than {MOST_POINTS}", "vary less, or split it into several studies"
+        )
         faults.raise_if_any()
     return plan
 
@@ -295,7 +297,7 @@ def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
-    """Note each value that cannot stand where it is put, by itself."""
+    """Note each value that is by itself impossible at its path."""
     names: dict[str, str] = {}
     for path, vary in form.vary.items():
         given = vary.how
@@ -319,7 +321,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
             except InvalidInputError as error:
                 own.faults += error.faults
             except (TypeError, ValueError, OverflowError) as error:
-                own.add(path, shown(value), f"cannot stand there ({error})")
+                own.add(path, shown(value), f"is impossible there ({error})")
             told = _values_of(form, path)[i]
             named = [Fault(f"{where}[{i}]", _text(told), fault.rule, fault.fix) for fault in own.faults]
             if any("is not the path" in fault.rule for fault in named):

@@ -1,4 +1,4 @@
-"""What a combination of a study's top level fixes, and how a point changes it: one place for paths and values."""
+"""What a combination of a study's top level fixes, and how a point changes it: all paths and values are here."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class Recipe:
         return self.problem(_AT_REST)
 
     def name_of(self, path: str) -> str:
-        """Return the one name of what a path names, which may say ``vehicle.`` or not, and an angle in degrees."""
+        """Return the one name of a path, which may be written with or without ``vehicle.``, an angle in degrees."""
         key = _key(path)
         return path.removeprefix("vehicle.") if key is None else key.path
 
@@ -118,7 +118,7 @@ class Recipe:
         return None if found is None else found.value
 
     def check(self, path: str, value: Any, faults: FaultList) -> None:
-        """Raise `InvalidInputError`, or note a fault, where a value cannot stand at a path by itself."""
+        """Raise `InvalidInputError`, or note a fault, if a value is by itself impossible at a path."""
         if path in MOTION:
             faults.number(path, value, **MOTION[path])
         elif _key(path) is not None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
     """Return points of the unit cube, shape (count, directions).
 
-    Of Sobol's sequence (scrambled with the seed) the first points are the same whatever the count, so that more can
-    be added; a Latin hypercube of another count is another one.
+    Sobol's sequence (scrambled with the seed) begins with the same points whatever the count, so that more can be
+    added. A Latin hypercube of another count has other points.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Whether a study's store is sound: asked whenever one is opened, before anything in it is believed."""
+"""Whether a study's store is undamaged; checked whenever one is opened, before anything in it is used."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class _Damaged(Exception):
 
 
 def check_files(path: Path, mine: bool) -> None:
-    """Refuse a store for what its files say before SQLite opens them: it would mend a log by cutting it off.
+    """Refuse a store whose files show damage, before SQLite opens them: SQLite would repair a log by truncating it.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def check_files(path: Path, mine: bool) -> None:
 
 
 def check_contents(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse what is no store, what other numbers stand in, and what is not as it was written.
+    """Refuse a file that is no store, a store of another numerical version, and a damaged store.
 
     Every row of every table is read, at some 30 us a point, unless this process found the same files sound before.
 

@@ -157,7 +157,7 @@ class Store:
         return self._about.get("plan_digest", "")
 
     def set_plan(self, plan: Plan) -> None:
-        """Hold the points of a plan, in place of those of another; answers stay."""
+        """Store the points of a plan in place of those of the plan before; answers stay."""
         if self.digest == plan.digest:
             return
         connection = self._connection

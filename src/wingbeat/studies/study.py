@@ -268,7 +268,7 @@ def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:
 
 
 def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:
-    """Return processes of this machine or workers of a Dask cluster; `told` hears what is odd about those.
+    """Return processes of this machine or workers of a Dask cluster; `told` is called with notices about those.
 
     Raises
     ------

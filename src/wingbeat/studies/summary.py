@@ -14,7 +14,7 @@ class Summary:
     total : points of the study.
     counts : points by status; ``waiting`` are those without an answer.
     kept : answers in the store of points that the study no longer asks for.
-    changed : whether the store holds the points of the study as it was before a change, not yet run.
+    changed : whether the study was changed and not yet run, so that the store holds the points from before.
     seconds : what the answers took, on one core [s].
     """
 

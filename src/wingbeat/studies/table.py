@@ -1,4 +1,4 @@
-"""A study as a table: a row a point, columns by the record's dotted names, and files of it."""
+"""A study as a table: one row per point, columns by the record's dotted names, and files of it."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ KIND = "study"
 def frame_of(store: Store) -> pd.DataFrame:
     """Return a row for each point of a store's plan, in its order; ``status`` is ``waiting`` without an answer.
 
-    Columns are what multiplies at the top level, the varied paths, the record's dotted names, ``certificate`` and
-    ``error``, and bookkeeping from ``run_`` on. A point without a record has its inputs only.
+    Columns are the keys that multiply at the top level, the varied paths, the record's dotted names,
+    ``certificate`` and ``error``, and bookkeeping from ``run_`` on. A point without a record has its inputs only.
     """
     import pandas as pd
 
@@ -52,7 +52,7 @@ def frame_of(store: Store) -> pd.DataFrame:
 
 
 def varied_numbers(frame: pd.DataFrame, paths: Iterable[str]) -> list[str]:
-    """Return the columns of varied parameters that hold numbers; of a list of numbers, of items that differ."""
+    """Return the columns of varied parameters that hold numbers; of a list of numbers, the items that differ."""
     names, found = [str(name) for name in frame.columns], []
     for path in paths:
         items = [name for name in names if name.startswith(f"{path}.") and name.rpartition(".")[2].isdigit()]

@@ -20,7 +20,7 @@ class Task(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """Points that are solved together: one, or those of a chain in its order, each helped by those before.
+    """Points that are solved together: one, or those of a chain in order, where answers help to find the next.
 
     Parameters
     ----------

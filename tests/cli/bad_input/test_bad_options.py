@@ -28,7 +28,7 @@ NUMBERS = {
     "--speed 9 --starts 100001": "starts = 100001: must be a whole number from 1 to 100000",
     "--speed 9 --seed -1": "seed = -1: must be a whole number from 0 to 100000",
     "--speed 9 --seed 0.5": '--seed|"0.5" is not a whole number',
-    "--speed 9 --strips 0": "aero.strips = 0: must be a whole number from 1 to 1000; the paper has 10",
+    "--speed 9 --strips 0": "aero.strips = 0: must be a whole number from 1 to 1000; Su et al. use 10",
     "--speed 9 --strips 1001": "aero.strips = 1001: must be a whole number from 1 to 1000",
     "--speed 9 --strips ten": '--strips|"ten" is not a whole number',
     "--speed 9 --flap-amplitude-max nan": "--flap-amplitude-max = nan: must be finite; the lower bound of the flap",

@@ -27,7 +27,7 @@ LENGTHS = (8, 16, 24, 48, 96, 512, 2048)
         ("missing.nc", "cannot read 'missing.nc': no such file or directory; check the path"),
         ("kept.nc/orbit.nc", "cannot read 'kept.nc/orbit.nc': not a directory"),
         ("folder.nc", "cannot read 'folder.nc': is a directory"),
-        ("text.nc", "cannot read 'text.nc': it is not a NetCDF-4 file; give a file of `orbit -o`"),
+        ("text.nc", "cannot read 'text.nc': it is not a NetCDF-4 file; give a file that `wingbeat orbit -o` wrote"),
         ("good.csv", "cannot read 'good.csv': wingbeat reads results from .nc files"),
     ],
 )
@@ -72,7 +72,7 @@ def test_results_with_rotten_bytes(orbit_bytes: bytes, folder: Path, capfd: Any)
 def test_a_result_of_somebody_else(folder: Path, capsys: Any, command: str) -> None:
     stranger = xr.Dataset({"temperature": ("time", np.zeros(3))}, attrs={"title": "sea surface", "speed": 3.0})
     stranger.to_netcdf("foreign.nc", engine="h5netcdf")
-    refuse(capsys, f"{command} foreign.nc", "cannot read 'foreign.nc'|wingbeat|give a file of `")
+    refuse(capsys, f"{command} foreign.nc", "cannot read 'foreign.nc'|wingbeat|give a file that `")
 
 
 @pytest.mark.parametrize("command", ["orbit --from", "simulate --from"])

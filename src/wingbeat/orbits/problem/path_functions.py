@@ -95,6 +95,7 @@ def value_count(function: Callable[[Beat], Any], strips: int) -> int:
     return PARTS * math.prod(shape[1:]) if shape else 1
 
 
+# Tracing a function takes 2.5 ms, and every problem of a curve or study asks.
 @functools.lru_cache(256)
 def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
     """Return what a quantity's function returns, as shapes without numbers."""

@@ -176,7 +176,7 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     monkeypatch.setattr("wingbeat.orbits.infeasible.without_orbit.search", lambda *_: astray)
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
-    assert "beats that almost close were found from 1 start, but none could be certified" in failure.message
+    assert "almost closed wingbeats were found from 1 start, but none could be certified" in failure.message
     assert (failure.deficits, failure.relaxations) == ((), ())
     np.testing.assert_array_equal(beat.scaled, closed.scaled)
     # Of those that close the one that closes best is told.
@@ -184,7 +184,7 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
         dataclasses.replace(closed, optimal=False, violation=v, scaled=closed.scaled + v) for v in (0.2, 0.1)
     )
     beat, failure = without_orbit(programme, [astray, rough, best], 1, advise=False)
-    assert "beats that close were found from 3 starts, but none could be certified" in failure.message
+    assert "closed wingbeats were found from 3 starts, but none could be certified" in failure.message
     np.testing.assert_array_equal(beat.scaled, best.scaled)
     beat, failure = unexplained([astray, rough, best])
     assert (failure.status, beat.scaled is best.scaled) == (Status.NOT_CONVERGED, True)

@@ -274,7 +274,7 @@ class Page:
             self.show_trouble(event.args[:300])
 
     def read_file(self, path: str, label: str, done: Any) -> None:
-        """Read a file that the visitor sent, in a worker; `done` is called when it is needed no more."""
+        """Read a file that the visitor sent, in a worker; `done` is called when the file is no longer needed."""
 
         def show(found: dict[str, Any]) -> None:
             if "answer" in found:

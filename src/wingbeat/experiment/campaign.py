@@ -99,7 +99,8 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     """Return the records of a synthetic campaign; the same seed gives the same records.
 
     Each channel is the truth times its start-up ``1 + start exp(-t/1.5)``, plus fluctuations of the flow (a first
-    order Markov process), white noise of the cell, and a zero that drifts linearly between the readings given.
+    order Markov process), white noise of the cell, and a zero that drifts linearly between the
+    readings before and after.
 
     Parameters
     ----------

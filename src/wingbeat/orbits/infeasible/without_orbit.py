@@ -65,7 +65,7 @@ def without_orbit(
     if closing:
         return _uncertified(closing, len(found))
     if nearest.closes:
-        return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost close", len(found))
+        return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost closed", len(found))
     flying = certified_changes(programme, changes)
     message = f"no orbit within the bounds from {_starts(len(found))}: {words_of(programme, nearest.deficits)}"
     if flying:
@@ -89,11 +89,11 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
 def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, Ending]:
     """Return the candidate that closes best; it is no certified optimum."""
     nearest = min(closing, key=lambda c: c.violation)
-    return certified(nearest.programme.uncorrected(), nearest.scaled), _no_optimum("close", searches)
+    return certified(nearest.programme.uncorrected(), nearest.scaled), _no_optimum("closed", searches)
 
 
 def _no_optimum(how: str, searches: int) -> Ending:
-    found = f"beats that {how} were found from {_starts(searches)}, but none could be certified as an optimum"
+    found = f"{how} wingbeats were found from {_starts(searches)}, but none could be certified as an optimum"
     return Ending(Status.NOT_CONVERGED, f"{found}; try more starts or another seed")
 
 

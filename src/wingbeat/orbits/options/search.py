@@ -38,14 +38,16 @@ class SearchOptions:
     optimality_tolerance : largest residual of the optimality conditions, in the optimiser's scale.
     bound_tolerance : an unknown closer to a bound than this share of its range is at the bound; likewise the limits
         along the path, in their own scale.
-    diverged_closure, diverged_flights : a local search has diverged if its violation, in the optimiser's scale,
-        exceeds the former in each of so many flights. Of 376 starts that found an orbit, 2 had.
+    diverged_closure, diverged_flights : a local search is stopped as diverged if its violation, in the optimiser's
+        scale, has exceeded `diverged_closure` in every flight, after at least `diverged_flights` flights. The rule
+        would have stopped 2 of 376 searches that found an orbit.
     restoration : least squares that bring a start close to closure before the objective counts.
     restored_closure : a start whose residual is still larger, in the optimiser's scale, is abandoned.
     same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
         can change a little at hardly any cost, and where a local search stops among them is chance.
-    uncorrected_error : an optimum whose objective is more than this share above a certified one is no better. Of
-        200 frequencies nearly all changed by less than 0.0025 when they were corrected.
+    uncorrected_error : error of an optimum's objective before it is corrected, as a share of it. An optimum that
+        lies further above a certified one is not certified, because correction would not make it the better one.
+        Correction changed nearly all of 200 frequencies by less than this.
     plane_clearance : strip corners keep this share of the wing's length from the plane of symmetry. It is ten times
         the other tolerances: 3 micrometres of 0.3 m.
     largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line

@@ -41,7 +41,8 @@ def first_searches(
     Parameters
     ----------
     programme : of the problem.
-    starts, seed : number of starts, and seed of the random ones; the problem without limits has as many.
+    starts, seed : number of starts, and seed of the random ones. The problem without limits gets the same number of
+        starts.
     threads : local searches at a time.
     progress : called with (local searches done, local searches in all), including those without limits.
     """
@@ -61,7 +62,7 @@ def first_searches(
 
 
 def search_from_optima(programme: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
-    """Return where local searches end that start from the best optimum of each family of an easier problem."""
+    """Search from the best optimum of each family of an easier problem; return where the local searches end."""
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     starts = [optimum.unknowns for optimum in families(optima_of(easier), scale, apart)]
     return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
@@ -82,8 +83,8 @@ def search_from_starts(
 ) -> Iterator[Candidate]:
     """Yield where local searches from these starts end, in order, with so many threads.
 
-    All but the first, the stock wingbeat, are first brought close to closure without the objective. A local search
-    from far away diverges, and where there is no orbit, 30 flights show it instead of 100.
+    Every start but the first, the stock wingbeat, is brought close to closure before the objective is minimised. A
+    local search from far away diverges. Where there is no orbit, 30 flights show this instead of 100.
     """
 
     def one(index: int) -> Candidate:
@@ -106,7 +107,7 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
 
 
 def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
-    """Return where local searches from beside the best optimum end: a lower peak is often near the lowest found."""
+    """Search from beside the best optimum, because a lower peak is often near; return where the searches end."""
     more: list[Candidate] = []
     for index in range(count):
         optima = optima_of((*found, *more))

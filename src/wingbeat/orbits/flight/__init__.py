@@ -1,1 +1,1 @@
-"""One period flown: by few steps with exact derivatives, by the certifier, and as a beat to read quantities off."""
+"""Flights of one period: by the solver with exact derivatives, by the certifier, and as a beat with its quantities."""

@@ -1,4 +1,4 @@
-"""One beat as time series, with exact derivatives by the unknowns; quantities are functions of it."""
+"""One beat as time series, with exact derivatives by the unknowns. Quantities are functions of a beat."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
 
 
 class _Tables(NamedTuple):
-    """The wing's motion at given phases, which does not depend on the body's."""
+    """The wing's motion at given phases, which does not depend on the body's motion."""
 
     phase: Samples
     motion: WingMotion

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from wingbeat._jax.shapes import Stretches, StretchMaps, StretchStates
 
 
-# Steps in each of the certifier's own, which are short at the kinks of the loads. With two, the multipliers of
-# unstable bats are within 1e-5 of those of an adaptive flight.
+# Number of steps in each step of the certifier, whose steps are short at the kinks of the loads. With two, the
+# multipliers of unstable bats are within 1e-5 of those of an adaptive flight.
 _STEPS = 2
 # Distances from the path at which the flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
 _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
@@ -35,9 +35,9 @@ _LANES = 64
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
-    """Return the derivative of the pitch state at the end of each stretch by that at its start, shape (K, 4, 4).
+    """Return, for each stretch, the derivative of its last pitch state by its first, shape (K, 4, 4).
 
-    Each stretch is flown from the path, (K, 4), and from beside it.
+    Each stretch is flown from its start on the path, shape (K, 4), and from starts beside the path.
     """
     length = (end - begin) / _STEPS
     seconds = length / wingbeat.frequency

@@ -94,9 +94,9 @@ def _weights(samples: Quarters, xp: Any) -> Quarters:
 
 
 def spread(series: SampledSeries) -> Columns:
-    """Return a series less its least value in each quarter: shape (phases, quarters).
+    """Return a series minus its least value in each quarter, shape (phases, quarters).
 
-    The largest of these numbers is the series' range. With the least value of the whole beat alone, it would have a
-    kink where two minima are equal.
+    The largest of these numbers is the series' range. If we subtracted only the least value of the whole beat, the
+    range would have a kink where two minima are equal.
     """
     return series[:, None] + peaks(-series)

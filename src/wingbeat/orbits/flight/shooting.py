@@ -1,8 +1,8 @@
 """One period flown with fixed steps, and the exact derivative of its end.
 
-The states come first, step after step; then the tangents of all steps at once, as lanes, each from the state at the
-start of its step; last the product of the step maps. The position (x, z) does not feed back: it is a sum over the
-steps.
+First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes, each
+from the state at the start of its step. Last, the step maps are multiplied. The position (x, z) does not feed back:
+it is a sum over the steps.
 """
 
 from __future__ import annotations
@@ -157,8 +157,8 @@ def _stage_tangents(
 def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
     """Apply a linear map (4, components, ..), state first, to tangents (directions, 4, ..).
 
-    Written out: XLA on CPU vectorises sums of products along the last axis, but not products of small matrices.
-    With `einsum` a flight takes 1.8 ms in place of 1.6.
+    The sums are written out, because XLA on CPU vectorises sums of products along the last axis, but not products
+    of small matrices. With `einsum` a flight takes 1.8 ms in place of 1.6 ms.
     """
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
@@ -219,8 +219,8 @@ def fly_part(
 ) -> Flown:
     """Fly `STEPS` steps between two phases with the free parameters at `values`, and differentiate.
 
-    The least distances of the stroke are of the whole beat; the part that starts at phase 0 returns them. In a
-    program of their own they would cost as much again.
+    The part that starts at phase 0 also returns the least distances of the stroke over the whole beat. A separate
+    program for them would cost as much again.
     """
 
     def by_values(at: Any) -> Any:

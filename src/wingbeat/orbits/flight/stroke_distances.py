@@ -1,8 +1,8 @@
 """How close a stroke comes to its limits: the plane of symmetry for each wing, the range of the shoulder.
 
-Both depend on the wingbeat alone; a flight returns them with its end. Each row is the least distance from a limit:
-of the strips' leading and trailing corners in each quarter of the beat, of the flap angles of arm and hand in the
-whole beat. The phase of the least distance does not matter to first order.
+Both depend on the wingbeat alone; a flight returns them with its end. Each row is the least distance from a limit.
+The strips' leading and trailing corners have a row for each quarter of the beat; the flap angles of arm and hand
+have rows for the whole beat. The phase of the least distance does not matter to first order.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _SAMPLES, _NEWTON = 64, 2
 # Name and sign of each row's limit.
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
 
-# Phases between which each row is sought: corners in a quarter of the beat, angles in the whole.
+# Phases between which the minimum of each row is sought: a quarter of the beat for corners, the whole beat for angles.
 _BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
 _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 

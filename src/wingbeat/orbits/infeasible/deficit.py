@@ -1,8 +1,8 @@
 """Which balance fails where there is no orbit, and by how much.
 
 We look for the wingbeat, within bounds, that returns to its position and attitude and comes closest to its initial
-velocity. A force that is short on average changes the velocity over the beat, a moment the pitch rate. As shares of
-the weight, and of weight times chord, the two can be compared.
+velocity. A force that is short on average changes the velocity over the beat; a moment that is short changes the
+pitch rate. Forces as shares of the weight, and moments as shares of weight times chord, can be compared.
 """
 
 from __future__ import annotations
@@ -138,10 +138,11 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes; else the closest one with one failed balance; else that with all failed.
+        """Return a beat that closes; else the closest one with one failed balance; else the one with all failed.
 
         If each of several balances alone may fail, the one with the smallest deficit counts. An excess of force
-        counts only if no deficit suffices: excess force can mostly be shed, at the expense of another balance.
+        counts only if no deficit suffices, because excess force can mostly be shed at the expense of another
+        balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []

@@ -1,9 +1,9 @@
-"""Least frequency that ends at its own lower bound, as in a descent that is nearly a glide.
+"""Problems whose least frequency is at its own lower bound, as in a descent that is nearly a glide.
 
 Where the wings hardly need to beat, orbits exist down to any frequency, and the optimum is at the bound. Local
 searches often do not reach it, because the closure of a beat of half a second or more is far from linear. For a
-pigeon at 12 m/s and a sink of 7.2 m/s none of 20 starts closed, while with a lower bound of 2, 4 or 6 Hz the first
-few found an orbit at that bound. So if all starts fail, the bound is raised.
+pigeon at 12 m/s and a sink of 7.2 m/s, none of 20 starts closed. With a lower bound of 2, 4 or 6 Hz, the first few
+starts found an orbit at that bound. So if all starts fail, the bound is raised.
 """
 
 from __future__ import annotations

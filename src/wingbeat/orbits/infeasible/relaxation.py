@@ -40,8 +40,8 @@ _HARMONIC = (-0.5, 0.5)
 _HALVED = 6
 # Changes smaller than this share of their scale are rounded as if they were this large.
 _LEAST = 1e-3
-# Bounds of the frequency, which move whether or not the closest wingbeat is at them: if no start came near an
-# orbit, it does not show which frequency an orbit needs.
+# Bounds of the frequency, which may move even if the closest wingbeat is not at them: if no start came near an
+# orbit, the closest wingbeat does not show which frequency an orbit needs.
 WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 
 
@@ -51,14 +51,14 @@ class Change:
 
     Parameters
     ----------
-    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass``
-        (whole, taken off the body), ``speed``, ``climb`` or ``shoulder`` (its distance ahead of the body's centre
-        of mass).
+    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass`` (the
+        vehicle's mass; the change is taken off the body), ``speed``, ``climb`` or ``shoulder`` (its distance ahead
+        of the body's centre of mass).
     sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for a fixed number.
     old : its value, SI and radians.
-    reach : the farthest value it may take.
-    scale : a large change.
-    tries : changes that are tried first, as shares of the scale; only the reach if not given.
+    reach : the farthest value that the number may take.
+    scale : size of a large change.
+    tries : changes that are tried first, as shares of the scale; if none are given, only the reach is tried.
     """
 
     name: str
@@ -70,7 +70,7 @@ class Change:
 
     @property
     def widest(self) -> float:
-        """The farthest it may move, over its scale."""
+        """The farthest that the number may move, divided by its scale."""
         return abs(self.reach - self.old) / self.scale
 
     @property
@@ -172,7 +172,7 @@ def _place(problem: OrbitProblem, name: str, sign: str) -> Place:
 
 
 def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
-    """Return whether a constraint is the limit of this name and sign."""
+    """Return whether a constraint is the limit with this name and sign."""
     return constraint.quantity.name == name and constraint.at_most is (sign == "<=")
 
 

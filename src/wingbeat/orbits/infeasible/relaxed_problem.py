@@ -18,7 +18,7 @@ _REMEMBERED = 8
 
 
 class RelaxedProgramme:
-    """A programme that minimises one more unknown, the last: how far a number is moved, over its scale.
+    """A programme with one more unknown, the last, which it minimises: how far a number is moved, over its scale.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def _with_zeros(jacobian: np.ndarray) -> np.ndarray:
 
 
 class _RelaxedBound(RelaxedProgramme):
-    """A bound of a free parameter moves, which takes one more inequality."""
+    """A bound of a free parameter moves; this needs one more inequality."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         programme = Transcription(with_change(problem, change.name, change.sign, change.reach), options)

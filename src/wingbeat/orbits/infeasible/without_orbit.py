@@ -77,7 +77,7 @@ def without_orbit(
 
 
 def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
-    """Return the candidate closest to an orbit, and only whether it closes."""
+    """Return the candidate closest to an orbit without a diagnosis; the status says whether it closes."""
     closing = [c for c in found if c.closed]
     if closing:
         return _uncertified(closing, len(found))

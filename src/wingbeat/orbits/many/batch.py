@@ -48,9 +48,9 @@ def find_orbits(
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in their order; a failure is a result, as in `find_orbit`.
 
-    Among problems that differ in numbers only, the first are solved as in `find_orbit`. The first start of a later
-    one is predicted from their solutions; it does not count unless it leads to a certified orbit. In a large group
-    some problems go first and predict the rest, which is distributed over the processes.
+    Among problems that differ in numbers only, the first are solved as in `find_orbit`. For each later problem, the
+    first start is predicted from their solutions; this start counts only if it leads to a certified orbit. In a
+    large group, some problems go first and predict the others, which are distributed over the processes.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def find_orbits(
 
 
 def check_processes(faults: FaultList, processes: Any) -> None:
-    """Add a fault unless it is a whole number of processes in range."""
+    """Add a fault unless `processes` is a whole number in range."""
     faults.whole("processes", processes, 1, _MOST_PROCESSES)
 
 
@@ -107,7 +107,7 @@ def _by_groups(
     problems: Sequence[OrbitProblem],
     groups: Sequence[Group],
 ) -> Iterator[tuple[int, Solution]]:
-    """Yield index and solution of each problem: first those that go first in a group, then the parts they help."""
+    """Yield index and solution of each problem: first the problems that go first in a group, then the parts."""
     known: list[list[Known]] = [[] for _ in groups]
     first = [Part([problems[i] for i in group.first], []) for group in groups]
     for group, learned, answers in zip(groups, known, solve(first), strict=True):
@@ -168,7 +168,8 @@ def find_with_known(
     Parameters
     ----------
     problem, starts, seed, most_starts, advise, explain, options : as in `find_orbit`.
-    known : takes the place of one start; with it there is an orbit, so `most_starts` and `advise` have no effect.
+    known : a certified orbit, which takes the place of one start. Since there is then an orbit, `most_starts` and
+        `advise` have no effect.
     """
     if known is None:
         return find_orbit(problem, starts, seed, None, 1, most_starts, advise, explain, options)

@@ -1,4 +1,4 @@
-"""Branches of orbits along speed: each optimum is continued both ways, and jumps are not taken for branches."""
+"""Branches of orbits along speed: each optimum is continued both ways. A jump to another optimum ends a branch."""
 
 from __future__ import annotations
 
@@ -62,10 +62,10 @@ def trace(
     ----------
     problem : the problem; its own speed has no effect.
     speeds : increasing [m/s].
-    starts, seed : starts at the first and the last speed, fewer between, and their seed; a speed at which nothing
-        is certified gets twice as many.
+    starts, seed : number of starts at the first and the last speed, and the seed of all starts. Speeds between get
+        fewer starts. A speed at which no orbit is certified gets twice as many.
     progress : called with (tasks done, tasks known).
-    threads : tasks at a time; default the number of cores. The results do not depend on it.
+    threads : number of tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
@@ -212,8 +212,8 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
 
     Returns
     -------
-    The certified orbit there and the number of steps. If the branch ends on the way: the orbit to which a
-    local search from its end leads, if any, and 0.
+    The certified orbit at that speed and the number of steps. If the branch ends on the way: 0 steps, and the orbit
+    to which a local search from the branch's end leads, if any.
     """
     options = optimum.options.continuation
     speed, last = optimum.problem.speed, problem.speed

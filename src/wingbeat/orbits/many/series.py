@@ -28,8 +28,9 @@ def find_series(
 ) -> list[Solution]:
     """Solve a series of problems, such as speeds in order, each also from its neighbours' solutions.
 
-    A start from a stock wingbeat finds whichever family of orbits is near. Passed up and down the series, the best
-    family found anywhere spreads as far as it exists. Problems must have the same free parameters.
+    A start from a stock wingbeat finds whichever family of orbits is near. Solutions are passed up and down the
+    series, so that the best family found for any problem spreads as far as it exists. All problems must have the
+    same free parameters.
 
     Parameters
     ----------

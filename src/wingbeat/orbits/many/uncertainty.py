@@ -56,8 +56,8 @@ def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
 class ErrorBar(NamedTuple):
     """A quantity with its standard deviation, to first order, and the part that is due to each spread.
 
-    First order is a straight line through the optimum. Only samples show whether that is accurate over whole
-    ranges; without them, rely on `ranking` alone: which spreads matter most.
+    To first order, the quantity is a straight line through the optimum. Only samples show whether that is accurate
+    over whole ranges. Without samples, rely only on `ranking`, which says which spreads matter most.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class ErrorBar(NamedTuple):
     unit : of the quantity.
     value : of the quantity at the optimum [`unit`].
     deviation : standard deviation; its square is the sum of the squares of `due_to` [`unit`].
-    shift : mean less `value`, since not every parameter's value is in the middle of its range [`unit`].
+    shift : mean minus `value`; not 0 where a parameter's value is not in the middle of its range [`unit`].
     due_to : standard deviation due to each spread, by its name, the largest first [`unit`].
     """
 
@@ -116,7 +116,8 @@ class Samples(NamedTuple):
     ----------
     paths : names of the parameters, as `Parameter.path`.
     deviations : of the parameters from their values, in this order and in their units, shape (n, P).
-    quantities : in the order requested and in their units, shape (n, Q); not-a-number for draws without an orbit.
+    quantities : values in the order requested and in the quantities' units, shape (n, Q); not-a-number for draws
+        without an orbit.
     certified : whether a draw has a certified orbit, shape (n,).
     """
 
@@ -140,8 +141,8 @@ def sample_orbits(
 ) -> Samples:
     """Solve a problem for random draws of its parameters.
 
-    Each draw is corrected from the optimum that the derivatives predict, and so belongs to the same family of
-    orbits. If that leads to no orbit, a local search from there follows, then one start.
+    Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family. If
+    the correction leads to no orbit, a local search from the prediction follows, then one start.
 
     Parameters
     ----------

@@ -26,9 +26,9 @@ def group_similar(
 ) -> list[Group]:
     """Return groups of problems that differ in numbers only, each in an order that favours predictions.
 
-    A group has one species and one coefficient model, by name; its parts have neighbouring numbers. In each order
-    the next problem is the farthest from all before. Groups depend on the problems alone, not on the number of
-    processes.
+    The problems of a group have one species and one coefficient model, by name. The problems of a part have
+    neighbouring numbers. In each order, the next problem is the farthest from all before. Groups depend on the
+    problems alone, not on the number of processes.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
@@ -66,7 +66,7 @@ def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
     """Return coordinates of problems of one kind about their mean, shape (problems, directions).
 
     There are as many directions as the problems differ in. Distances are those between the numbers that describe
-    them, each over its largest.
+    the problems, each number divided by its largest value.
     """
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)

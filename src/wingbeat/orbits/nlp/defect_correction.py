@@ -33,7 +33,7 @@ class Corrected:
         return optimality(self.programme, self.scaled)
 
     def is_orbit(self, closure_tolerance: float | None = None) -> bool:
-        """Whether it closes, keeps to its limits along the path, and is an optimum.
+        """Whether the candidate closes, keeps to its limits along the path, and is an optimum.
 
         The default tolerance is that of a certificate.
         """
@@ -50,8 +50,9 @@ class Corrected:
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The optimum of the solver's coarse flight is slightly wrong. Its closure takes the derivative and the value of a
-    finer flight, then in each round the value that the certifier finds, and Newton's method follows the optimum.
+    The optimum of the solver's coarse flight is slightly wrong. First, the closure takes the derivative and the
+    value of a finer flight. Then, in each round, it takes the value that the certifier finds. Newton's method
+    follows the optimum.
     """
     programme = programme.uncorrected()
     return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)

@@ -1,7 +1,8 @@
 """Least squares within bounds by the Levenberg-Marquardt method, with an active set of bounds in each step.
 
-There are few unknowns, costly residuals, and bounds that are active at the solution. SciPy's reflective method
-stays strictly inside the bounds; it takes twice the flights, and spends a third of its time on its own arithmetic.
+Our problems have few unknowns, costly residuals, and bounds that are active at the solution. SciPy's reflective
+method stays strictly inside the bounds. It takes twice the flights, and a third of its time goes into its own
+arithmetic.
 """
 
 from __future__ import annotations
@@ -27,10 +28,10 @@ def least_squares(
 
     Parameters
     ----------
-    residuals, jacobian : as functions of the unknowns; they may be huge or not-a-number away from the start.
+    residuals, jacobian : functions of the unknowns; their values may be huge or not-a-number away from the start.
     start : unknowns to start from, moved within the bounds.
     lower, upper : the bounds.
-    options : when it ends, and how its steps are damped.
+    options : when the method ends, and how its steps are damped.
     """
     here = np.clip(start, lower, upper)
     found = residuals(here)

@@ -17,12 +17,13 @@ class NewtonOptions:
     iterations : largest number of iterations.
     step_tolerance : the method ends with a step shorter than this, in the optimiser's scale.
     difference_step : step of the differences that measure the curvature along the null space [optimiser's scale].
-    residual_tolerance, gradient_tolerance : a residual and a reduced gradient this small, in the optimiser's scale,
-        are as good as the next step could make them.
+    residual_tolerance, gradient_tolerance : the method also ends when the residual and the reduced gradient are
+        this small, in the optimiser's scale. A further step could not improve them.
     rank_tolerance : singular values below this share of the largest count as zero.
     normal_share : a step updates the curvature along the null space if its normal part is at most this share of its
         tangential part.
-    curvature_share : and if the curvature along the step exceeds this share of the expected one.
+    curvature_share : the update also requires that the curvature along the step exceeds this share of the expected
+        curvature.
     diverged : a larger violation, in the optimiser's scale, ends the method.
     """
 
@@ -54,16 +55,17 @@ class CertificateOptions:
     rtol : relative tolerance of the certifying flight (Dopri8).
     rough_rtol : relative tolerance of flights that only correct. They are accurate to 1e-8 and take half the time.
     fine_blocks : a corrected flight has this multiple of the steps of the solver's flights.
-    linear_range : range of validity of a finer flight's derivative, in the optimiser's scale.
-    linearisations : largest number of derivatives of finer flights.
-    linearised_step : step, in the optimiser's scale, at which the optimum is close enough before the derivative is
-        updated.
+    linear_range : the derivative of a finer flight is valid within this distance, in the optimiser's scale.
+    linearisations : the derivative of a finer flight is computed at most this many times.
+    linearised_step : before the derivative is updated, Newton's method ends with a step shorter than this, in the
+        optimiser's scale.
     corrections : largest number of certifying flights.
-    trial_corrections, trial_reduction : after this many corrections the residual must have shrunk to this share.
+    trial_corrections, trial_reduction : after `trial_corrections` corrections, the residual must have shrunk to the
+        share `trial_reduction` of its first value; else the correction ends.
     bound_updates : how often the active bounds are determined again if a wingbeat closes but is not optimal.
-    iterations, tolerance : of SLSQP, which replaces Newton's method where that fails, and its tolerance of the
-        objective.
-    newton : the method that follows the optimum while its closure is corrected.
+    iterations, tolerance : largest number of iterations of SLSQP, and its tolerance of the objective. SLSQP takes
+        over where Newton's method fails.
+    newton : options of Newton's method, which follows the optimum while its closure is corrected.
     """
 
     closure_tolerance: float = 1e-6

@@ -13,25 +13,25 @@ class ContinuationOptions:
 
     Parameters
     ----------
-    max_step : an orbit within this distance of another, in the optimiser's scale, may be its continuation. It is 2
-        degrees of flap amplitude and of body pitch, 0.9 Hz, 0.15 m/s. Orbits farther apart belong to one branch
-        only if orbits between them lead from one to the other.
+    max_step : an orbit within this distance of another, in the optimiser's scale, may be its continuation. The
+        default is 2 degrees of flap amplitude or of body pitch, 0.9 Hz, or 0.15 m/s. Orbits farther apart belong to
+        one branch only if orbits between them lead from one to the other.
     first_speed_step, least_speed_step : steps of speed [m/s]. A branch ends if the smallest step cannot continue
         it.
     step_growth : the next step is at most this multiple of the last.
-    aimed_step : target of a step, as a share of `max_step`.
+    aimed_step : the next step of speed is chosen so that the orbit moves by this share of `max_step`.
     step_iterations : iterations of the solver if Newton's method fails, for example where a bound becomes active.
-    fewer_starts : between the ends of a range of speeds the starts are divided by this, because most optima are
-        found by continuing.
+    fewer_starts : at speeds between the first and the last, the number of starts is divided by this, because
+        continuation finds most optima there.
     followed : number of optima of one speed that are continued, the best first.
-    near_closure : unknowns with a smaller residual, in the optimiser's scale, are close to an orbit.
+    near_closure : unknowns with a smaller residual, in the optimiser's scale, count as close to an orbit.
     sweeps : largest number of passes along a series, up and down.
     improvement : a neighbour's result must be better by this share to replace a problem's own.
-    batch_size : number of problems solved in sequence, each using those before; few enough to spread a batch over
-        processes.
-    batch_first : in a larger group of similar problems, this many are solved first and help all others.
-    near_share : solutions nearer than this share of the farthest one in use have about equal weight in a
-        prediction.
+    batch_size : largest number of problems that are solved in sequence, each with the help of the solutions before.
+        It is small enough to spread a batch over processes.
+    batch_first : in a larger group of similar problems, this many problems are solved first and help all others.
+    near_share : solutions have about equal weight in a prediction if they are nearer than this share of the
+        distance of the farthest solution in use.
     rounding : relative differences between numbers that come from rounding.
     """
 
@@ -62,7 +62,7 @@ class SensitivityOptions:
     Parameters
     ----------
     fine_blocks : a flight has this multiple of the steps of the solver's flights. It is accurate to 1e-5.
-    step : of central differences, as a share of a parameter's size.
+    step : step of the central differences, as a share of a parameter's size.
     step_tolerance : Newton's method, which finds the optimum of these flights, ends with a step shorter than this,
         in the optimiser's scale.
     room : how far difference steps may leave the bounds, in the optimiser's scale.

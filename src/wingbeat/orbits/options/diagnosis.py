@@ -17,24 +17,29 @@ class DiagnosisOptions:
     ----------
     nearest_ends : end points of starts from which the closest wingbeat is computed.
     ends_apart : two end points count as different if an unknown differs by this share of its range.
-    deficit : least squares that find the wingbeat with the smallest deficit.
+    deficit : options of the least squares that find the wingbeat with the smallest deficit.
     trial_evaluations : evaluations for each end point before only the best continues.
-    violation_weight : weight of the conditions that must hold: a residual of 1 in the optimiser's scale counts as
-        much as a deficit of so many times the vehicle's weight.
+    violation_weight : weight of the conditions that must hold. A residual of 1 in the optimiser's scale counts as
+        much as a deficit of this multiple of the vehicle's weight.
     kept_closure : a condition holds if its residual is below this, in the optimiser's scale.
     least_gravity : smallest gravity that defines the weight with which forces are compared [m/s2].
     negligible_deficit : a deficit below this share of the weight counts as zero.
-    negligible_change : a change below this share of its scale counts as zero: the starts had missed an orbit.
+    negligible_change : a change below this share of its scale counts as zero. The problem then has an orbit that
+        the starts missed.
     mentioned : deficits above this share of the largest are reported.
     near_bound : a wingbeat nearer to a bound than this share of its range counts as at the bound.
     reported : largest number of reported changes.
-    slack : the smallest change is widened to this multiple. At the smallest itself there is only one orbit, which
-        is hard to certify.
-    widened : steps of the last digit by which a change is widened until an orbit is certified.
-    difference_step : of derivatives by a number of the vehicle or the flight, as a share of its scale.
-    far_iterations, back_iterations : iterations of SLSQP with the number moved far, and each time it is moved back.
-    back_times : how often it is moved back at most, each time from the last end point.
-    raised_bounds : multiples of the lower bound of frequency that are tried where the minimum may be at it.
+    slack : the smallest change is widened to this multiple of itself. With the smallest change there is only one
+        orbit, and that orbit is hard to certify.
+    widened : a change is widened by these numbers of steps of its last digit, one after the other, until an orbit
+        is certified.
+    difference_step : step of the difference quotients for derivatives by a number of the vehicle or the flight, as
+        a share of the number's scale.
+    far_iterations, back_iterations : iterations of SLSQP when the number is moved far, and each time it is moved
+        back.
+    back_times : the number is moved back at most this often, each time from the last end point.
+    raised_bounds : multiples of the lower bound of frequency that are tried where the lowest frequency may be at
+        this bound.
     raised_starts : starts for each of these bounds.
     """
 
@@ -71,16 +76,17 @@ class ChangeOptions:
     ----------
     large_angle : a change of an angle by this counts as much as a change of another number by 100 % [rad].
     limit_factor : a limit moves by at most this multiple of itself.
-    lightest : the lightest body, as a share of its mass.
+    lightest : the lightest body that is tried, as a share of the body's mass.
     faster : largest increase of speed, as a share of the problem's speed or of `low_speed`, whichever is larger.
-    slowest : slowest speed if the problem contains a cost of transport, as a share of the problem's.
-    wide_frequency : the upper bound of frequency may rise to this multiple, or to 200 Hz if that is more; the lower
-        bound may fall to its inverse, or to 0.1 Hz if that is less. Bounds of a scaling law used outside its data
-        were 9 times too low (a bat of 10 kg).
+    slowest : lowest speed that is tried if the problem contains a cost of transport, as a share of the problem's
+        speed.
+    wide_frequency : the upper bound of frequency may rise to this multiple of itself, or to 200 Hz if that is more.
+        The lower bound may fall to itself over this multiple, or to 0.1 Hz if that is less. A scaling law that was
+        used outside its data, for a bat of 10 kg, gave bounds that were 9 times too low.
     raised_frequency : increases of the upper bound of frequency that are tried first, as shares of it.
     beyond : mass, climb and shoulder are first moved by this multiple of the deficit, as a share of their scale.
     chords : largest shift of the shoulder [chords].
-    low_speed : a change of speed or climb by this much is large if the speed is lower [m/s].
+    low_speed : if the problem's speed is lower than this, a change of speed or climb by this much is large [m/s].
     """
 
     large_angle: float = math.radians(60.0)

@@ -16,13 +16,13 @@ class LeastSquaresOptions:
     evaluations : largest number of evaluations of the residuals.
     tolerance : the method ends when a step reduces the sum of squares by less than this share.
     step_tolerance : a step shorter than this, in the optimiser's scale, also ends it.
-    damping, least_damping : initial and smallest damping, as ratios to the largest curvature. Without the smallest,
-        the step would not be unique if there are fewer residuals than unknowns.
-    shrink, growth : an accepted step multiplies the damping at least by the former ratio. The first rejected step
-        multiplies it by the latter, each further one by twice the ratio before.
+    damping, least_damping : initial and smallest damping, each as a ratio to the largest curvature. If there are
+        fewer residuals than unknowns, a step without damping would not be unique.
+    shrink, growth : an accepted step multiplies the damping by the ratio `shrink` or a larger one. The first
+        rejected step multiplies it by `growth`, and each further rejected step by twice the ratio before.
     accepted : a step that gains less than this share of the linear model's prediction is rejected.
     trusted : only a step that gains more than this share may be the last.
-    bound_changes : largest number of bounds that become active or inactive in one step, over the number of
+    bound_changes : largest number of bounds that become active or inactive in one step, divided by the number of
         unknowns.
     """
 

@@ -17,39 +17,41 @@ class SearchOptions:
 
     Parameters
     ----------
-    starts : of a problem that minimises the frequency within the species' bounds. With 6, none of 480 optima of the
-        built-in species was more than 0.5 % above the best of 80 random starts.
-    starts_of_outputs : if the objective or a limit is an output of the wingbeat. Such problems have more optima: 6
-        starts gave 1.5 times the bat's lowest frequency within a power limit at 10 m/s, 12 found it.
-    starts_of_many_optima : if bounds are the user's own, or a peak is minimised. With a flap amplitude of 50 deg at
-        most, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %, 24 did not. Of 30 random starts, 4 led
-        to the bat's lowest peak pitch torque at 14 m/s, which 12 starts missed by half.
-    most_starts : as long as none can be certified, more starts follow, up to this many.
+    starts : number of starts of a problem that minimises the frequency within the species' bounds. With 6 starts,
+        none of 480 optima of the built-in species was more than 0.5 % above the best of 80 random starts.
+    starts_of_outputs : number of starts if the objective or a limit is an output of the wingbeat. Such problems
+        have more optima. For the bat at 10 m/s within a power limit, 6 starts gave 1.5 times the lowest frequency;
+        12 starts found the lowest frequency.
+    starts_of_many_optima : number of starts if the user sets bounds, or if a peak is minimised. With the flap
+        amplitude limited to 50 deg, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %; 24 starts did not
+        miss it. For the bat's lowest peak pitch torque at 14 m/s, 12 starts missed it by half; of 30 random starts,
+        4 led to it.
+    most_starts : while no start leads to a certified orbit, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
     random_margin : distance of random starts from the bounds, as a share of the range.
-    random_below, random_above : their largest distance from the stock start in body pitch, u, w [rad, m/s, m/s] and
-        pitch rate [rad/s].
-    random_octaves : how far they go below and above the stock start's frequency [octaves].
+    random_below, random_above : largest distance of random starts below and above the stock start in body pitch, u,
+        w [rad, m/s, m/s] and pitch rate [rad/s].
+    random_octaves : how far random starts go below and above the stock start's frequency [octaves].
     start_spread : distance of additional starts from the best optimum, in the optimiser's scale.
-    iterations, tolerance : of SLSQP, and its tolerance of the objective.
-    local_iterations : iterations from the result of a neighbouring problem.
-    closure_tolerance : residual that a start must reach [m, rad, m/s, rad/s]. The last digits come when the orbit
-        is corrected.
+    iterations, tolerance : largest number of iterations of SLSQP, and its tolerance of the objective.
+    local_iterations : iterations of a search that starts from the result of a neighbouring problem.
+    closure_tolerance : a start must reach a residual this small [m, rad, m/s, rad/s]. The later correction of the
+        orbit gives the last digits.
     optimality_tolerance : largest residual of the optimality conditions, in the optimiser's scale.
-    bound_tolerance : an unknown closer to a bound than this share of its range is at the bound; likewise the limits
-        along the path, in their own scale.
+    bound_tolerance : an unknown closer to a bound than this share of its range is at the bound. The same number
+        holds for limits along the path, in their own scale.
     diverged_closure, diverged_flights : a local search is stopped as diverged if its violation, in the optimiser's
         scale, has exceeded `diverged_closure` in every flight, after at least `diverged_flights` flights. The rule
         would have stopped 2 of 376 searches that found an orbit.
-    restoration : least squares that bring a start close to closure before the objective counts.
+    restoration : options of the least squares that bring a start close to closure before the objective counts.
     restored_closure : a start whose residual is still larger, in the optimiser's scale, is abandoned.
     same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
-        can change a little at hardly any cost, and where a local search stops among them is chance.
-    uncorrected_error : error of an optimum's objective before it is corrected, as a share of it. An optimum that
-        lies further above a certified one is not certified, because correction would not make it the better one.
-        Correction changed nearly all of 200 frequencies by less than this.
-    plane_clearance : strip corners keep this share of the wing's length from the plane of symmetry. It is ten times
-        the other tolerances: 3 micrometres of 0.3 m.
+        can change a little while the objective hardly changes. It is then chance where a local search stops.
+    uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. If an optimum
+        exceeds a certified one by more than this, it is not certified, because correction would not make it the
+        better one. Correction changed nearly all of 200 frequencies by less than this.
+    plane_clearance : strip corners stay away from the plane of symmetry by this share of the wing's length. The
+        default is ten times the other tolerances; for a wing of 0.3 m it is 3 micrometres.
     largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line
         search can shorten its step.
     """

@@ -19,11 +19,12 @@ class SolverOptions:
 
     Parameters
     ----------
-    search : of the starts and the local searches.
-    certificate : of the correction of an optimum, and of the flight that certifies it.
-    continuation : along speed, and from problem to problem.
-    diagnosis, changes : without an orbit: of the balance that fails, and of the changes that are tried.
-    sensitivity : of derivatives of an optimum.
+    search : options of the starts and the local searches.
+    certificate : options of the correction of an optimum, and of the flight that certifies it.
+    continuation : options of the continuation of orbits along speed, and from problem to problem.
+    diagnosis, changes : if there is no orbit: options of the diagnosis of the balance that fails, and options of
+        the changes that are tried.
+    sensitivity : options of the derivatives of an optimum.
 
     Raises
     ------

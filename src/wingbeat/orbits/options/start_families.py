@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-# Multiple of the stock frequency. From 2 to 4, one start found every pigeon and nearly every bat of +-30 %; at 1 a
-# third of the bats' starts diverged, and took three times the flights.
+# Multiple of the stock frequency. With multiples from 2 to 4, one start found an orbit for every pigeon and nearly
+# every bat varied by +-30 %. With 1, a third of the bats' starts diverged, and took three times the flights.
 _BRISK = 2.5
 
 
@@ -15,9 +15,9 @@ class StartFamily(NamedTuple):
 
     Parameters
     ----------
-    flap_mean : offset from the middle of its bounds, as a share of half its range; default the stock wingbeat's
-        value.
-    pitch_mean, pitch_amplitude : their values; default those of the stock wingbeat [rad].
+    flap_mean : offset of the mean flap angle from the middle of its bounds, as a share of half its range; default
+        the stock wingbeat's value.
+    pitch_mean, pitch_amplitude : values of the start; default those of the stock wingbeat [rad].
     flap_amplitude, frequency : multiples of those of the stock wingbeat.
     nose_up : nose-up rotation of the body from the body pitch at which the stroke plane is upright [rad].
     """
@@ -31,9 +31,9 @@ class StartFamily(NamedTuple):
 
 
 _QUIET, _PITCHING, _STEEP = math.radians(3.0), math.radians(15.0), math.radians(30.0)
-# Each is the best start into its family of up to 108 tried for 110 vehicles of +-40 %. Wings that hardly pitch and
-# beat below the body are found in 68 % of the cases from a wide and slow beat, in 55 % from a fast one. Wide beats
-# above a body whose nose is down are 30 % slower than any other for some bats.
+# Up to 108 starts were tried for each family, on 110 vehicles varied by +-40 %; these are the best. A wide and slow
+# beat leads in 68 % of the cases to wings that hardly pitch and beat below the body; a fast beat does in 55 %. For
+# some bats, wide beats above a body whose nose is down are 30 % slower than any other.
 START_FAMILIES = (
     StartFamily(),
     StartFamily(-0.8, 0.0, _QUIET, flap_amplitude=1.3, frequency=1.0, nose_up=0.35),

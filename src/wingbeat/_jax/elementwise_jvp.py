@@ -1,4 +1,4 @@
-"""Derivatives of elementwise functions, computed once for all directions they are wanted in.
+"""Derivatives of elementwise functions, computed once for all directions that are needed.
 
 XLA on CPU computes cheap operations anew in every use, but a division once. A derivative in nine directions would
 compute the function itself nine times over; behind a division it is computed once, and each direction is a product.
@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 
 def fusion_barrier(tree: T) -> T:
-    """Return the arrays of `tree` as outcomes of a division by one, in a guise that XLA cannot see through."""
+    """Return the arrays of `tree` divided by one, in a form that XLA cannot simplify."""
     return jax.tree_util.tree_map(lambda value: value / jnp.where(jnp.isnan(value), 2.0, 1.0), tree)
 
 

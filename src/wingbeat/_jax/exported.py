@@ -1,7 +1,7 @@
 """Compiled functions whose tracing, too, is kept on disk, so that a second process starts in a second or two.
 
-JAX's own cache keeps what XLA compiled, but finds it by the traced program, and tracing costs Python seconds.
-Here the traced program itself (`jax.export`) is kept, named by everything that could change it.
+JAX's own cache keeps what XLA compiled, but looks it up by the traced program, and tracing takes Python seconds.
+Here the traced program itself (`jax.export`) is kept. Its name is a digest of everything that could change it.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class _Ready(NamedTuple):
 class StoredFunction:
     """A function of float64 arrays, in pytrees, traced at most once on this machine for given shapes.
 
-    Its results come from the compiled program as one array, for each array handed over costs some microseconds.
+    The compiled program returns its results as one array, because each array handed over costs some microseconds.
 
     Called with tracers, inside another JAX transformation, it is the plain function. Arguments named in `static`
     must be given by keyword and have a telling `repr`.

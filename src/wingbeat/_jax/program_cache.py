@@ -1,7 +1,7 @@
 """Programs kept on disk, in a folder of the user's own, each with a digest.
 
-What is read here is executed, so it must be the user's own writing, and whole: a changed bit in machine code gives
-wrong numbers or ends the process. Whatever is anything else is not read, and made anew.
+What is read here is executed, so the user must have written it, and it must be whole: a changed bit in machine code
+gives wrong numbers or ends the process. Any other file is not read; its program is made anew.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def program_folder() -> Path | None:
 
 
 def kept_program(name: str) -> bytes | None:
-    """Return what was kept under a name, or None: never kept, damaged, or written by somebody else."""
+    """Return what was kept under a name; None if it was never kept, is damaged, or was written by somebody else."""
     folder = program_folder()
     if folder is None:
         return None
@@ -65,7 +65,7 @@ def kept_program(name: str) -> bytes | None:
 
 
 def keep_program(name: str, program: bytes) -> None:
-    """Keep a program under a name; where that cannot be done it costs time, not the answer."""
+    """Keep a program under a name. If it cannot be kept, only time is lost."""
     folder = program_folder()
     if folder is not None:
         with suppress(FileError, OSError):

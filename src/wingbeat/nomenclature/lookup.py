@@ -1,6 +1,6 @@
 """The table of names, and how to look up a dotted name in it, as in records, studies and ``--set``.
 
-A name whose last part means several things has the part before it too, as ``wing.mass``.
+Where the last part of a name means several things, the table's name includes the part before it: ``wing.mass``.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ _ABOUT = {
 def find(path: str) -> Term | None:
     """Return the entry of a dotted name, None if the table has none.
 
-    The longest end of the name in the table counts, so ``wing.mass`` and ``body.mass`` differ. If an angle's name
-    ends in ``_deg``, its entry is in degrees.
+    The longest end of the name that is in the table counts, so ``wing.mass`` and ``body.mass`` differ. If an
+    angle's name ends in ``_deg``, its entry is in degrees.
 
     >>> find("vehicle.wing.mass").label, find("wingbeat.flap_mean_deg").unit, find("nonsense")
     ('mass of one wing', 'deg', None)

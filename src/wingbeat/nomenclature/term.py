@@ -14,8 +14,8 @@ class Term(NamedTuple):
     unit : SI, as the CF conventions write it; ``1`` for a plain number, empty for a text.
     label : what to call it; the ``long_name`` in data sets.
     symbol : as in the theory, empty if it has none.
-    meaning : how it is defined, as species files say it; the label if nothing is given.
-    short : the label where there is little room, in rows and on axes; the label if nothing is given.
+    meaning : definition, as species files say it; if none is given, the label.
+    short : label where there is little room, in rows and on axes; if none is given, the label.
     """
 
     name: str
@@ -27,10 +27,10 @@ class Term(NamedTuple):
 
     @property
     def definition(self) -> str:
-        """The meaning, or what stands for it."""
+        """The meaning, or the label if no meaning is given."""
         return self.meaning or self.label
 
     @property
     def short_label(self) -> str:
-        """The short label, or what stands for it."""
+        """The short label, or the label if no short one is given."""
         return self.short or self.label

@@ -9,7 +9,7 @@ _IN_DEGREES = math.degrees(1.0)
 
 
 def cf(unit: str) -> str:
-    """Return a unit as data sets write it, without a stroke; one that is written so already stays.
+    """Return a unit as data sets write it, without a slash; a unit that is already written so does not change.
 
     >>> cf("m/s2"), cf("kg/m3"), cf("N m"), cf("1/deg"), cf("m s-2")
     ('m s-2', 'kg m-3', 'N m', 'deg-1', 'm s-2')
@@ -25,7 +25,7 @@ def cf(unit: str) -> str:
 
 
 def plain(unit: str) -> str:
-    """Return a unit of a data set as species files and messages write it, with a stroke.
+    """Return a unit of a data set as species files and messages write it, with a slash.
 
     >>> plain("m s-2"), plain("kg m2 s-1"), plain("deg-1"), plain("N m"), plain("foot-pounds")
     ('m/s2', 'kg m2/s', '1/deg', 'N m', 'foot-pounds')
@@ -41,7 +41,7 @@ def plain(unit: str) -> str:
 
 
 def for_people(unit: str) -> tuple[float, str]:
-    """Return by what to multiply a number and its unit then, so that a reader likes it: angles are in degrees.
+    """Return the factor to a unit that readers prefer, and that unit: angles are in degrees.
 
     >>> for_people("m s-1"), for_people("1"), for_people("rad s-1")[1]
     ((1.0, 'm/s'), (1.0, ''), 'deg/s')

@@ -1,9 +1,10 @@
 """How an optimum changes with a number of its problem: the implicit function theorem at its conditions.
 
-At an optimum, closure and active limits vanish, ``c(x, p) = 0``, and so does the Lagrangian's gradient along the
-directions that they leave free. The objective changes by ``dJ/dp - multipliers . dc/dp``; the change of the optimum
-does not enter (the envelope theorem). Derivatives by the unknowns come from the flight and are exact. Those by p
-are central differences of these exact numbers, so p can be any number of the problem.
+At an optimum, closure and the margins of active limits vanish, ``c(x, p) = 0``. The Lagrangian's gradient also
+vanishes along the directions that these conditions leave free. The objective changes by
+``dJ/dp - multipliers . dc/dp``; the change of the optimum does not enter (the envelope theorem). Derivatives by the
+unknowns come from the flight and are exact. Derivatives by p are central differences of these exact numbers, so p
+can be any number of the problem.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ class OptimumSlopes:
         self._options = options
         fine = Transcription(problem, options, options.sensitivity.fine_blocks)
         guess = fine.scaled(unknowns)
-        # The certificate decides which limits are active; all derivatives are of the solver's finer flights.
+        # The certificate decides which limits are active; all derivatives come from the solver's finer flights.
         certificate = certify(problem.model, problem.wingbeat(unknowns), unknowns[:4], options.certificate.rtol)
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)

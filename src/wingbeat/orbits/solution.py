@@ -55,10 +55,10 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
 class Solution:
     """What the solver found: wingbeat and initial state of the best orbit, and how far it can be trusted.
 
-    `optima` holds the best uncorrected optimum of each family. Without an orbit, wingbeat and initial state are
-    those of the closest wingbeat; `deficits` are the balances that fail, the largest first; `relaxations` are the
-    single changes that fly, the smallest first. `reduced_hessian` helps to solve similar problems; `options` are
-    those of the solvers.
+    `optima` holds the best uncorrected optimum of each family. If there is no orbit, wingbeat and initial state are
+    those of the closest wingbeat; `deficits` are the deficits of the balances that fail, the largest first; and
+    `relaxations` are the single changes with which an orbit exists, the smallest first. `reduced_hessian` helps to
+    solve similar problems; `options` are the options of the solvers.
     """
 
     problem: OrbitProblem
@@ -96,7 +96,7 @@ class Solution:
 
     @property
     def place(self) -> np.ndarray:
-        """The unknowns in the optimiser's scale, velocities less their means, to compare orbits at two speeds."""
+        """The unknowns in the optimiser's scale, velocities minus their means, to compare orbits at two speeds."""
         drift = np.zeros(self.unknowns.size)
         drift[1:3] = self.problem.speed, self.problem.climb
         return (self.unknowns - drift) / self.problem.unknowns().scale
@@ -114,11 +114,14 @@ class Solution:
         return self.value_of(minimise)
 
     def as_optimum(self) -> tuple[Optimum, ...]:
-        """Return the orbit as an optimum in which one start ended; nothing if it is not certified."""
+        """Return the orbit as an optimum in which one start ended; return nothing if the orbit is not certified."""
         return (Optimum(self.objective, self.unknowns),) if self.status is Status.CONVERGED else ()
 
     def beat(self) -> Beat:
-        """Return the certified beat as time series, computed anew: thousands of solutions could not hold theirs."""
+        """Return the certified beat as time series.
+
+        It is computed anew, because thousands of solutions could not hold their beats in memory.
+        """
         problem, certificate = self.problem, self.certificate
         velocity = problem.speed, problem.climb
         return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)

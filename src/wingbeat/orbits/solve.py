@@ -57,16 +57,16 @@ def find_orbit(
     ----------
     problem : the orbit problem.
     starts : number of starts; default as in `SearchOptions` for such a problem. If peaks are minimised, half as
-        many follow beside the best optimum.
+        many further starts follow beside the best optimum.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
-        as one more.
-    threads : local searches at a time; default the number of cores.
+        as one more start.
+    threads : number of local searches at a time; default the number of cores.
     most_starts : if no start leads to a certified orbit, more follow, up to this many; default that of
         `SearchOptions`.
-    advise : without an orbit, find the single changes that lead to one. It takes as long as the starts.
-    explain : without an orbit, find the closest wingbeat and the balance that fails. It takes a third of the time
-        of the starts. If false, `advise` has no effect.
+    advise : if no orbit is found, find the single changes that lead to one. This takes as long as the starts.
+    explain : if no orbit is found, find the closest wingbeat and the balance that fails. This takes a third of the
+        time of the starts. If `explain` is false, `advise` has no effect.
     options : of the solvers.
 
     Returns
@@ -161,15 +161,16 @@ def _found(
 
 
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
-    """Yield where local searches end that start from beats with the least of a limited quantity, limit by limit.
+    """Search, limit by limit, from beats with the least of the limited quantity; yield where the searches end.
 
-    Limits on a peak have edges at which local searches stop. For the bat at 10 m/s with least positive power within
-    a pitch torque all fifty random starts stopped there, although a quarter less torque was feasible.
+    Limits on a peak have edges at which local searches stop. For the bat at 10 m/s, least positive power was sought
+    within a limit of pitch torque. All fifty random starts stopped at such an edge, although a quarter less torque
+    was feasible.
     """
     problem, options = programme.problem, programme.options
     for limit in problem.subject_to:
         if limit.at_most:
-            # Minimised as an output of the beat, because a fixed frequency is no unknown.
+            # The frequency is minimised as an output of the beat, because a fixed frequency is no unknown.
             least = dataclasses.replace(limit.quantity, parameter=None)
             easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)
             found = first_searches(easier, starts, seed, threads)

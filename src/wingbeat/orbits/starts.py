@@ -1,9 +1,9 @@
 """The solver's starts: one in each family of wingbeats, then seeded random ones within the bounds.
 
-Most have a high frequency. A vehicle that beats fast moves little within a beat, so closure is nearly linear and
-local searches do not diverge. One that beats too slowly to stay up has no orbit near. From a closed orbit of high
-frequency, the frequency decreases steadily towards its minimum. But where wings are large for the body, families
-with little wing pitching exist at low frequencies only, and fast starts miss them.
+Most starts have a high frequency. A vehicle that beats fast moves little within a beat, so closure is nearly linear
+and local searches do not diverge. A vehicle that beats too slowly to stay up has no orbit near. From a closed orbit
+of high frequency, the frequency decreases steadily towards its minimum. But where wings are large for the body,
+families with little wing pitching exist at low frequencies only, and fast starts miss them.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def start_count(problem: OrbitProblem, starts: int | None, options: SearchOption
 def start_beside(
     problem: OrbitProblem, best: np.ndarray, index: int, seed: int, options: SearchOptions = DEFAULTS.search
 ) -> np.ndarray:
-    """Return random unknowns near an optimum; they depend on it, index and seed alone."""
+    """Return random unknowns near an optimum; they depend on the optimum, index and seed alone."""
     unknowns = problem.unknowns()
     random = np.random.default_rng([seed, index])
     moved = best + options.start_spread * unknowns.scale * random.uniform(-1.0, 1.0, best.size)
@@ -52,7 +52,7 @@ def start_point(
     random = np.random.default_rng([seed, index])
     margin = options.random_margin * (unknowns.upper - unknowns.lower)
     point = random.uniform(unknowns.lower + margin, unknowns.upper - margin)
-    # Near the mean velocity and a moderate attitude.
+    # The pitch state is near the mean velocity and a moderate attitude.
     point[:4] = given[0][:4] + random.uniform(-np.array(options.random_below), options.random_above)
     if "frequency" in unknowns.names:
         column = unknowns.names.index("frequency")

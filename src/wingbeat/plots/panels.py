@@ -113,7 +113,7 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
         if flown(dataset).any():  # alone, it would set limits of some 1e-17
             axes.axhline(0, color=_MEAN["color"], linewidth=0.5)
         for station, name, style in ((0.25, "1/4 span", FIRST), (0.75, "3/4 span", SECOND)):
-            # Strip centres need not lie there: linear in between, and the last one beyond.
+            # Strip centres need not lie there: we interpolate linearly, and take the last centre's value beyond it.
             line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
             axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
         legend_above(axes, axes.get_lines()[-2:])
@@ -121,7 +121,7 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
 
 
 def _clear_corner(axes: Axes) -> None:
-    """Leave room below the lowest tick, or its label meets that of the first phase."""
+    """Leave room below the lowest tick, so that its label does not meet the label of the first phase."""
     low, high = axes.get_ylim()
     room = 0.06 * (high - low)
     lowest = min((tick for tick in axes.get_yticks() if low <= tick <= high), default=high)
@@ -129,7 +129,7 @@ def _clear_corner(axes: Axes) -> None:
 
 
 def _length(values: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return lengths in metres, or in millimetres where all are short, and the unit."""
+    """Return lengths in metres, or in millimetres if all are short; return the unit too."""
     return (1e3 * values, "mm") if np.fmax.reduce(np.abs(values)) < 0.5 else (values, "m")
 
 

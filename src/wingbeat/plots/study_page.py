@@ -23,7 +23,7 @@ _DASHES = ("-", "--", ":", "-.")
 _MOST, _STRANDS = (12, 4), 2000
 # Columns whose values say by themselves what they are.
 _NAMES = ("species", "aero.coefficients", "species_given", "aero_given")
-# How far a column may stray from its mean, of its size, and be one number that was rounded.
+# A column holds one number that was rounded if its range is at most this share of its largest value.
 _SAME = 1e-9
 
 
@@ -109,7 +109,7 @@ def _draw_lines(
         color, marker = MARKED[which]
         style: dict[str, Any] = {"color": color, "label": name, "markersize": 3.0}
         style |= {"linestyle": _DASHES[again % len(_DASHES)], "marker": marker}
-        # Not-a-number where there is no orbit breaks the line there.
+        # Where there is no orbit, not-a-number breaks the line.
         axes.plot(x, np.where(good, part[quantity].to_numpy(dtype=float), np.nan), **style)
         if not good.all():
             foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "label": failed}

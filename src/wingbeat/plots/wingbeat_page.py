@@ -56,7 +56,7 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
         layout: Any = figure.get_layout_engine()
         layout.set(rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
         for i, (text, style) in enumerate(lines):
-            # A name of the user's own may hold a dollar sign, which is no formula.
+            # A name that the user chose may hold a dollar sign, which must not start a formula.
             where = (2 / PAGE, 1 - (1.5 + _LINE * i) / height)
             figure.text(*where, text, va="top", parse_math=False, **style)
         figure.text(2 / PAGE, 1.5 / height, _note(dataset), fontsize=FONT)

@@ -1,4 +1,4 @@
-"""One HTML file that shows flights: it opens from disk, holds all it needs, and asks nobody for anything."""
+"""One HTML file that shows flights: it opens from disk, contains all it needs, and makes no network request."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[s
     InvalidInputError : no flight or more than two, or one of more samples than a page can hold.
     FileError : a dataset that holds no flight, or a file that cannot be written.
     """
-    # No text of a file can end the element it stands in.
+    # No text of a file can close the HTML element that contains it.
     data = json.dumps(scene(flights), allow_nan=False).replace("<", "\\u003c")
     title = " and ".join(label for label, _ in flights)
     page = _PAGE.format(

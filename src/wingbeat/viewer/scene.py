@@ -110,7 +110,7 @@ def _summary(dataset: xr.Dataset, frequency: float) -> str:
 
 
 def _downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[list[float]]:
-    """Return from which phase to which the wing goes down."""
+    """Return the phases between which the wing goes down."""
     down = (flap_rate[1:] + flap_rate[:-1]) < 0
     edges = np.flatnonzero(np.diff(np.concatenate([[False], down, [False]]).astype(int)))
     return [[float(phase[a]), float(phase[b])] for a, b in zip(edges[::2], edges[1::2], strict=True)]
@@ -119,7 +119,7 @@ def _downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[list[float]]:
 def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Return lift and drag of the left wing's strips as vectors in the world, shape (K, N, 3) [N].
 
-    Drag is against the strip's velocity across its span, and lift the rest of its air load.
+    Drag is opposite to the component of the strip's velocity across its span. Lift is the rest of the air load.
     """
     corner, velocity = dataset["strip_corner"].values, dataset["strip_velocity"].values
     span = corner[:, :, 1] - corner[:, :, 0]

@@ -14,8 +14,8 @@ _WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass
 def body_axes(body: Body) -> tuple[float, float]:
     """Return half length and half depth [m] of the round ellipsoid of water with the body's mass and pitch inertia.
 
-    The model knows no shape of the body; this is the roundest guess that has its numbers. A body too compact for
-    that is drawn as a ball.
+    The model knows no shape of the body; this is the roundest guess with the body's numbers. A body too compact for
+    such an ellipsoid is drawn as a ball.
 
     >>> half_length, half_depth = body_axes(Body(mass=0.276, pitch_inertia=3.6e-4))
     >>> round(half_length, 3), round(half_depth, 3)

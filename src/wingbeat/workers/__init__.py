@@ -1,1 +1,1 @@
-"""Worker processes: how they are talked to, which core they keep to, what they leave behind when they end."""
+"""Worker processes: how we communicate with them, which core each uses, what must be cleared when they end."""

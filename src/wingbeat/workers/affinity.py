@@ -1,7 +1,7 @@
 """Worker processes pinned to a core each (CPU affinity), where they take all cores there are.
 
-XLA hands a program from the thread that asks to another, and back. Left alone, the system puts these on different
-cores, and each turn finds cold caches: see docs/performance.md.
+XLA hands a program from the calling thread to another thread, and back. By default, the system puts these threads
+on different cores, and each change finds cold caches: see docs/performance.md.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ def core_count() -> int:
 
 
 def cores_of(processes: int) -> list[int | None]:
-    """Return the core to pin each of so many processes to: None where some cores would be left to others.
+    """Return the core to pin each of so many processes to; None for each if they do not take all cores.
 
-    Two programs at once that take a few cores each must not end up on the same few.
+    Two programs that run at once and take a few cores each must not end up on the same cores.
 
     >>> cores_of(1_000_000)[0] is None
     True

@@ -1,4 +1,4 @@
-"""Jobs of several sessions on a few worker processes: fair, limited, and none the worse for a process that dies."""
+"""Jobs of several sessions on a few worker processes: fair, limited, and safe if a process dies."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from wingbeat.workers.process import WorkerProcess
 
 # Processes that end before they are ready, in a row, after which no more are started for the same job.
 _FALSE_STARTS = 3
-# Seconds in which a job that is not wanted any more may end by itself before its process is ended.
+# A job that is no longer wanted may end by itself within this time [s]; then its process is ended.
 _GRACE = 20.0
 
 
@@ -71,7 +71,7 @@ class _Desk:
 
 @dataclass
 class _Turns:
-    """Who is next: each session's jobs take turns with those of the others, first come first served."""
+    """The order of the jobs: sessions take turns, first come first served."""
 
     now: int = 0
     last: dict[str, int] = field(default_factory=dict)
@@ -120,7 +120,7 @@ class FairPool:
             return [desk.worker.pid for desk in self._desks if desk.worker is not None and desk.worker.alive]
 
     def submit(self, session: str, what: Any, tell: Callable[[Event], None]) -> Job | None:
-        """Queue a job, or return None where the session has as many waiting as it may.
+        """Queue a job, or return None if the session already has the largest number of waiting jobs.
 
         Parameters
         ----------

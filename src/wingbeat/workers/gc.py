@@ -10,5 +10,5 @@ _SELDOM = 50_000
 
 
 def collect_seldom() -> None:
-    """Have this process look for garbage seldom; what a solver leaves behind has few cycles."""
+    """Make this process look for garbage seldom, because the objects that a solver leaves have few cycles."""
     gc.set_threshold(_SELDOM)

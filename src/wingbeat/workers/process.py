@@ -33,8 +33,8 @@ class WorkerProcess:
     hear : called with each `Message` in a thread of its own, at last with None when the process has ended.
     core : the core that it keeps to; None for any.
     silence : seconds without a word, while it has work, after which it ends itself; None for any time.
-    memory : resident memory [bytes] beyond which it leaves after a request, for compiled programs pile up; None
-        for any.
+    memory : resident memory [bytes] beyond which the process ends after a request, because compiled programs
+        accumulate; None for any.
     environment : variables that differ from this process's.
     """
 

@@ -1,1 +1,1 @@
-"""Flights of one period: by the solver with exact derivatives, by the certifier, and as a beat with its quantities."""
+"""Flights of one period: in few steps with exact derivatives, by the certifier, and as a beat with quantities."""

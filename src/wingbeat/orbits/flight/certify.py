@@ -57,8 +57,8 @@ def certify(
     rtol : relative tolerance of the flight.
     rough : sample the path at a few phases only, which takes half the time.
     """
-    # A rough flight has the same number of phases, the last ones all at the end, so that one compiled program serves
-    # both kinds.
+    # A rough flight has the same number of phases, the last ones all at the end. One compiled program thus serves
+    # both kinds of flight.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
     start = State(0.0, 0.0, *pitch_state)
     return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))

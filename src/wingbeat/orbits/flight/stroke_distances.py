@@ -32,7 +32,8 @@ _SAMPLES, _NEWTON = 64, 2
 # Name and sign of each row's limit.
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
 
-# Phases between which the minimum of each row is sought: a quarter of the beat for corners, the whole beat for angles.
+# Phases between which the minimum of each row is sought: for corners a quarter of the beat, for angles the whole
+# beat.
 _BEGIN = np.array([*np.tile(np.arange(PARTS) / PARTS, 2), *[0.0] * 4])
 _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 

@@ -30,7 +30,7 @@ class Deficit:
 
     Parameters
     ----------
-    law : ``lift`` (upward force), ``thrust`` (forward force, drag taken off) or ``pitching moment`` (nose up).
+    law : ``lift`` (upward force), ``thrust`` (forward force minus drag) or ``pitching moment`` (nose up).
     share : of the weight, or of weight times mean chord.
     amount : [N] or [N m].
     """

@@ -63,7 +63,7 @@ def trace(
     problem : the problem; its own speed has no effect.
     speeds : increasing [m/s].
     starts, seed : number of starts at the first and the last speed, and the seed of all starts. Speeds between get
-        fewer starts. A speed at which no orbit is certified gets twice as many.
+        fewer starts. A speed at which nothing is certified then gets twice the number `starts`.
     progress : called with (tasks done, tasks known).
     threads : number of tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.

@@ -46,7 +46,8 @@ def marks_of(branches: Branches) -> list[Mark]:
 def families(branches: Branches) -> list[list[int]]:
     """Return the family number of each optimum of each speed; families are in the order of their best rank.
 
-    A family has one optimum at a speed. Where two families lead to one optimum, the family with fewer steps continues.
+    A family has one optimum at a speed. Where two families lead to one optimum, the family with fewer steps
+    continues.
     """
     labels = [[-1] * len(optima) for optima in branches.optima]
     count = 0

@@ -141,8 +141,8 @@ def sample_orbits(
 ) -> Samples:
     """Solve a problem for random draws of its parameters.
 
-    Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family. If
-    the correction leads to no orbit, a local search from the prediction follows, then one start.
+    Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family.
+    If the correction leads to no orbit, a local search from the prediction follows, then one start.
 
     Parameters
     ----------

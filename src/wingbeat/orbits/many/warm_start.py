@@ -66,7 +66,7 @@ def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
     """Return coordinates of problems of one kind about their mean, shape (problems, directions).
 
     There are as many directions as the problems differ in. Distances are those between the numbers that describe
-    the problems, each number divided by its largest value.
+    the problems, each number divided by its largest magnitude.
     """
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)

@@ -57,7 +57,7 @@ class Candidate:
 
     @property
     def is_optimum(self) -> bool:
-        """Whether it is closed and optimal, by the solver's coarse flight."""
+        """Whether the candidate is closed and optimal, by the solver's coarse flight."""
         return self.closed and self.optimal
 
 
@@ -98,7 +98,7 @@ def refine(programme: Transcription, start: np.ndarray, iterations: int | None =
 
 
 def as_candidate(programme: Transcription, scaled: np.ndarray, optimal: bool = False) -> Candidate:
-    """Return unknowns as a candidate; `optimal` is whether the search that led to them converged."""
+    """Return unknowns as a candidate; `optimal` says whether the search that led to them converged."""
     closed = is_closed(programme, scaled, programme.options.search.closure_tolerance)
     return _candidate(programme, scaled, closed, optimal or (closed and is_optimal(programme, scaled)))
 
@@ -141,7 +141,7 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
 
 @dataclass(frozen=True)
 class Patience:
-    """A local search has diverged if its violation has always exceeded `closure` in so many flights."""
+    """The rule that a local search has diverged: in so many flights, its violation always exceeded `closure`."""
 
     flights: int
     closure: float
@@ -171,7 +171,8 @@ def optimise(
     programme : the programme.
     scaled : where to start.
     iterations, tolerance : of SLSQP.
-    patience : when a local search has diverged; it then ends at its least violation. It never does if not given.
+    patience : says when a local search has diverged. The search then ends where its violation was least. Without
+        `patience`, no search counts as diverged.
     """
     nearest, least, flights = scaled, np.inf, 0
 
@@ -227,7 +228,8 @@ def active_bounds(programme: Transcription, scaled: np.ndarray) -> tuple[str, ..
 def optimality(programme: Transcription, scaled: np.ndarray) -> float:
     """Return the largest residual of the Karush-Kuhn-Tucker conditions, in the optimiser's scale.
 
-    The multipliers fit best in least squares: free for the closure, of the right sign for active bounds.
+    The multipliers are those that fit best in least squares. Multipliers of the closure are free; those of active
+    bounds have the right sign.
     """
     tolerance = programme.options.search.bound_tolerance
     closure = programme.closure_jacobian(scaled)

@@ -1,7 +1,7 @@
 """Newton's method on the optimality conditions, with a fixed active set: the last digits of an optimum.
 
-A local search ends by its quasi-Newton matrix, which takes many flights per digit along directions in which the
-objective hardly changes. Here the curvature along the few free directions is measured once.
+A local search uses a quasi-Newton matrix. Along directions in which the objective hardly changes, it takes many
+flights for each further digit. Here the curvature along the few free directions is measured once.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ class NewtonKKT:
     ----------
     programme : the first problem.
     scaled : its optimum.
-    like : curvature of an optimum nearby, used if its active set is the same; else the curvature is measured.
+    like : curvature of an optimum nearby. It is used if that optimum has the same active set; else the curvature is
+        measured.
 
     Attributes
     ----------
@@ -98,8 +99,8 @@ class NewtonKKT:
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
         """Return a point from which the next step is shorter than `near`, or None as `converge` does.
 
-        That step is not taken: from a prediction by certified optima, it would lead to the optimum of the coarse
-        flight, which is farther from the certified one.
+        That next step is not taken. From a prediction by certified optima, it would lead to the optimum of the
+        coarse flight, which is farther from the certified optimum.
         """
         steps = self._steps(programme, scaled)
         return next((here for here, step in steps if np.abs(step).max() <= near), None)
@@ -133,7 +134,7 @@ class NewtonKKT:
                 return
             gradient = programme.objective_gradient(scaled)[self.free]
             null_space = self._null_space(jacobian)
-            # If the rank changes, so do the free directions, and their curvature is unknown.
+            # If the rank changes, the free directions change too, and their curvature is unknown.
             if null_space.basis.shape != self._basis.shape:
                 return
             step = np.zeros(scaled.size)

@@ -19,7 +19,7 @@ class Outputs:
     Attributes
     ----------
     count : values of objective and constraints together.
-    of_objective : how many of them, the first, are the objective's.
+    of_objective : number of the objective's values, which come first.
     minimises_peaks : whether the objective has several values.
     limits : of the constraints' values, shape (count - of_objective,).
     """

@@ -18,7 +18,7 @@ _UPRIGHT = 0.5 * math.pi
 class StrokeLimits:
     """Margins of a problem's stroke within its limits, as rows of the inequalities.
 
-    There are none if no free parameter shapes the stroke, or wings may cross.
+    There are no rows if no free parameter shapes the stroke, or if the wings may cross.
 
     Parameters
     ----------

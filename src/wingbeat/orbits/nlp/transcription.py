@@ -19,7 +19,7 @@ from wingbeat.orbits.problem.unknowns import Unknowns
 
 # Larger sums of a flight's numbers overflow when squared, or soon will.
 _OVERFLOW = 1e12
-# Number of cached flights: that of the current point, and those from which a difference or a line search started.
+# Number of cached flights: the flight of the current point, and those where a difference or a line search started.
 _REMEMBERED = 4
 # Bounds of the epigraph variable, in the objective's scale.
 _UNBOUNDED = 1e6
@@ -73,8 +73,8 @@ class Transcription:
         self.lower = np.append(self.unknowns.lower, [-_UNBOUNDED] * self.has_epigraph) / scale
         self.upper = np.append(self.unknowns.upper, [_UNBOUNDED] * self.has_epigraph) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
-        # With the smooth peak, starts for least frequency diverge (11 orbits of a study's 14, all 14 without it).
-        # Optima of outputs lie between two samples and need it.
+        # With the smooth peak, starts for least frequency diverge: of a study's 14 orbits they found 11 with it,
+        # all 14 without it. Optima of outputs lie between two samples and need the smooth peak.
         self._peak = highest_sample if self.outputs is None else peak_weights
         self._stroke = StrokeLimits(problem, options.search.plane_clearance)
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
@@ -196,9 +196,9 @@ class Transcription:
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
         """Return the margin of everything that has a limit, negative if the limit is exceeded.
 
-        First come body pitch above its lower and below its upper bound [rad] and then the stroke, as named by
-        `path_limits`; then the constraints in their scale; last the epigraph variable above each peak that is
-        minimised.
+        First come the margins of body pitch above its lower and below its upper bound [rad], then those of the
+        stroke, as named by `path_limits`. The constraints follow, in their scale. Last come the margins of the
+        epigraph variable above each peak that is minimised.
         """
         path = self.point(scaled).path - self._correction.path_offset
         if self.outputs is None:

@@ -81,8 +81,8 @@ class ChangeOptions:
     slowest : lowest speed that is tried if the problem contains a cost of transport, as a share of the problem's
         speed.
     wide_frequency : the upper bound of frequency may rise to this multiple of itself, or to 200 Hz if that is more.
-        The lower bound may fall to itself over this multiple, or to 0.1 Hz if that is less. A scaling law that was
-        used outside its data, for a bat of 10 kg, gave bounds that were 9 times too low.
+        The lower bound may fall to its value divided by this number, or to 0.1 Hz if that is less. A scaling law
+        that was used outside its data, for a bat of 10 kg, gave bounds that were 9 times too low.
     raised_frequency : increases of the upper bound of frequency that are tried first, as shares of it.
     beyond : mass, climb and shoulder are first moved by this multiple of the deficit, as a share of their scale.
     chords : largest shift of the shoulder [chords].

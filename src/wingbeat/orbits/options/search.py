@@ -24,8 +24,8 @@ class SearchOptions:
         12 starts found the lowest frequency.
     starts_of_many_optima : number of starts if the user sets bounds, or if a peak is minimised. With the flap
         amplitude limited to 50 deg, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %; 24 starts did not
-        miss it. For the bat's lowest peak pitch torque at 14 m/s, 12 starts missed it by half; of 30 random starts,
-        4 led to it.
+        miss it. 12 starts missed the bat's lowest peak pitch torque at 14 m/s by half; of 30 random starts, 4 led
+        to it.
     most_starts : while no start leads to a certified orbit, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
     random_margin : distance of random starts from the bounds, as a share of the range.
@@ -40,16 +40,16 @@ class SearchOptions:
     optimality_tolerance : largest residual of the optimality conditions, in the optimiser's scale.
     bound_tolerance : an unknown closer to a bound than this share of its range is at the bound. The same number
         holds for limits along the path, in their own scale.
-    diverged_closure, diverged_flights : a local search is stopped as diverged if its violation, in the optimiser's
-        scale, has exceeded `diverged_closure` in every flight, after at least `diverged_flights` flights. The rule
+    diverged_closure, diverged_flights : a local search is stopped as diverged after at least `diverged_flights`
+        flights if its violation in every flight, in the optimiser's scale, exceeded `diverged_closure`. The rule
         would have stopped 2 of 376 searches that found an orbit.
     restoration : options of the least squares that bring a start close to closure before the objective counts.
     restored_closure : a start whose residual is still larger, in the optimiser's scale, is abandoned.
     same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
         can change a little while the objective hardly changes. It is then chance where a local search stops.
-    uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. If an optimum
-        exceeds a certified one by more than this, it is not certified, because correction would not make it the
-        better one. Correction changed nearly all of 200 frequencies by less than this.
+    uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. An optimum
+        whose objective exceeds that of a certified one by more than this is not certified, because correction would
+        not make it the better one. Correction changed nearly all of 200 frequencies by less than this.
     plane_clearance : strip corners stay away from the plane of symmetry by this share of the wing's length. The
         default is ten times the other tolerances; for a wing of 0.3 m it is 3 micrometres.
     largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line

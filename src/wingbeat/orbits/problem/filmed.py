@@ -45,8 +45,8 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
     """Return the free parameters, those of the species that were not filmed, and their bounds.
 
-    Forward and vertical speed take two. If fewer are left, mean wing pitch and then its amplitude may move from
-    their filmed values, within the bounds returned.
+    Two free parameters are needed, for forward and for vertical speed. If fewer are left, the mean of wing pitch,
+    and then its amplitude, may move from the filmed value within the bounds returned.
     """
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
@@ -83,6 +83,7 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
     if "frequency" not in free:
         more.setdefault("minimise", "mean_positive_power")
     bounds |= more.pop("bounds", {})
-    # The filmed stroke is fixed: a limit could only hide where wings cross. Such an orbit draws a warning.
+    # The filmed stroke is fixed, so that a limit could only hide where the wings cross. An orbit whose wings cross
+    # draws a warning.
     more.setdefault("wings_may_cross", True)
     return OrbitProblem(filmed_species(beat, species), speed, free=free, bounds=bounds, **more)

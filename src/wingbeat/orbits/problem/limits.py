@@ -20,8 +20,8 @@ class Constraint:
     ----------
     quantity : a `Quantity`, or the name of one.
     limit : in the unit of the quantity.
-    at_most : whether the limit is an upper one; else a lower one. A limit of a series applies to its maximum: at
-        most holds at every instant, at least holds at one instant or more.
+    at_most : whether the limit is an upper one; else it is a lower one. A limit on a series applies to its maximum:
+        an upper limit therefore holds at every instant, a lower limit at one instant or more.
 
     Raises
     ------
@@ -88,7 +88,7 @@ _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
     """Return the limit of a wingbeat parameter in a text, or None.
 
-    A limit of the frequency that does not fix it is a constraint like any other.
+    An upper or lower limit of the frequency is a constraint like any other, so that the result is None.
 
     >>> parse_wingbeat_limit("frequency = 6").value
     6.0

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
     unit : of the value, ``1`` if it has none.
     value : SI and radians, but as published where the name ends in ``_deg``.
-    size : a large change: the size of the value, or a typical size if the value is 0.
+    size : size of a large change: the magnitude of the value, or a typical magnitude if the value is 0.
     place : path from the problem to the number.
     plausible : lowest and highest plausible value, where the species file gives them.
     """
@@ -91,9 +91,9 @@ def _with_plausible(problem: OrbitProblem, parameter: Parameter) -> Parameter:
 
 
 def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, float] | None:
-    """Return the species file's range; that of the whole mass becomes the body's, less the wings' mass.
+    """Return the species file's range. The body's range is that of the vehicle's mass, minus the wings' mass.
 
-    A parameter that the species leaves free and the user fixes was measured: it has no range.
+    A parameter that the species leaves free and the user fixes counts as measured, so that it has no range.
     """
     numbers = problem.species.numbers
     last = str(parameter.place[-1])

@@ -1,7 +1,7 @@
 """Quantities as functions of one beat: values with derivatives, in the optimiser's scale.
 
-A quantity that is a number has one value. A series has the largest value in each quarter of the beat; several
-series, in columns, have one for each column and quarter.
+A quantity that is a number has one value. A series has one value for each quarter of the beat: its largest there.
+Several series, in columns, have one value for each column and quarter.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def _changes(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any
 
 @dataclass(frozen=True)
 class _Lacking:
-    """The negative of a quantity, or of a series' maximum, which turns a lower limit into an upper one."""
+    """The negative of a quantity, or of a series' maximum. It turns a lower limit into an upper one."""
 
     of: Callable[[Beat], Any]
 

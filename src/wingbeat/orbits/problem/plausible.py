@@ -55,7 +55,8 @@ def drawn_in(
 def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
     """Return the limits that keep quantities of the beat plausible at a speed [m/s].
 
-    The Reynolds number has no limit: no wingbeat changes it, so a speed at which it is not plausible is a fault.
+    The Reynolds number has no limit, because no wingbeat changes it. A speed at which it is not plausible is a
+    fault.
     """
     limits = []
     for name in JUDGED:

@@ -50,17 +50,17 @@ class OrbitProblem:
     aero : a `BladeElement`, which also sets strips and force point; or a coefficient model such as `SuFan()`, its
         name, the path of its file, or a JAX function of the angle of attack [rad] that returns (C_L, C_D).
     free : names of the wingbeat parameters that are free; default those of the species.
-    bounds : (lower, upper) for free parameters, or along the whole path for ``body_pitch`` and for ``flap``, the
-        flap angle of arm and hand, SI and radians; replaces the species' bounds of the same names. ``"plausible"``
-        stays within the species' plausible ranges: they narrow the bounds, and each quantity of the flown wingbeat
-        becomes a limit of `subject_to`.
-    minimise : the objective, a `Quantity` or the name of one; default the frequency, as in the paper.
+    bounds : (lower, upper) of free parameters, SI and radians; they replace the species' bounds of the same names.
+        Bounds of ``body_pitch``, and of ``flap`` (the flap angle of arm and hand), hold along the whole path.
+        ``"plausible"`` stays within the species' plausible ranges: the ranges of parameters narrow the bounds, and
+        the range of each quantity of the flown wingbeat becomes a limit of `subject_to`.
+    minimise : the objective, a `Quantity` or the name of one; default the frequency, as in Su et al. 2023.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
-        wingbeat parameter fixes it, ``"frequency=6"``, or tightens its bounds, ``"flap_amplitude<=50 deg"``.
+        wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
     wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles leave their range. By
-        default each wing stays on its own side. If every parameter that shapes the stroke is fixed, an orbit that
-        crosses draws a warning.
+        default each wing stays on its own side. If every parameter that shapes the stroke is fixed, an orbit whose
+        wings cross draws a warning.
 
     Raises
     ------
@@ -274,7 +274,7 @@ class OrbitProblem:
 
     @functools.cached_property
     def model(self) -> FlightModel:
-        """The flight model of vehicle, air loads and air; cached, because its coefficients take a flight's time."""
+        """The flight model of vehicle, air loads and air; cached: its coefficients take as long as a flight."""
         return FlightModel(self.vehicle, self.aero, self.air)
 
     def unknowns(self) -> Unknowns:

@@ -24,7 +24,7 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number computed from one wingbeat, or a series along it, whose largest value counts.
+    """A number computed from one wingbeat, or a series along it; of a series, the largest value counts.
 
     Parameters
     ----------
@@ -33,8 +33,9 @@ class Quantity:
         (K, m) of K phases.
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
-    parameter : the wingbeat parameter that the quantity is, if it is one: as an objective it then needs no flight.
-    in_hover : what to ask for in hover instead, if the quantity is undefined at speed 0.
+    parameter : the wingbeat parameter that the quantity is, if it is one. As an objective, the quantity then needs
+        no flight.
+    in_hover : what to ask for instead in hover, if the quantity is undefined at speed 0.
 
     Raises
     ------
@@ -107,8 +108,9 @@ def PowerCost(returned: float = 0.0) -> Quantity:
 
     Parameters
     ----------
-    returned : 0, negative work costs nothing and is lost; 1, it is fully returned, which is the mean power;
-        between, partly; -1, negative work costs as much as positive.
+    returned : share of the negative work that is returned. With 0, negative work costs nothing and is lost. With 1,
+        it is fully returned, and the cost is the mean power. With a number between, it is partly returned. With -1,
+        negative work costs as much as positive work.
 
     Raises
     ------
@@ -128,8 +130,8 @@ def PowerCost(returned: float = 0.0) -> Quantity:
 def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
     """Return the mean positive hinge power with springs at the flap hinges.
 
-    A spring's torque is ``-k (flap - rest)``; the actuator's is the hinge torque minus that of the spring.
-    Its negative work costs nothing and is lost, as in ``mean_positive_power``, which is this without a spring.
+    A spring's torque is ``-k (flap - rest)``; the actuator's torque is the hinge torque minus the spring's torque.
+    The actuator's negative work costs nothing and is lost. Without a spring, this is ``mean_positive_power``.
 
     Parameters
     ----------

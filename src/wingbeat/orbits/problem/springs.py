@@ -1,7 +1,7 @@
-"""Springs at the flap hinges: the power that they leave to the actuators, and the best ones for a given beat.
+"""Springs at the flap hinges: the power that they leave to the actuators, and the best springs for a given beat.
 
 A linear spring between body and arm gives the torque ``-k (flap - rest)``, both wings together. Its net work over a
-closed beat is zero, so it moves power from where there is too much to where there is too little.
+closed beat is zero, so it moves power from phases with too much power to phases with too little.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class SpringCost:
     rest_angle: float | None = None
 
     def __call__(self, beat: Beat) -> Any:
-        """Return it for a beat [W]."""
+        """Return this power for a beat [W]."""
         rest = beat.mean(beat.flap) if self.rest_angle is None else self.rest_angle
         return beat.mean_positive(beat.hinge_power + self.stiffness * (beat.flap - rest) * beat.flap_rate)
 

@@ -182,7 +182,7 @@ def test_radians_are_suspected(tmp_path):
         ),
         ("phase,time,flap_deg\n0,0,1\n", ["one of phase and time", "frequency"]),
         ("time,flap_deg\n0,1\n", ["frequency", "is missing"]),
-        ("# frequency = fast\ntime,flap_deg [rad]\n0,1\n", ["row 1, frequency", "one number", "is not the unit in which"]),
+        ("# frequency = fast\ntime,flap_deg [rad]\n0,1\n", ["row 1, frequency", "one number", "is not the unit"]),
         ("# frequency = -5\ntime,flap_deg\n0,1\n", ["row 1, frequency", "must be > 0"]),
         ("phase,flap_deg\n" + "\n".join(f"{t},{f}" for t, f in rows(6)), ["at least 8"]),
         ("phase,flap_deg\n" + "\n".join(f"{t / 2},{f}" for t, f in rows()), ["no frame from phase 0.47 to 0.00"]),

@@ -92,7 +92,7 @@ DEFAULT_AIR_LOADS = AirLoadOptions()
 
 
 def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
-    """Return a species with the numbers of ``--set`` and a payload; all faults of ``--set`` are told at once."""
+    """Return a species with the numbers of ``--set`` and a payload; all its faults are reported at once."""
     species = load_species(name)
     values, faults = {}, FaultList()
     if settings is not None and not settings:

@@ -91,8 +91,10 @@ def cases() -> Iterator[Case]:
         (bat, 10.0, {"bounds": still}),
         (pigeon, 8.0, {"bounds": still}),
     ):
-        kept = "held at 0" if "subject_to" in how else "within 0.5 deg"
-        what = f"{species.name} at {speed:g} m/s, wing pitch and mean flap {kept}"
+        kept = "wing pitch amplitude, mean wing pitch and mean flap held at 0"
+        if "bounds" in how:
+            kept = "wing pitch amplitude and mean wing pitch from 0 to 0.5 deg, mean flap within ±0.5 deg"
+        what = f"{species.name} at {speed:g} m/s, {kept}"
         yield Case("no pitch freedom", what, (MOMENT,), problem(species, speed, **how))
     for species, speed, torque in (
         (pigeon, 10.0, 0.3),

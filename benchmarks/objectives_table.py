@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 from pathlib import Path
 
 from objectives import BETTER
+
+from wingbeat.orbits.problem.quantities import named_quantity
 
 HEAD = (
     "animal",
@@ -25,7 +28,7 @@ HEAD = (
 
 def line(row: dict) -> str:
     """Return the row of the table."""
-    first = row["animal"], f"{row['speed']:g}", row["minimise"], row["limit"] or "-"
+    first = row["animal"], f"{row['speed']:g}", row["minimise"], _with_unit(row["limit"]) or "-"
     if row["status"] != "converged":
         return "| " + " | ".join((*first, row["status"], *["-"] * 6)) + " |"
     restarts = row["by_restarts"]
@@ -33,7 +36,7 @@ def line(row: dict) -> str:
     own = [f["own"] for f in row["by_ipopt"] if f["success"]]
     rest = (
         f"{row['objective']:.5g} {row['unit']}",
-        f"{100 * row['lower_by']:.2f}",
+        f"{100 * row['lower_by']:z.2f}",
         _shown(restarts["least"]),
         f"{restarts['ended_in_an_optimum']} / {restarts.get('as_good', '-')}",
         f"{_shown(min(certified, default=None))} ({len(certified)} of {len(row['by_ipopt'])})",
@@ -41,6 +44,15 @@ def line(row: dict) -> str:
         f"{row['seconds']['all']:.0f}",
     )
     return "| " + " | ".join((*first, *rest)) + " |"
+
+
+def _with_unit(limit: str) -> str:
+    """Return a limit with the unit of its quantity, such as ``frequency=12 Hz``."""
+    name = re.match(r"\w+", limit)
+    if name is None or limit.endswith(" deg"):
+        return limit
+    unit = named_quantity(name[0]).unit
+    return limit if unit == "1" else f"{limit} {unit}"
 
 
 def _shown(value: float | None) -> str:

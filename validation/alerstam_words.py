@@ -72,12 +72,10 @@ def speeds(found: list[Row]) -> str:
         values = column(found, name)
         lines.append(_speed_line(f"model, {label}", values, measured, reynolds))
         lines.append(
-            _speed_line(
-                f"the same, birds at Re {low} to {high}", values[inside], measured[inside], reynolds[inside]
-            )
+            _speed_line(f"{label}, birds at Re {low} to {high}", values[inside], measured[inside], reynolds[inside])
         )
         lines.append(
-            _speed_line("the same, birds outside this range", values[~inside], measured[~inside], reynolds[~inside])
+            _speed_line(f"{label}, birds at other Re", values[~inside], measured[~inside], reynolds[~inside])
         )
     by_mass = np.array([scaling.CRUISE_BY_MASS(row.mass) for row in found])
     lines.append(_speed_line("law 15.9 m^0.13, fitted to these birds", by_mass, measured, reynolds))
@@ -134,8 +132,9 @@ def _speed_verdicts(found: list[Row]) -> list[str]:
         _verdict("birds fly faster than their minimum-power speed", f"{faster:.0%} of species", faster > 0.9),
         _verdict("birds fly no faster than their maximum-range speed", f"{beyond:.0%} are faster", beyond < 0.1),
         _verdict(
-            "predicted and measured speed grow with the same power of wing loading (least squares)",
-            f"power {ours:.2f} for the maximum-range speed, {theirs:.2f} ± {error:.2f} for the measured speed",
+            "the model's maximum-range speed and the measured speed rise with wing loading by the same exponent "
+            "(least squares)",
+            f"exponent {ours:.2f} for the maximum-range speed, {theirs:.2f} ± {error:.2f} for the measured speed",
             abs(ours - theirs) < error,
         ),
         _verdict(

@@ -97,7 +97,8 @@ def check_hdf5(path: str, label: str) -> None:
                     elif isinstance(item, h5py.Dataset):
                         declared += _declared(item, refuse)
                     if declared > MOST_DECLARED:
-                        raise refuse(f"unpacked it would take more than {MOST_DECLARED // 1_000_000} million bytes")
+                        most = f"{MOST_DECLARED // 1_000_000} million bytes"
+                        raise refuse(f"it would take more than {most} when unpacked")
     except FileError:
         raise
     except Exception as error:  # HDF5 reports damage through many kinds of exception

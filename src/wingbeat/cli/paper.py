@@ -43,7 +43,9 @@ def paper(
     sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; default {_SETS}.")] = None,
     seed: Annotated[int | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
     piece: Annotated[int | None, Parameter(help=f"Sets per piece, saved together; default {_PIECE}.")] = None,
-    only: Annotated[str | None, Parameter(help="Pieces to run here, such as 1-10 or 3,5; default all.")] = None,
+    only: Annotated[
+        str | None, Parameter(help="Pieces that this run solves, such as 1-10 or 3,5; default all.")
+    ] = None,
     processes: Annotated[int | None, Parameter(help="Worker processes; default: as many as cores.")] = None,
 ) -> int:
     """Test Su et al. (arXiv 2302.09602): draw figures 1 to 8, judge every claim, and save the orbits behind them.

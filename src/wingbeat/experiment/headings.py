@@ -64,7 +64,7 @@ def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> 
 
 
 def read_sheet(path: str | Path) -> Sheet:
-    """Take a CSV file apart without reading its numbers.
+    """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
     Raises
     ------

@@ -59,11 +59,11 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "# What the paper's claims depend on",
         "",
         "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder positions or bounds, and do not say "
-        f"how they treat negative angles of attack. Here we use {len(study.sets)} sets of assumptions. They fill "
-        "the plausible ranges below uniformly. The total masses of the animals are those of the paper. Each set "
-        f"needs {ORBITS} orbits of lowest frequency, for the pigeon and the bat with both coefficient models at "
-        "the speeds of the claims. "
-        f"{100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of them were found and certified.",
+        f"how they treat negative angles of attack. Here we use {len(study.sets)} sets of assumptions. The sets "
+        "fill the plausible ranges below uniformly. The total masses of the animals are those of the paper. Each "
+        f"set needs {ORBITS} orbits of lowest frequency: the pigeon and the bat, with both coefficient models, at "
+        f"the speeds of the claims. {100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of these orbits "
+        "were found and certified.",
         "",
         heading,
         "",
@@ -84,7 +84,9 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         told = np.isfinite(holds)
         share = _share(holds[told])
         quality = "-" if hang is None else f"{hang.quality:.2f}"
-        lines.append(f"| {claim.claim} | {share} | {100 * told.mean():.0f} | {_named(hang)} | {quality} |")
+        lines.append(
+            f"| `{claim.id}`: {claim.claim} | {share} | {100 * told.mean():.0f} | {_named(hang)} | {quality} |"
+        )
     lines += [
         "",
         "## All at once",
@@ -94,7 +96,8 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "",
         *_apart(study),
         "",
-        f"The {_BEST} sets that satisfy the most claims:",
+        f"The {_BEST} sets that satisfy the most claims follow. The last column gives claim ids; in an id, "
+        "`1-of-4` means at a quarter of the span.",
         "",
         "| " + " | ".join(["claims", *(a.name for a in ASSUMPTIONS), "claims not satisfied"]) + " |",
         "| " + " | ".join(["---"] * (len(ASSUMPTIONS) + 2)) + " |",
@@ -166,9 +169,8 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     )
     names = [assumption.name.replace("_", " ").removesuffix(" deg") for assumption in ASSUMPTIONS]
     heat.set_xticks(np.arange(len(ASSUMPTIONS)), names, rotation=40, ha="right", fontsize=8)
-    figure.colorbar(
-        image, ax=heat, label="share of its number explained [%]; grey: too few sets", fraction=0.03, pad=0.01
-    )
+    explained = "share of the variance of the claim's number\nthat the assumption explains [%]; grey: too few sets"
+    figure.colorbar(image, ax=heat, label=explained, fraction=0.03, pad=0.01)
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
     fits.barh(places, np.maximum(quality, 0.0), color=GREEN, height=0.7)
     fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)

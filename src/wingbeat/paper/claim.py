@@ -78,8 +78,8 @@ NO_DATA = "the measurements are not deposited"
 
 
 def tested(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, holds: Any) -> Claim:
-    """Return a claim tested on what the paper prints, without any assumption."""
-    finding = Finding("what the paper prints", float(ours), bool(holds))
+    """Return a claim tested on printed numbers and formulas alone, without any assumption."""
+    finding = Finding("no assumption needed", float(ours), bool(holds))
     return Claim(name, where, claim, paper, unit, (finding,))
 
 

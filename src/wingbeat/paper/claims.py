@@ -83,8 +83,10 @@ def markdown(claims: Sequence[Claim]) -> str:
         "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
         "directional claim. The column *ours* gives our number under our default assumptions, the first in the "
         "list below. A claim *holds* if it holds under every set of assumptions tried, and it *fails* if it "
-        "holds under none. *Holds under* means that it holds under some of them. If a claim holds, our result is "
-        "consistent with the paper; this does not prove that the authors made the same assumptions.",
+        "holds under none. *Holds under* means that it holds under some of them. *By assumption* gives our number "
+        "under each set of assumptions, and whether the claim then holds (yes or no). *No assumption needed* marks "
+        "a claim that we test on printed numbers and formulas alone. If a claim holds, our result is consistent "
+        "with the paper; this does not prove that the authors made the same assumptions.",
         "",
         f"Verdicts of the {len(claims)} claims: {tally}.",
         "",

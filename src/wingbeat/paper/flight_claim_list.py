@@ -53,9 +53,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "least-frequency",
             "methods, simulation",
-            "the optimisation finds the one wingbeat of lowest frequency (tested: all starts end at one optimum; "
-            "otherwise the result depends on the start; ours: the largest number of distinct optima found for "
-            "one orbit)",
+            "the optimisation finds the one wingbeat of lowest frequency (tested: for every problem, all starts "
+            "end at the same optimum; ours: the largest number of distinct optima found for one problem)",
             "the one",
             "1",
             flight.least_frequency,

@@ -73,9 +73,9 @@ def premise_claims() -> list[Claim]:
         tested(
             "same-peak-as-bird-wing",
             "discussion, experiment",
-            "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: at 43 deg, which "
-            f"the paper prints for the pigeon wing, the plate's C_L is within {100 * IN_LINE:.0f} % of its "
-            "maximum; ours: the shortfall at 43 deg)",
+            "the peak of C_L near 40 deg is in line with that of a dried pigeon wing (tested: at 43 deg, where "
+            f"the paper puts the peak of the pigeon wing, the plate's C_L is within {100 * IN_LINE:.0f} % of its "
+            "maximum; ours: by how much it falls short there)",
             0.0,
             "1",
             shortfall(fit, 43.0),

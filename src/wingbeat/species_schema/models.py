@@ -137,7 +137,8 @@ SpeciesFile = _table(
     },
     ["vehicle", "wingbeat"],
     title="wingbeat species file",
-    description="SI units and radians; _deg on a key means degrees. Give vehicle.mass or vehicle.body.mass.",
+    description="Values are in SI units and radians; a key that ends in _deg is in degrees. Give either "
+    "vehicle.mass or vehicle.body.mass.",
 )
 
 

@@ -256,7 +256,7 @@ class Store:
         return self._last[1]
 
     def counts(self) -> dict[str, int]:
-        """Return how many points of the plan have which status; ``waiting`` are those without one."""
+        """Return the number of the plan's points for each status; points without a status count as ``waiting``."""
         with in_words(self.path):
             return dict(
                 self._connection.execute(

@@ -148,7 +148,12 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
 def _words(problem: OrbitProblem, change: Change) -> str:
     if any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
         return f"{'upper' if change.sign == '<=' else 'lower'} limit of {change.name}"
-    words = {"pitch_mean": "mean wing pitch", "pitch_amplitude": "wing pitch amplitude", "mass": "whole mass"}
+    words = {
+        "flap_mean": "mean flap",
+        "pitch_mean": "mean wing pitch",
+        "pitch_amplitude": "wing pitch amplitude",
+        "mass": "whole mass",
+    }
     name = words.get(change.name, change.name.replace("_", " "))
     return name if change.sign == "=" else f"{'upper' if change.sign == '<=' else 'lower'} bound of {name}"
 

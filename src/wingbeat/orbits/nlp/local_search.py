@@ -148,7 +148,7 @@ class Patience:
 
     @classmethod
     def of(cls, programme: Transcription) -> Patience:
-        """Return the patience that a programme's options set."""
+        """Return the rule for divergence with the two limits in the options of `programme`."""
         options = programme.options.search
         return cls(options.diverged_flights, options.diverged_closure)
 

@@ -165,10 +165,9 @@ def _beat_verdicts(found: list[Row]) -> list[str]:
             f"exponent of mass: {ours:.2f} in the model, {own:.2f} in Pennycuick's law for these birds, "
             f"{reported} in van den Berg and Rayner"
         )
-        lines.append(_verdict(f"{label} falls with mass as Pennycuick's law", seen, abs(ours - own) < 0.05 + error))
-        lines.append(
-            _verdict(f"{label} falls with mass as van den Berg and Rayner's law", seen, -0.67 < ours < -0.29)
-        )
+        falls = f"{label} falls with mass as"
+        lines.append(_verdict(f"{falls} Pennycuick's law says", seen, abs(ours - own) < 0.05 + error))
+        lines.append(_verdict(f"{falls} van den Berg and Rayner's law says", seen, -0.67 < ours < -0.29))
     return lines
 
 
@@ -290,20 +289,21 @@ TAIL = """
   outside that range therefore does not explain the differences by itself.
 - We tested none of these possible explanations:
   - The model has no induced flow. It underestimates the power of slow flight, so both speeds are too low.
-  - A thick plate has high drag at small angles. The model overestimates the power of fast flight, so again both
-    speeds are too low.
-  - Small birds fly in bounds with folded wings, which the model cannot do.
+  - A thick plate has high drag at small angles. The model overestimates the power of fast flight, and
+    this too makes both speeds too low.
+  - Small birds fold their wings between bursts of flapping, which the model cannot do.
   - Migrating birds may not choose their speed for power or range.
 - The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
-  the law but little more: its exponents come from dimensional reasoning that the model obeys too.
+  the law but shows little more, because the law's exponents come from dimensional reasoning that the model obeys
+  too.
 - The model needs least power at about twice the frequency at which animals fly. In {leaning} of {count} orbits that
   frequency is at its upper bound. With the flap amplitude that was measured on alcids (auks), the frequency of
   least power is higher still: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
   as such, but the energy that a muscle needs does.
 - The predicted power is several times the measured power. Do not take a power from this model for an animal's.
-- The uncertainty of the derived numbers does not explain the difference. In the table above they change either
-  speed by about a tenth and power by about a quarter. The guessed span retraction changes the minimum-power
-  speed most. The table changes one number at a time, for three birds.
+- The uncertainty of the derived numbers does not explain the differences from measurement. In the table above,
+  the derived numbers change either speed by about a tenth and power by about a quarter. The guessed span
+  retraction changes the minimum-power speed most. The table changes one number at a time, for three birds.
 """
 
 

@@ -202,10 +202,10 @@ def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_t
 @pytest.mark.parametrize(
     ("shortage", "words"),
     [
-        (Deficit(LIFT, 0.123, 0.4), "lift is 12 % of the weight short"),
-        (Deficit(LIFT, -0.05, -0.2), "lift is 5 % of the weight too much"),
+        (Deficit(LIFT, 0.123, 0.4), "lift is short by 12 % of the weight"),
+        (Deficit(LIFT, -0.05, -0.2), "lift is too large by 5 % of the weight"),
         (Deficit(THRUST, 1.234, 4.0), "thrust is short of drag by 120 % of the weight"),
-        (Deficit(THRUST, -0.02, -0.1), "thrust is more than drag by 2 % of the weight"),
+        (Deficit(THRUST, -0.02, -0.1), "thrust exceeds drag by 2 % of the weight"),
         (Deficit(MOMENT, -0.5, -0.17), "a nose-down pitching moment of 0.17 N m is lacking"),
     ],
 )

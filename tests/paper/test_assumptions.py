@@ -174,8 +174,8 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     first, second, third = (claim.id for claim in study.claims[:3])
     assert "`as run`" in text
     assert f"{100 * 9 / ORBITS:.0f} % of these orbits were found and certified" in text
-    assert f"never together: `{first}` and `{second}`" in text
-    assert f"in no set: `{third}`" in text
+    assert f"no set satisfies both `{first}` and `{second}`" in text
+    assert f"no set satisfies any of these: `{third}`" in text
     row = next(line for line in text.splitlines() if line.startswith(f"| `{first}`: {study.claims[0].claim} |"))
     share, told = 100 * np.nanmean(study.holds[:, 0]), np.isfinite(study.holds[:, 0]).sum()
     shown = f"{share:.0f} ± {np.sqrt(share * (100 - share) / told):.0f}"

@@ -198,10 +198,10 @@ def under_one_choice(sets, holds):
         f"({four['mirrored']} % mirrored, {four['signed']} % signed or signed-drag)",
         f"({plate['mirrored']} % mirrored, {others.min()} to {others.max()} % otherwise)",
         f"({fly['clipped-drag']} % clipped, {fly['signed']} to {fly['signed-drag']} % signed)",
-        f"in {trims['bat-agrees']['flap-mean']} % if the mean flap angle is free and the mean pitch is not, "
+        f"in {trims['bat-agrees']['flap-mean']} % if only the mean flap angle is free, "
         f"and in {trims['bat-agrees']['none']} % if neither is free",
         f"in {constant['flap-mean']} % if only the mean flap angle is free, "
-        f"and in {constant['pitch-mean']} % if only the pitch is",
+        f"and in {constant['pitch-mean']} % if only the mean pitch is free",
         f"only {percent(certified['none'] / ORBITS)} % of the orbits were found",
         f"({one_free.min()} to {one_free.max()} of {ORBITS} if one is free",
     ]

@@ -100,7 +100,7 @@ def _outcome(argv: list[str], app: App | None) -> int:
             rule = f"has {len(word)} characters, more than {_LONGEST}; put long values into a file"
             return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
         if word.startswith("[" * _DEEPEST):
-            rule = f"is a list nested more than {_DEEPEST} deep; give numbers"
+            rule = f"is a list nested more than {_DEEPEST} levels deep; give a plain list of numbers"
             return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
     if command in COMMANDS and (shortage := memory_shortage(command)) is not None:
         return _complain([shortage], EXIT_SYSTEM)

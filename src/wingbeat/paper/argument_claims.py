@@ -216,9 +216,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "drag-costs-thrust",
             "introduction",
-            "drag measured at low Reynolds number is too large, which may explain a low thrust of cruising bats "
-            "(tested: Dickinson's C_D lowers the mean forward force in the bat's flight with Su-Fan at 10 m/s; "
-            "ours: the change divided by weight)",
+            "drag measured at low Reynolds number is too large, which may explain why the thrust found for "
+            "cruising bats is low (tested: Dickinson's C_D lowers the mean forward force in the bat's flight with "
+            "Su-Fan at 10 m/s; ours: the change divided by weight)",
             "< 0",
             "1",
             drag_costs_thrust,

@@ -73,9 +73,10 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "",
         "*Testable* is the share of sets that have the orbits to test the claim. *Holds* is the share of the "
         "testable sets that satisfy it, with its standard error. *Depends on* comes from a quadratic response "
-        "surface, fitted to the ranks of the claim's number. It names each assumption that explains at least a "
-        "twentieth of the variance, and gives the explained share. *Quality* is the share of the variance that "
-        f"the surface explains in numbers not used in the fit; below {TRUSTED:g} the surface says little.",
+        "surface, fitted to the ranks of the claim's number. In the claims, *ours* is this number. The column "
+        "names each assumption that explains at least a twentieth of the variance, and gives the explained share. "
+        "*Quality* is the share of the variance that the surface explains in numbers not used in the fit; below "
+        f"{TRUSTED:g} the surface says little.",
         "",
         "| claim | holds [%] | testable [%] | depends on | quality |",
         "| --- | --- | --- | --- | --- |",
@@ -141,10 +142,10 @@ def _apart(study: Judged) -> list[str]:
         for other in often[i + 1 :]:
             both = np.isfinite(study.holds[:, k]) & np.isfinite(study.holds[:, other])
             if both.sum() >= _OFTEN and not (study.holds[both, k] * study.holds[both, other]).any():
-                lines.append(f"- never together: `{study.claims[k].id}` and `{study.claims[other].id}`")
+                lines.append(f"- no set satisfies both `{study.claims[k].id}` and `{study.claims[other].id}`")
     never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
     if never:
-        lines.append(f"- in no set: {', '.join(f'`{name}`' for name in never)}")
+        lines.append(f"- no set satisfies any of these: {', '.join(f'`{name}`' for name in never)}")
     return lines or ["- any two claims that each hold in many sets hold together in some set"]
 
 

@@ -78,7 +78,7 @@ def markdown(claims: Sequence[Claim]) -> str:
     counts = Counter(claim.verdict for claim in claims)
     tally = ", ".join(f"{verdict} {count}" for verdict, count in counts.most_common())
     lines = [
-        "# The paper's claims beside ours",
+        "# The paper's claims beside our results",
         "",
         "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
         "directional claim. The column *ours* gives our number under our default assumptions, the first in the "

@@ -161,8 +161,8 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "force-balance",
             _DISCUSSION,
-            "over a wingbeat lift equals weight and thrust equals drag (tested: the mean forces, from 256 "
-            "samples, deviate from this by less than 0.01 of the weight)",
+            "averaged over a wingbeat, lift equals weight and thrust equals drag (tested: the mean forces, from "
+            "256 samples, deviate from this by less than 0.01 of the weight)",
             0.0,
             "1",
             flight.force_balance,

@@ -103,10 +103,10 @@ def pigeon_data_claim() -> Claim:
     return untestable(
         "pigeon-agrees",
         _RESULTS,
-        "above 10 m/s the pigeon's frequency agrees very well with that of Tobalske and Dial 1996 (ours: the "
-        "lower of two other references; other rows judge the claim by each of them)",
+        "above 10 m/s the pigeon's frequency agrees very well with the one that Tobalske and Dial 1996 measured "
+        "(ours: the lower of two other reference frequencies; other rows judge the claim by each of these two)",
         "remarkably well",
         "Hz",
         min(pigeon_reference(name) for name in PIGEON_REFERENCES),
-        "cannot be tested with the paper's data: neither the paper nor the abstract of its source gives them",
+        "cannot be tested with the paper's data: neither the paper nor the abstract of its source gives numbers",
     )

@@ -64,7 +64,7 @@ def premise_claims() -> list[Claim]:
             "discussion, experiment",
             "the peak of C_L near 40 deg is in line with that of Dickinson's insect wing (tested: at 40 deg the "
             f"C_L of the insect wing is within {100 * IN_LINE:.0f} % of its maximum, which is at {peak:.0f} deg; "
-            "elsewhere the paper calls such a difference very good; ours: the shortfall at 40 deg)",
+            "elsewhere the paper calls agreement this close very good; ours: the shortfall at 40 deg)",
             0.0,
             "1",
             shortfall(fly, 40.0),
@@ -84,8 +84,8 @@ def premise_claims() -> list[Claim]:
         tested(
             "drag-alike-in-form",
             "results; discussion, experiment",
-            "C_D has the form of that of insect wings (tested: its correlation with Dickinson's C_D from 0 to 90 "
-            "deg is at least 0.99)",
+            "C_D has the same form as the C_D of insect wings (tested: its correlation with Dickinson's C_D from 0 "
+            "to 90 deg is at least 0.99)",
             "similar",
             "1",
             likeness,

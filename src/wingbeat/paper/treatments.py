@@ -60,8 +60,8 @@ TREATMENTS = (
     ),
     Treatment(
         "signed",
-        "at negative angles of attack the printed formula gives C_D, and also C_L if it has no exponential term. "
-        "Such a term grows without bound, so Su-Fan's C_L is mirrored here too",
+        "at negative angles of attack the printed formulas give C_D, and also C_L if its formula has no "
+        "exponential term. An exponential grows without bound, so Su-Fan's C_L is mirrored here too",
         "signed",
     ),
     Treatment("mirrored-heavy", f"as mirrored, {_HEAVY}", "mirrored", True, 45.0),

@@ -113,7 +113,7 @@ ASKED_OTHERWISE = {
     "dickinson-lift-small": f"new: the paper says this of lift as well; {_SMALL}",
     "drag-penalty-small": f"new: this is the drag that the paper calls small; {_SMALL}",
     "arm-nose-up": "'a small nose-up pitch' now means positive and at most 13 degrees, no longer only positive",
-    "closer-power": "'much closer' now means at most half as far, no longer closer by any amount",
+    "closer-power": "'much closer' now means at most half as far; before, it meant closer by any amount",
     "wing-shape": "judged also at equal second moment of area, no longer only at equal area",
 }
 

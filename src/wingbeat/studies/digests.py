@@ -51,7 +51,9 @@ def about_digest(about: Mapping[str, str]) -> str:
 
 
 class Fingerprint(NamedTuple):
-    """How many rows there are, and their digests mixed: tells whether one is lost, in any order of them.
+    """The number of rows and the XOR of their digests.
+
+    It shows whether a row is lost or changed; the order of the rows does not matter.
 
     >>> a, b = row_digest(["a"]), row_digest(["b"])
     >>> Fingerprint().add(a).add(b).remove(a) == Fingerprint().add(b)

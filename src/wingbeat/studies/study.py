@@ -253,7 +253,7 @@ class Study:
             label = f"{quantity} [{plain_unit(quantity)}]"
         elif len(least) == 1:
             name = named(least[0])
-            label = f"minimum {name.replace('_', ' ')} [{plain_unit(name)}]"
+            label = f"lowest {name.replace('_', ' ')} [{plain_unit(name)}]"
         else:
             label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]

@@ -159,6 +159,5 @@ def check_parquet() -> None:
         import pyarrow  # noqa: F401  # pyright: ignore[reportMissingImports]
     except ImportError:
         raise WingbeatError(
-            f"Parquet needs pyarrow, which is not installed: {install_extra('parquet')}; "
-            "or end the name in .nc or .csv"
+            f"To write Parquet, install pyarrow: {install_extra('parquet')}. Or choose a name ending in .nc or .csv"
         ) from None

@@ -47,9 +47,9 @@ class Deficit:
     def __str__(self) -> str:
         share = f"{float(f'{abs(100 * self.share):.2g}'):g} %"
         if self.law == LIFT:
-            return f"lift is {share} of the weight {'short' if self.share > 0 else 'too much'}"
+            return f"lift is {'short' if self.share > 0 else 'too large'} by {share} of the weight"
         if self.law == THRUST:
-            return f"thrust is {'short of drag' if self.share > 0 else 'more than drag'} by {share} of the weight"
+            return f"thrust {'is short of' if self.share > 0 else 'exceeds'} drag by {share} of the weight"
         way = "nose-up" if self.share > 0 else "nose-down"
         return f"a {way} pitching moment of {abs(self.amount):.2g} N m is lacking ({share} of weight times chord)"
 

@@ -52,7 +52,7 @@ class RelaxedProgramme:
         return self._at(scaled).closure(scaled[:-1])
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative."""
+        """Return the derivative of the closure, shape (6, n)."""
         return _with_zeros(self._programme.closure_jacobian(scaled[:-1]))
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
@@ -60,7 +60,7 @@ class RelaxedProgramme:
         return self._at(scaled).inequalities(scaled[:-1])
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return their derivative."""
+        """Return the derivative of the inequalities, shape (inequalities, n)."""
         return _with_zeros(self._programme.inequalities_jacobian(scaled[:-1]))
 
     def objective(self, scaled: np.ndarray) -> float:
@@ -68,7 +68,7 @@ class RelaxedProgramme:
         return float(scaled[-1])
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative."""
+        """Return the derivative of the objective, shape (n,)."""
         return np.eye(1, scaled.size, scaled.size - 1)[0]
 
 
@@ -92,7 +92,7 @@ class _RelaxedBound(RelaxedProgramme):
         return np.append(super().inequalities(scaled), inside)
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return their derivative."""
+        """Return the derivative of the inequalities, shape (inequalities, n)."""
         row = np.zeros(scaled.size)
         row[self._column], row[-1] = -self.change.direction, self.change.scale / self._scale
         return np.vstack([super().inequalities_jacobian(scaled), row])
@@ -121,7 +121,7 @@ class _RelaxedLimit(RelaxedProgramme):
         return inside
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return their derivative."""
+        """Return the derivative of the inequalities, shape (inequalities, n)."""
         jacobian = super().inequalities_jacobian(scaled)
         jacobian[self._moved, -1] += self._unit
         return jacobian

@@ -24,7 +24,7 @@ class Programme(Protocol):
         ...
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative."""
+        """Return the derivative of the equality constraints with respect to the scaled unknowns."""
         ...
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
@@ -32,7 +32,7 @@ class Programme(Protocol):
         ...
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative."""
+        """Return the derivative of the inequality constraints with respect to the scaled unknowns."""
         ...
 
     def objective(self, scaled: np.ndarray) -> float:
@@ -40,7 +40,7 @@ class Programme(Protocol):
         ...
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative."""
+        """Return the derivative of the minimised value with respect to the scaled unknowns."""
         ...
 
 

@@ -180,7 +180,7 @@ class NullSpace:
 
     Attributes
     ----------
-    basis : an orthonormal basis of the steps that change no condition, in columns.
+    basis : orthonormal columns that span the steps with ``jacobian @ step = 0``.
     """
 
     def __init__(self, jacobian: np.ndarray, rank_tolerance: float) -> None:

@@ -186,7 +186,7 @@ class Transcription:
         return self.point(scaled).closure - by.closure_offset + by.closure_slope @ (scaled - by.anchor)
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative, shape (6, n)."""
+        """Return the derivative of the corrected closure, shape (6, n)."""
         return self.point(scaled).closure_jacobian + self._correction.closure_slope
 
     def _outputs(self, scaled: np.ndarray) -> np.ndarray:
@@ -216,7 +216,7 @@ class Transcription:
         return np.array([lowest - self.pitch_bounds[0], self.pitch_bounds[1] - highest])
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
-        """Return their derivative, shape (inequalities, n)."""
+        """Return the derivative of the inequalities, shape (inequalities, n)."""
         point = self.point(scaled)
         if self.outputs is None:
             return point.path_jacobian
@@ -287,7 +287,7 @@ class Transcription:
         return float(self.physical(scaled)[self._parameter]) / self.problem.minimise.scale
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
-        """Return its derivative, shape (n,)."""
+        """Return the derivative of the objective over its scale, shape (n,)."""
         if self.has_epigraph:
             return np.eye(1, scaled.size, scaled.size - 1)[0]
         if self._minimised:

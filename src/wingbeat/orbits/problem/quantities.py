@@ -234,7 +234,8 @@ def named_quantity(name: str) -> Quantity:
         return SpringPower(*(float(number) for number in found.groups() if number is not None))
     if name not in QUANTITIES:
         faults = FaultList()
-        others = f"there are {', '.join(QUANTITIES)}, power_cost(0.5), spring_power(0.5)"
+        known = f"known quantities are {', '.join(QUANTITIES)}"
+        others = f"{known}; power_cost and spring_power take a number, such as power_cost(0.5)"
         fix = suggest(str(name), QUANTITIES, most=1, otherwise=others)
         faults.add("quantity", name, "is not known to wingbeat", fix)
         faults.raise_if_any()

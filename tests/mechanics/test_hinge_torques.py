@@ -17,7 +17,7 @@ SHOULDER = {"wing.shoulder": [0.03, 0.02, 0.01], "wing.stroke_plane_angle": 1.2}
 
 @jax.jit
 def of_flight(model, wingbeat, pitch_state, phase):
-    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
+    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model, wingbeat, phase)
     body = body_rates(model, motion, pitch_state)[1:]
     return hinge_loads(model, motion, moved, pitch_state, body), moved, body
 
@@ -101,7 +101,7 @@ def test_rigid_wings_get_their_inertial_share_back_and_a_falling_body_asks_for_n
     phase = np.linspace(0.0, 1.0, 257)
     states = np.tile([[0.2], [9.0], [-1.0], [0.0]], phase.size)
     motion = motion_table(model, rigid, phase)
-    moved = hinge_motion(model.vehicle, rigid, phase, model.strips)
+    moved = hinge_motion(model, rigid, phase)
     falling = np.tile([[0.0], [-model.air.gravity], [0.0]], phase.size)
     found = hinge_loads(model, motion, moved, states, falling)
     largest = np.abs(found.inertial_power).max()

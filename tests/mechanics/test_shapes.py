@@ -137,7 +137,15 @@ WINGBEATS = {
         "span_harmonics": (0.02, 0.01),
     },
 }
-AIR = {"paper": {}, "every law": {"airspeed": "full", "force_point": "centre-of-pressure"}}
+AIR = {
+    "paper": {},
+    "every law": {
+        "airspeed": "full",
+        "force_point": "centre-of-pressure",
+        "unsteady": "thin-aerofoil",
+        "inflow": "momentum",
+    },
+}
 
 
 @pytest.fixture(params=WINGBEATS)
@@ -145,7 +153,7 @@ def flown(request):
     """A flight model and a wingbeat: the paper's alone, and every law at once."""
     loads = aero.BladeElement(aero.SuFan(), **AIR[request.param])
     values = {name: WINGBEATS[request.param].get(name, value) for name, value in vars(PIGEON.wingbeat).items()}
-    return wb.FlightModel(PIGEON.vehicle, loads), wb.Wingbeat(**values)
+    return wb.FlightModel(PIGEON.vehicle, loads, velocity=(10.0, 0.0)), wb.Wingbeat(**values)
 
 
 def traced(name, *args, **static):

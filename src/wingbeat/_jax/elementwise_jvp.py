@@ -23,6 +23,21 @@ def fusion_barrier(tree: T) -> T:
     return jax.tree_util.tree_map(lambda value: value / jnp.where(jnp.isnan(value), 2.0, 1.0), tree)
 
 
+@jax.custom_jvp
+def computed_once(tree: Any) -> Any:
+    """Return the arrays of `tree`, which XLA then computes once, and so their derivatives in each direction.
+
+    The division of `fusion_barrier` does not hold back derivatives: XLA turns a division by what all directions
+    share into a product.
+    """
+    return fusion_barrier(tree)
+
+
+@computed_once.defjvp
+def _computed_once_jvp(primals: Any, tangents: Any) -> tuple[Any, Any]:
+    return computed_once(*primals), fusion_barrier(tangents[0])
+
+
 def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
     """Give an elementwise function of (parameters, arrays of one shape...) a derivative by its slopes.
 

@@ -28,12 +28,17 @@ PerStrip = Float[Any, "strips *phases"]
 # The same, where what does not change has axes of length one; or one number for each of some strips, each at a
 # phase of its own.
 PerStripBroadcast = Float[Any, "strips *#phases"]
+# The same, or None for what is zero; a vector of such components.
+PerStripOrNone = PerStripBroadcast | None
+TripleOrNone = tuple[PerStripOrNone, PerStripOrNone, PerStripOrNone]
 # Components of vectors, apart: forward and up in the plane of symmetry, or forward, left and up.
 Component = Float[Any, "*#components"]
 Pair = tuple[Component, Component]
 Triple = tuple[Component, Component, Component]
 
 Vectors = Float[Any, "*#components 3"]
+# One number for each of (V_x, V_z, psi'), at each phase.
+ByBodyMotion = Float[Any, "3 *phases"]
 # Sums over the strips.
 Sums = Float[Any, "sums *phases"]
 
@@ -52,6 +57,9 @@ Corners = Float[Any, "*phases strips 4 3"]
 # Points of a wing at one instant, and of the two mass points of each strip; their derivatives have axes more.
 StripPoints = Float[Any, "strips 3 ..."]
 MassPoints = Float[Any, "2 strips 3 ..."]
+# Speeds of strips by the rates of the five coordinates, and a vector in the world.
+StripsByCoordinates = Float[Any, "strips 5"]
+Vector = Float[Any, "3"]
 # Series along a flight: of the body, of each strip, and vectors (x, z) and (x'', z'', psi'').
 PhasesStrips = Float[Any, "*phases strips"]
 PhasesPair = Float[Any, "*phases 2"]

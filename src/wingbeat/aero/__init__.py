@@ -6,6 +6,7 @@ from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import EXTENSIONS
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
+from wingbeat.aero.inflow import INFLOWS
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.published import (
     LIBRARY,
@@ -20,12 +21,15 @@ from wingbeat.aero.published import (
     thin_aerofoil_moment,
 )
 from wingbeat.aero.table import TableCoefficients, load_table
+from wingbeat.aero.unsteady import UNSTEADY
 
 __all__ = [
     "AIRSPEEDS",
     "EXTENSIONS",
     "FORCE_POINTS",
+    "INFLOWS",
     "LIBRARY",
+    "UNSTEADY",
     "BladeElement",
     "Byl",
     "CentreTerms",

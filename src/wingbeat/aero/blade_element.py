@@ -15,10 +15,13 @@ from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
 from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.choosing import coefficients_of
+from wingbeat.aero.inflow import INFLOWS
+from wingbeat.aero.sectional import sectional_kernel
+from wingbeat.aero.unsteady import UNSTEADY, damping_couple, rotation_force
 from wingbeat.errors import FaultList, InvalidInputError
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, PerStrip, Scalar
+    from wingbeat._jax.shapes import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
 
 
 if TYPE_CHECKING:
@@ -31,7 +34,7 @@ AIRSPEEDS = ("planar", "full")
 
 @dataclass(frozen=True)
 class BladeElement:
-    """Model of the air loads: coefficients, number of strips, point where the force acts, and airspeed.
+    """Model of the air loads: coefficients, strips, point where the force acts, airspeed, and further terms.
 
     Parameters
     ----------
@@ -41,11 +44,17 @@ class BladeElement:
     force_point : "quarter-chord", as in Su et al., or "centre-of-pressure".
     airspeed : the speed V whose square determines lift and drag: "planar", the speed across the span, or
         "full", the speed of the strip's whole velocity, as Su et al. word it. Reynolds numbers use the same speed.
+    unsteady : "thin-aerofoil" adds rotation, added mass and the couples of a thin aerofoil
+        (`wingbeat.aero.unsteady`); "none", as in Su et al., leaves them out.
+    inflow : "momentum" adds the induced flow that holds the weight (`wingbeat.aero.inflow`) to sectional
+        coefficients, made from those of a finite wing where they are not sectional; "none" leaves it out.
+    induced_factor : induced power over that of an ideal disc; 1.2 after Pennycuick 2008.
 
     Raises
     ------
-    InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point or airspeed, or a centre of
-        pressure with a model that has none; what `coefficients_of` refuses.
+    InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
+        negative induced factor, a centre of pressure with a model that has none, or inflow with a model without an
+        aspect ratio; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -57,6 +66,9 @@ class BladeElement:
     strips: int = 10
     force_point: str = "quarter-chord"
     airspeed: str = "planar"
+    unsteady: str = "none"
+    inflow: str = "none"
+    induced_factor: float = 1.2
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -67,7 +79,12 @@ class BladeElement:
         faults.whole("aero.strips", self.strips, 1, 1000, "Su et al. use 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
         faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
+        faults.choice("aero.unsteady", self.unsteady, UNSTEADY)
+        faults.choice("aero.inflow", self.inflow, INFLOWS)
+        faults.number("aero.induced_factor", self.induced_factor, at_least=0, fix="1 is an ideal disc")
         faults.raise_if_any()
+        if self.inflow != "none":
+            sectional_kernel(self.coefficients)  # refuses a model that it cannot make sectional
         if self.force_point == "centre-of-pressure" and not self.coefficients.has_centre_of_pressure:
             faults.add(
                 "aero.force_point",
@@ -76,6 +93,10 @@ class BladeElement:
                 "use quarter-chord, or a model that has one",
             )
         faults.raise_if_any()
+
+    def kernel(self) -> Kernel:
+        """Return the kernel of the coefficients that the strips use: sectional ones where there is inflow."""
+        return self.coefficients.kernel() if self.inflow == "none" else sectional_kernel(self.coefficients)
 
 
 def blade_element_of(aero: Any) -> BladeElement:
@@ -91,7 +112,8 @@ class StripForces(NamedTuple):
     """Air load of each strip of one wing, arrays of the strips' shape: forces [N] and what made them.
 
     `chordwise` and `normal` are the two axes in which the speeds were given: those of the chord, or those that the
-    strip has without pitch. `speed` is the V of the loads.
+    strip has without pitch. `speed` is the V of the loads, `lift` and `drag` are those of the coefficients.
+    `couple` [N m], leading edge up, is None unless the strips turn in unsteady air.
     """
 
     chordwise: PerStrip
@@ -100,6 +122,7 @@ class StripForces(NamedTuple):
     speed: PerStrip
     lift: PerStrip
     drag: PerStrip
+    couple: PerStrip | None = None
 
 
 def strip_forces(
@@ -129,6 +152,33 @@ def strip_forces(
         speed=unit.speed,
         lift=pressure_area * unit.lift,
         drag=pressure_area * unit.drag,
+    )
+
+
+def with_turning(
+    forces: StripForces,
+    density: Scalar,
+    chord: PerStripBroadcast,
+    width: Phases,
+    turning: PerStrip,
+    chord_speed: PerStrip,
+    normal_speed: PerStrip,
+) -> StripForces:
+    """Return the loads with those that arise because the chord turns: rotation, and the couple against it.
+
+    Parameters
+    ----------
+    forces : of the coefficients.
+    density : of the air [kg/m3].
+    chord, width : of the strips [m].
+    turning : of the chord about the span, leading edge up [rad/s].
+    chord_speed, normal_speed : of the quarter chord along the axes of `forces` [m/s].
+    """
+    along, across = rotation_force(density, chord, width, turning, chord_speed, normal_speed)
+    return forces._replace(
+        chordwise=forces.chordwise + along,
+        normal=forces.normal + across,
+        couple=damping_couple(density, chord, width, turning, forces.speed),
     )
 
 

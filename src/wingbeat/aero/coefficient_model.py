@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._jax.config import jax
-from wingbeat.errors import Fault, InvalidInputError
+from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles
@@ -35,6 +35,12 @@ def _lift_drag(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
 @jax.jit
 def _centre_of_pressure(kernel: Kernel, alpha: Angles) -> Angles:
     return kernel.centre_of_pressure(alpha)
+
+
+def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
+    """Note a fault unless an aspect ratio is a positive number, infinite, or None."""
+    if given is not None and given != math.inf:
+        faults.number(where, given, above=0, fix="span over mean chord; inf for a section, none if unknown")
 
 
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
@@ -84,6 +90,8 @@ class CoefficientModel:
     blend_width_deg : half width of the blends where pieces meet [deg].
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     alpha_range_deg : lowest and highest angle of the measurements [deg].
+    aspect_ratio : span over mean chord of the wing whose coefficients these are; infinite for those of a section.
+        None where no source states it, and for a revolving wing, whose own induced flow has another form.
     """
 
     name: str
@@ -92,6 +100,7 @@ class CoefficientModel:
     blend_width_deg: float
     reynolds_range: tuple[float, float] | None
     alpha_range_deg: tuple[float, float]
+    aspect_ratio: float | None
 
     @property
     def has_centre_of_pressure(self) -> bool:

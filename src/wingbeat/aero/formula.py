@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
-from wingbeat.aero.coefficient_model import CoefficientModel
+from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 from wingbeat.errors import FaultList
 
@@ -197,7 +197,9 @@ def _check_range(faults: FaultList, where: str, limits: Any) -> None:
         faults.add(where, limits, "must not decrease", "give (lowest, highest)")
 
 
-@register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension"))
+@register_record(
+    static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension", "aspect_ratio")
+)
 @dataclass(frozen=True)
 class FormulaCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from formulas fitted to one side of a wing.
@@ -213,11 +215,12 @@ class FormulaCoefficients(CoefficientModel):
     alpha_range_deg : angles of the fit [deg].
     extension : how the formulas reach every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+    aspect_ratio : of the wing of the fit, infinite for a section, None if not stated.
 
     Raises
     ------
-    InvalidInputError : an unknown grade or extension, a bad width or range, or a signed extension of a drag
-        formula that has an exponential term.
+    InvalidInputError : an unknown grade or extension, a bad width, range or aspect ratio, or a signed extension of
+        a drag formula that has an exponential term.
 
     >>> plate = FormulaCoefficients("plate", FormulaTerms(0, 1.2, 2, 0), FormulaTerms(1.4, 1.0, 2, -90))
     >>> round(float(plate.lift(math.radians(45))), 3)
@@ -235,9 +238,11 @@ class FormulaCoefficients(CoefficientModel):
     alpha_range_deg: tuple[float, float] = (0.0, 90.0)
     extension: str = "mirrored"
     blend_width_deg: float = 1.0
+    aspect_ratio: float | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
+        check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
         faults.choice("grade", self.grade, GRADES)
         if self.reynolds_range is not None:
             _check_range(faults, "reynolds_range", self.reynolds_range)

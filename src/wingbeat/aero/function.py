@@ -131,6 +131,7 @@ class FunctionCoefficients(CoefficientModel):
     extension = "as given"
     blend_width_deg = None  # type: ignore[assignment]
     reynolds_range = None
+    aspect_ratio = None
     alpha_range_deg = (-180.0, 180.0)
 
     def __post_init__(self) -> None:

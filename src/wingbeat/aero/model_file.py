@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.errors import Fault, FaultList, InvalidInputError
@@ -27,6 +28,7 @@ _TOP = (
     "made_by",
     "alpha_range_deg",
     "reynolds_range",
+    "aspect_ratio",
     "lift",
     "drag",
     "centre",
@@ -52,6 +54,7 @@ class FittedModel(NamedTuple):
     lift: FittedCurve
     drag: FittedCurve
     centre: FittedCurve | None
+    aspect_ratio: float | None = None
 
     def coefficients(
         self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
@@ -72,6 +75,7 @@ class FittedModel(NamedTuple):
             **(own | terms),
             citation=self.citation,
             reynolds_range=self.reynolds_range,
+            aspect_ratio=self.aspect_ratio,
             alpha_range_deg=self.alpha_range_deg,
             extension=extension,
             blend_width_deg=blend_width_deg,
@@ -97,6 +101,8 @@ def read_model(path: str | Path) -> FittedModel:
     texts = {key: _text(faults, file, raw, key) for key in ("name", "citation", "form", "made_by")}
     alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
     reynolds = _pair(faults, file, raw, "reynolds_range", 0.0, 1e12) if "reynolds_range" in raw else None
+    aspect_ratio = raw.get("aspect_ratio")
+    check_aspect_ratio(faults, f"{file}: aspect_ratio", aspect_ratio)
     curves = [_curve(faults, file, raw, key) for key in ("lift", "drag")]
     centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
     if not texts["name"] and "name" in raw:
@@ -106,7 +112,7 @@ def read_model(path: str | Path) -> FittedModel:
     lift, drag = curves
     assert lift is not None
     assert drag is not None
-    return FittedModel(texts["name"], texts["citation"] or file, alpha, reynolds, lift, drag, centre)
+    return FittedModel(texts["name"], texts["citation"] or file, alpha, reynolds, lift, drag, centre, aspect_ratio)
 
 
 def load_model(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:

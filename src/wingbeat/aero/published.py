@@ -6,6 +6,7 @@ people's code and papers, not from the source.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -51,6 +52,7 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
         citation="Su, Fan, Onoue, Vejdani and Breuer 2023, arXiv 2302.09602",
         doi="10.48550/arXiv.2302.09602",
         reynolds_range=(2e4, 5e4),
+        aspect_ratio=6.0,
         alpha_range_deg=(0.0, 110.0),
         extension=extension,
         blend_width_deg=blend_width_deg,
@@ -114,6 +116,7 @@ def Wang2004(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Formu
         1.0,
         citation="Wang, Birch and Dickinson 2004",
         reynolds_range=(1e2, 1e3),
+        aspect_ratio=math.inf,
         extension=extension,
         blend_width_deg=blend_width_deg,
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -11,7 +13,7 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
-from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
 from wingbeat.aero.extension import check_extension, extend
 from wingbeat.aero.table_checks import (
     OPTIONAL,
@@ -86,6 +88,7 @@ class TableCoefficients(CoefficientModel):
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     extension : how the table reaches every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
+    aspect_ratio : of the wing that was measured, infinite for a section, None if not stated.
 
     Raises
     ------
@@ -108,9 +111,11 @@ class TableCoefficients(CoefficientModel):
     reynolds_range: tuple[float, float] | None = None
     extension: str = "mirrored"
     blend_width_deg: float = 1.0
+    aspect_ratio: float | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
+        check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
         check_extension(faults, self.extension, self.blend_width_deg)
         raw = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL) if getattr(self, name) is not None}
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
@@ -161,6 +166,21 @@ class TableCoefficients(CoefficientModel):
         return extend(pieces, self.blend_width_deg, self.extension, signed)
 
 
+_ASPECT_RATIO = re.compile(r"#\s*aspect_ratio\s*=\s*(.*)")
+
+
+def _stated_aspect_ratio(faults: FaultList, path: Path) -> float | None:
+    """Return the aspect ratio that a comment of the file states, such as ``# aspect_ratio = 6``."""
+    stated = None
+    for i, line in enumerate(read_text(path).splitlines(), start=1):
+        if found := _ASPECT_RATIO.match(line.strip()):
+            where = f"{path.name} row {i}, aspect_ratio"
+            text = found[1].strip()
+            stated = math.inf if text == "inf" else numbers(faults, [text], lambda _, where=where: where)[0]
+            check_aspect_ratio(faults, where, stated)
+    return stated
+
+
 def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
     """Return (row number in the file, cells) of each row that is neither blank nor a # comment."""
     lines = enumerate(csv.reader(read_text(path).splitlines()), start=1)
@@ -185,7 +205,8 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
     """Read a coefficient table from a CSV file with the columns alpha_deg, c_l, c_d and, if known, x_cp.
 
-    Blank rows and rows that begin with # are skipped.
+    Blank rows and rows that begin with # are skipped, but for one that states the wing's aspect ratio, such as
+    ``# aspect_ratio = 6``, which the model of induced flow needs; ``inf`` is a section.
 
     Parameters
     ----------
@@ -220,6 +241,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
         return f"{path.name} row {row}, column {column}"
 
     cells_of = {name: [cells[k] for _, cells in body] for k, name in enumerate(header)}
+    aspect_ratio = _stated_aspect_ratio(faults, path)
     columns = {name: numbers(faults, cells_of[name], lambda i, name=name: where(i, name)) for name in header}
     check_columns(faults, columns, where)
     faults.raise_if_any()
@@ -233,4 +255,5 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
         citation=path.name,
         extension=extension,
         blend_width_deg=blend_width_deg,
+        aspect_ratio=aspect_ratio,
     )

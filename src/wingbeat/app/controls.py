@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, species_in
@@ -66,6 +66,12 @@ class Controls:
             )
             speeds = [(name, name) for name in AIRSPEEDS]
             self._fields["airspeed"] = choice_field("Airspeed", speeds, now.airspeed, self._word("airspeed"))
+            terms, flows = [[(name, name) for name in each] for each in (UNSTEADY, INFLOWS)]
+            self._fields["unsteady"] = choice_field("Unsteady terms", terms, now.unsteady, self._word("unsteady"))
+            self._fields["inflow"] = choice_field("Induced flow", flows, now.inflow, self._word("inflow"))
+            self._fields["induced_factor"] = number_field(
+                "Induced factor", f"{now.induced_factor:g}", self._number("induced_factor")
+            )
             width, strips = f"{now.blend_width_deg:g}", str(now.strips)
             self._fields["blend_width_deg"] = number_field(
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
@@ -99,9 +105,9 @@ class Controls:
             self._build_numbers()
         elif scenario.values != before.values or scenario.bounds != before.bounds:
             self._numbers.show(scenario)
-        for name in ("speed", "climb", "blend_width_deg"):
+        for name in ("speed", "climb", "blend_width_deg", "induced_factor"):
             self._fields[name].show(f"{getattr(scenario, name):g}")
-        for name in ("aero", "extension", "force_point", "airspeed", "minimise"):
+        for name in ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "minimise"):
             self._fields[name].show(getattr(scenario, name))
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)

@@ -8,13 +8,23 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, LIBRARY, BladeElement, load_coefficients
+from wingbeat.aero import (
+    AIRSPEEDS,
+    EXTENSIONS,
+    FORCE_POINTS,
+    INFLOWS,
+    LIBRARY,
+    UNSTEADY,
+    BladeElement,
+    load_coefficients,
+)
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import Species, load_species, species_names
 from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text
+from wingbeat.studies.recipe import OF_ELEMENTS
 
 # What one visitor may ask of a machine that others use, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
@@ -30,7 +40,8 @@ class Scenario:
     species : name of a built-in species, or of the one in `species_file`.
     species_file : TOML text of the visitor's own species, empty for a built-in one.
     speed, climb : mean velocity [m/s].
-    aero, extension, blend_width_deg, strips, force_point, airspeed : the air loads, as on the command line.
+    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor : the air
+        loads, as on the command line.
     minimise : name of the quantity to minimise.
     limits : limits on quantities, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own.
@@ -50,6 +61,9 @@ class Scenario:
     strips: int = 10
     force_point: str = "quarter-chord"
     airspeed: str = "planar"
+    unsteady: str = "none"
+    inflow: str = "none"
+    induced_factor: float = 1.2
     minimise: str = "frequency"
     limits: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -72,6 +86,9 @@ class Scenario:
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
         faults.choice("force_point", self.force_point, FORCE_POINTS)
         faults.choice("airspeed", self.airspeed, AIRSPEEDS)
+        faults.choice("unsteady", self.unsteady, UNSTEADY)
+        faults.choice("inflow", self.inflow, INFLOWS)
+        faults.number("induced_factor", self.induced_factor, at_least=0)
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
         faults.whole("strips", self.strips, 1, MOST_STRIPS)
         faults.whole("seed", self.seed, 0, 100_000)
@@ -155,7 +172,7 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         faults.add("species_file", scenario.species, str(error))
     try:
         coefficients = load_coefficients(scenario.aero, scenario.extension, scenario.blend_width_deg)
-        loads = BladeElement(coefficients, scenario.strips, scenario.force_point, scenario.airspeed)
+        loads = BladeElement(coefficients, **{name: getattr(scenario, name) for name in OF_ELEMENTS})
     except InvalidInputError as error:
         faults.faults += error.faults
     faults.raise_if_any()

@@ -14,6 +14,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.species import species_text
+from wingbeat.studies.recipe import OF_ELEMENTS
 
 if TYPE_CHECKING:
     import h5py
@@ -188,9 +189,7 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         aero=aero.coefficients.name,
         extension=aero.coefficients.extension,
         blend_width_deg=aero.coefficients.blend_width_deg,
-        strips=aero.strips,
-        force_point=aero.force_point,
-        airspeed=aero.airspeed,
+        **{name: getattr(aero, name) for name in OF_ELEMENTS},
         minimise=problem.minimise.name,
         limits=tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to),
         bounds={n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)},

@@ -77,11 +77,29 @@ class AirLoadOptions:
         ),
     ] = "planar"
     strips: Annotated[Whole, Parameter(help="Number of strips of one wing.")] = 10
+    unsteady: Annotated[
+        str,
+        Parameter(help="Unsteady terms: none, or thin-aerofoil (rotation, added mass and couples)."),
+    ] = "none"
+    inflow: Annotated[
+        str, Parameter(help="Induced flow: none, or momentum (for coefficients whose aspect ratio is known).")
+    ] = "none"
+    induced_factor: Annotated[float, Parameter(help="Induced power of the inflow over that of an ideal disc.")] = (
+        1.2
+    )
 
     def loads(self) -> BladeElement:
         """Return the air loads that the options ask for."""
         coefficients = load_coefficients(self.aero, self.extension, self.blend_width_deg)
-        return BladeElement(coefficients, self.strips, self.force_point, self.airspeed)
+        return BladeElement(
+            coefficients,
+            self.strips,
+            self.force_point,
+            self.airspeed,
+            self.unsteady,
+            self.inflow,
+            self.induced_factor,
+        )
 
     def fit(self) -> FittedModel | None:
         """Return the fit, with its covariance, where ``--aero`` names the file of one."""

@@ -85,23 +85,23 @@ def simulate(
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
     faults.raise_if_any()
+    given = {"u": u, "w": w, "pitch_rate": pitch_rate}
+    given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
+    disturbed = {name: value for name, value in given.items() if value is not None}
     beat = None
     if from_ is not None:
         orbit = load_orbit(from_)
         with unpacking(from_):
             model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+        start = start._replace(**disturbed)
     else:
         assert species is not None
         animal = species_with(species, set_)
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = filmed_species(beat, animal)
-        loads = air.loads()
-        model, wingbeat = FlightModel(animal.vehicle, loads, animal.air), animal.wingbeat
-        start = State(u=10.0)
-    given = {"u": u, "w": w, "pitch_rate": pitch_rate}
-    given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
-    start = start._replace(**{name: value for name, value in given.items() if value is not None})
+        wingbeat, start = animal.wingbeat, State(u=10.0)._replace(**disturbed)
+        model = FlightModel(animal.vehicle, air.loads(), animal.air, velocity=(float(start.u), float(start.w)))
     check_outputs(output, plot_kinematics)
     flight = fly(model, wingbeat, start, beats, samples)
     if output:

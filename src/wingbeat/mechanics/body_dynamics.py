@@ -8,13 +8,15 @@ right angle.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import cos, sin
+from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.mechanics.frames import from_world, to_world
-from wingbeat.mechanics.wing_motion import WingMotion, dot, quarter_turn, sum_over_strips
+from wingbeat.mechanics.frames import dot, from_world, quarter_turn, to_world
+from wingbeat.mechanics.strip_sums import sum_over_strips
+from wingbeat.mechanics.wing_motion import WingMotion
 from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
@@ -41,7 +43,7 @@ class BodyLoads(NamedTuple):
 def strip_loads(
     kernel: Kernel, density: Scalar, motion: WingMotion, velocity: Pair, pitch_rate: Phases
 ) -> StripForces:
-    """Return the air loads on the strips of one wing.
+    """Return the loads of the coefficients on the strips of one wing.
 
     The velocity of the quarter chord gives the angle of attack, wherever the force acts. Chord and normal are those
     that the strip has without pitch.
@@ -51,7 +53,7 @@ def strip_loads(
     kernel : of the coefficient model.
     density : of the air [kg/m3].
     motion : of the wing.
-    velocity : of the body in stroke axes, forward and up [m/s].
+    velocity : of the body through the air at the wings in stroke axes, forward and up [m/s].
     pitch_rate : [rad/s].
     """
     forward_speed, up_speed = velocity[0] - pitch_rate * motion.above, velocity[1] + pitch_rate * motion.ahead
@@ -81,13 +83,15 @@ def wing_loads(
     velocity: Pair,
     pitch_rate: Phases,
     at_centre_of_pressure: bool,
+    unsteady: Scalar = 0.0,
 ) -> BodyLoads:
-    """Return the air loads on both wings, in stroke axes.
+    """Return the air loads on both wings, in stroke axes, of a body that does not accelerate.
 
     Parameters
     ----------
     kernel, density, motion, velocity, pitch_rate : as in `strip_loads`.
     at_centre_of_pressure : whether loads act at the centre of pressure rather than at the quarter chord.
+    unsteady : share of the loads of unsteady air, 1 for all; it counts where `motion` has them.
     """
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
@@ -102,6 +106,10 @@ def wing_loads(
     if at_centre_of_pressure:
         moment = moment + strip_moments(kernel, motion, strips) * across
     forward, up, moment = (2.0 * sum_over_strips(a) for a in (forward, up, moment))
+    if motion.unsteady is not None:
+        through_air = *velocity, pitch_rate
+        more = [one.load(unsteady * density, through_air, None, strips.speed) for one in motion.unsteady]
+        forward, up, moment = forward + more[0], up + more[1], moment + more[2]
     return BodyLoads((forward, up), moment)
 
 
@@ -110,7 +118,7 @@ def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStri
     return chord * (0.25 - kernel.centre_of_pressure(alpha))
 
 
-def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair) -> Pair:
+def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = jnp) -> Pair:
     """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
 
     Parameters
@@ -118,16 +126,23 @@ def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair) -> Pair:
     drag_area : S, drag coefficient times frontal area [m2].
     density : rho [kg/m3].
     velocity : v [m/s].
+    xp : array module of the numbers.
     """
     squared = dot(velocity, velocity)
     moving = squared > 0.0
-    speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
+    speed = xp.where(moving, xp.sqrt(xp.where(moving, squared, 1.0)), 0.0)
     pressure_area = -0.5 * density * drag_area * speed
     return pressure_area * velocity[0], pressure_area * velocity[1]
 
 
 def accelerations(
-    vehicle: Vehicle, gravity: Scalar, motion: WingMotion, loads: BodyLoads, attitude: Phases, pitch_rate: Phases
+    vehicle: Vehicle,
+    gravity: Scalar,
+    motion: WingMotion,
+    loads: BodyLoads,
+    attitude: Phases,
+    pitch_rate: Phases,
+    unsteady_density: Scalar = 0.0,
 ) -> Triple:
     """Return the body's accelerations x'' and z'' in the world [m/s2] and psi'' [rad/s2].
 
@@ -140,9 +155,10 @@ def accelerations(
     vehicle : gives the masses and the body's inertia.
     gravity : [m/s2].
     motion : of the wing.
-    loads : air loads in stroke axes.
+    loads : air loads in stroke axes, of a body that does not accelerate.
     attitude : pitch of the stroke axes from the world's [rad].
     pitch_rate : psi' [rad/s].
+    unsteady_density : density of the air times the share of unsteady loads [kg/m3].
     """
     mass = vehicle.mass
     pull = from_world(attitude, 0.0, -gravity)
@@ -156,8 +172,37 @@ def accelerations(
     )
     turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.acceleration_moment
     inertia = vehicle.body.pitch_inertia + motion.inertia
-    pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
-    forward = (force_forward - pitch_acceleration * arm[0]) / mass
-    up = (force_up - pitch_acceleration * arm[1]) / mass
+    if motion.unsteady is None:
+        pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
+        forward = (force_forward - pitch_acceleration * arm[0]) / mass
+        up = (force_up - pitch_acceleration * arm[1]) / mass
+    else:
+        # The air resists acceleration as mass does; the three loads make a symmetric matrix.
+        air = [unsteady_density * one.by_acceleration for one in motion.unsteady]
+        rows = (
+            (mass + air[0][0], air[0][1], arm[0] + air[0][2]),
+            (mass + air[1][1], arm[1] + air[1][2]),
+            (inertia + air[2][2],),
+        )
+        forward, up, pitch_acceleration = _solve_symmetric(rows, (force_forward, force_up, turn))
     ax, az = to_world(attitude, forward, up)
     return ax, az, pitch_acceleration
+
+
+def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Triple:
+    """Solve three equations whose symmetric matrix is given by the rows of its upper triangle.
+
+    By cofactors, which need one division. Behind the barriers matrix and right side are computed once for all
+    directions of a derivative: a flight takes 1.58 times as long as one in steady air this way, and 1.9 without.
+    """
+    (a, b, c), (d, e), (f,) = fusion_barrier(rows)
+    x, y, z = fusion_barrier(right)
+    first, second, third = d * f - e * e, c * e - b * f, b * e - c * d
+    middle, last = a * f - c * c, a * d - b * b
+    mixed = b * c - a * e
+    scale = 1.0 / (a * first + b * second + c * third)
+    return (
+        (first * x + second * y + third * z) * scale,
+        (second * x + middle * y + mixed * z) * scale,
+        (third * x + mixed * y + last * z) * scale,
+    )

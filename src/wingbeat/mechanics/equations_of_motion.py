@@ -13,21 +13,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.kinematics import Wingbeat, span_ratio
-from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
-from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.air_forces import AirForces, air_forces_on
+from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
 from wingbeat.mechanics.wing_motion import strips_of
-from wingbeat.mechanics.wing_points import (
-    PointMotion,
-    bias_accelerations,
-    partial_velocities,
-    point_motion,
-)
+from wingbeat.mechanics.wing_points import bias_accelerations, partial_velocities, point_motion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases, StripVectors
+    from wingbeat._jax.shapes import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases
 
 
 class EquationsOfMotion(NamedTuple):
@@ -52,25 +45,6 @@ class EquationsOfMotion(NamedTuple):
     gravity_force: Coordinates
 
 
-class AirForces(NamedTuple):
-    """Air loads of both wings and the body on the five coordinates.
-
-    Attributes
-    ----------
-    generalised : generalised forces, shape (..., 5) [N, N m].
-    power : of the air loads on all that moves through the air [W], shape (...).
-    strips : loads on the strips of the left wing, shape (..., N).
-    strip_force : force on each strip in the world [N], shape (..., N, 3).
-    strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
-    """
-
-    generalised: Coordinates
-    power: Phases
-    strips: StripForces
-    strip_force: StripVectors
-    strip_velocity: StripVectors
-
-
 def _point_masses(model: FlightModel) -> PerStrip:
     """Return the mass of each point times two wings [kg], shape (N,): half a strip's mass, twice."""
     return strips_of(model.vehicle.wing, model.strips).mass
@@ -92,50 +66,6 @@ def _terms(
     )
 
 
-def air_forces_on(
-    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, motion: PointMotion
-) -> AirForces:
-    """Return the air loads from the motion of the wing points at one instant.
-
-    Parameters
-    ----------
-    model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
-    motion : of the wing points.
-    """
-    strips = strips_of(model.vehicle.wing, model.strips)
-    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
-    points, velocity = motion.position, motion.velocity.quarter_chord
-    span_speed = None
-    if model.full_airspeed:
-        span_speed = jnp.sum(velocity * jnp.cross(points.normal, points.chordwise), axis=-1)
-    forces = strip_forces(
-        model.kernel,
-        model.air.density,
-        length / model.strips * strips.chord,
-        jnp.sum(velocity * points.chordwise, axis=-1),
-        jnp.sum(velocity * points.normal, axis=-1),
-        jnp.zeros_like(strips.chord),
-        span_speed,
-    )
-    force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
-    lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
-    if model.at_centre_of_pressure:
-        ahead = pressure_offset(model.kernel, forces.alpha, strips.chord)[:, None]
-        lever = lever + ahead[..., None] * motion.partial.chordwise
-        drift = drift + ahead * motion.drift.chordwise
-    wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
-    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
-    drift_power = 2.0 * jnp.sum(force * drift)
-    return AirForces(
-        generalised,
-        generalised @ q_dot + drift_power,
-        forces,
-        force,
-        velocity,
-    )
-
-
 def accelerations_from_torques(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, torques: Pair
 ) -> Coordinates:
@@ -147,9 +77,10 @@ def accelerations_from_torques(
     torques : of flap and pitch, both wings together [N m].
     """
     terms = _terms(model, wingbeat, q, q_dot, time)
-    air = _air_forces(model, wingbeat, q, q_dot, time).generalised
+    air = _air_forces(model, wingbeat, q, q_dot, time)
     tau = jnp.concatenate([jnp.zeros(3), jnp.asarray(torques)])
-    return jnp.linalg.solve(terms.mass_matrix, tau + air - resistance(terms, q_dot))
+    inertia = terms.mass_matrix + air.added_mass if is_unsteady(model) else terms.mass_matrix
+    return jnp.linalg.solve(inertia, tau + air.generalised - resistance(terms, q_dot))
 
 
 def resistance(terms: EquationsOfMotion, q_dot: Coordinates) -> Coordinates:
@@ -158,9 +89,15 @@ def resistance(terms: EquationsOfMotion, q_dot: Coordinates) -> Coordinates:
 
 
 def _air_forces(
-    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    time: Phases,
+    q_acceleration: Coordinates | None = None,
 ) -> AirForces:
-    return air_forces_on(model, wingbeat, q, q_dot, time, point_motion(model, wingbeat, q, q_dot, time))
+    motion = point_motion(model, wingbeat, q, q_dot, time)
+    return air_forces_on(model, wingbeat, q, q_dot, time, motion, q_acceleration)
 
 
 def _torque(
@@ -172,7 +109,7 @@ def _torque(
     q_acceleration: Coordinates,
 ) -> Coordinates:
     terms = _terms(model, wingbeat, q, q_dot, time)
-    air = _air_forces(model, wingbeat, q, q_dot, time).generalised
+    air = _air_forces(model, wingbeat, q, q_dot, time, q_acceleration).generalised
     return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
 
 
@@ -219,19 +156,26 @@ def equations_of_motion(
 
 
 def air_forces(
-    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    time: Phases,
+    q_acceleration: Coordinates | None = None,
 ) -> AirForces:
     """Return the generalised air loads f_aero of both wings and the body, and the loads of the strips.
 
     Parameters
     ----------
     model, wingbeat, q, q_dot, time : as in `equations_of_motion`.
+    q_acceleration : q'', which unsteady air resists, shape (..., 5) [m/s2, rad/s2]; None for none.
 
     Returns
     -------
     AirForces : ``generalised`` is f_aero, shape (..., 5) [N, N m].
     """
-    return _over_axes(_air_forces, model, wingbeat, time, q, q_dot)
+    more = () if q_acceleration is None else (q_acceleration,)
+    return _over_axes(_air_forces, model, wingbeat, time, q, q_dot, *more)
 
 
 def generalised_torques(

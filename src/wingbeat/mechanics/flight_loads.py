@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.mechanics.equations_of_motion import air_forces_on
-from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.air_forces import air_forces_on
+from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, is_unsteady, motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
-from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_motion import strips_of, time_rates
 from wingbeat.mechanics.wing_points import point_motion
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) 
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     sweep = sweep_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
-    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model.vehicle, wingbeat, phase, model.strips)
+    motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model, wingbeat, phase)
     body = body_rates(model, motion, pitch_state)[1:]
     hinges = hinge_loads(model, motion, moved, pitch_state, body)
     q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
@@ -127,7 +127,14 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) 
     time = phase / wingbeat.frequency
 
     points = point_motion(model, wingbeat, q, q_dot, time)
-    air = air_forces_on(model, wingbeat, q, q_dot, time, points)
+    q_acceleration = None
+    if is_unsteady(model):
+        flap_acceleration, pitch_acceleration = (
+            time_rates(lambda at, law=law: law(wingbeat, at), phase, wingbeat.frequency)[2]
+            for law in (flap_angle, pitch_angle)
+        )
+        q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
+    air = air_forces_on(model, wingbeat, q, q_dot, time, points, q_acceleration)
     strips = strips_of(model.vehicle.wing, model.strips)
     mass = strips.mass
     whole = _whole_body(model, q, q_dot, points.position.mass, points.velocity.mass, mass)

@@ -5,18 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jnp, register_record
+import numpy as np
+
+from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementwise_jvp import elementwise_jvp
-from wingbeat.aero.blade_element import blade_element_of
+from wingbeat.aero.blade_element import BladeElement, blade_element_of
+from wingbeat.aero.inflow import check_descent, disc_area, induced_flow
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_drag, wing_loads
-from wingbeat.mechanics.frames import from_world
+from wingbeat.mechanics.frames import dot, from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.vehicle import Air, Vehicle
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Component, Phases, PitchState
+    from wingbeat._jax.shapes import BodyAcceleration, Component, Pair, Phases, PitchState, Scalar
 
 
 if TYPE_CHECKING:
@@ -55,7 +58,7 @@ def check_state(state: State) -> None:
     faults.raise_if_any()
 
 
-@register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"))
+@register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"), optional=("unsteady",))
 @dataclass(frozen=True, init=False)
 class FlightModel:
     """A vehicle, its air loads and the air: all numbers of the equations of motion but the wingbeat; a JAX pytree.
@@ -66,18 +69,23 @@ class FlightModel:
     aero : a `BladeElement`, or a coefficient model, its name, the path of its file, or a function of the angle of
         attack [rad] that returns (C_L, C_D).
     air : standard air if not given.
+    velocity : mean velocity of the flight, forward and up [m/s], that determines the inflow of `aero`, if any.
 
     Attributes
     ----------
     vehicle, air : as given.
-    kernel : of the coefficient model.
+    kernel : of the coefficient model; of sections where there is inflow.
     strips : number of strips of a wing.
     at_centre_of_pressure : whether the force acts at the centre of pressure.
     full_airspeed : whether the force depends on the whole airspeed of a strip.
+    unsteady : share of the unsteady terms: 1 for all, 0 for none.
+    induced_factor : induced power over that of an ideal disc; None without inflow.
+    induced_flow : velocity of the air at the wings, forward and up [m/s]; None without inflow.
 
     Raises
     ------
-    InvalidInputError, FileError : an `aero` that is none of these.
+    InvalidInputError, FileError : an `aero` that is none of these; inflow without a velocity, or one at which the
+        wings descend into their own wake.
 
     >>> from wingbeat.species import load_species
     >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
@@ -90,19 +98,77 @@ class FlightModel:
     strips: int
     at_centre_of_pressure: bool
     full_airspeed: bool
+    unsteady: float = 0.0
+    induced_factor: float | None = None
+    induced_flow: tuple[float, float] | None = None
 
-    def __init__(self, vehicle: Vehicle, aero: Any, air: Air | None = None) -> None:
-        loads = blade_element_of(aero)
+    def __init__(
+        self, vehicle: Vehicle, aero: Any, air: Air | None = None, velocity: tuple[float, float] | None = None
+    ) -> None:
+        loads, air = blade_element_of(aero), air or Air()
         fields = {
             "vehicle": vehicle,
-            "air": air or Air(),
-            "kernel": loads.coefficients.kernel(),
+            "air": air,
+            "kernel": loads.kernel(),
             "strips": loads.strips,
             "at_centre_of_pressure": loads.force_point == "centre-of-pressure",
             "full_airspeed": loads.airspeed == "full",
+            "unsteady": 0.0 if loads.unsteady == "none" else 1.0,
+            "induced_factor": None if loads.inflow == "none" else loads.induced_factor,
+            "induced_flow": _checked_flow(vehicle, loads, air, velocity),
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
+
+
+def _checked_flow(
+    vehicle: Vehicle, aero: BladeElement, air: Air, velocity: tuple[float, float] | None
+) -> tuple[float, float] | None:
+    """Return the induced flow of a flight, or None without inflow; refuse what has none."""
+    if aero.inflow == "none":
+        return None
+    faults = FaultList()
+    if velocity is None:
+        rule, fix = "is needed for the inflow", "give the mean velocity (forward, up) of the flight [m/s]"
+        faults.add("velocity", velocity, rule, fix)
+        faults.raise_if_any()
+        return None
+    area, weight = disc_area(vehicle.wing.semi_span), vehicle.mass * air.gravity
+    check_descent(faults, air.density, area, aero.induced_factor, weight, velocity)
+    faults.raise_if_any()
+    flow = flow_at(vehicle, air, aero.induced_factor, velocity)
+    return float(flow[0]), float(flow[1])
+
+
+def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
+    """Return the model with the induced flow of a flight at another mean velocity.
+
+    Parameters
+    ----------
+    model : the flight model; one without inflow is returned as it is.
+    velocity : forward and up [m/s].
+    """
+    if model.induced_factor is None:
+        return model
+    flow = flow_at(model.vehicle, model.air, model.induced_factor, velocity, jnp)
+    return unchecked(FlightModel, vars(model) | {"induced_flow": flow})
+
+
+def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any = np) -> Pair:
+    """Return the induced flow at the wings in steady flight, forward and up [m/s].
+
+    The wings carry the weight and overcome the drag of the body at the mean velocity.
+
+    Parameters
+    ----------
+    vehicle, air : what flies, in what.
+    factor : induced power over that of an ideal disc.
+    velocity : mean velocity, forward and up [m/s].
+    xp : array module of the numbers.
+    """
+    drag = body_drag(vehicle.body.drag_area, air.density, velocity, xp)
+    force = -drag[0], vehicle.mass * air.gravity - drag[1]
+    return induced_flow(air.density, disc_area(vehicle.wing.semi_span), factor, force, velocity, xp)
 
 
 def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: int = 1) -> WingMotion:
@@ -114,27 +180,87 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: 
     phase : phases, shape (...).
     vector : pads the strips to a multiple of this number.
     """
-    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed)
+    return wing_motion(
+        model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed, is_unsteady(model)
+    )
+
+
+def is_unsteady(model: FlightModel) -> bool:
+    """Say whether a model has unsteady terms."""
+    return not at_default(model, "unsteady")
 
 
 @elementwise_jvp
+def _air_loads(
+    model_and_motion: tuple[FlightModel, WingMotion], forward: Phases, up: Phases, pitch_rate: Phases, *body: Phases
+) -> BodyLoads:
+    """Return the air loads on a vehicle that does not accelerate, in stroke axes.
+
+    `forward` and `up` are the velocity of the body through the air at the wings [m/s], `body` that through the
+    air around, where it differs.
+    """
+    model, motion = model_and_motion
+    wings = wing_loads(
+        model.kernel,
+        model.air.density,
+        motion,
+        (forward, up),
+        pitch_rate,
+        model.at_centre_of_pressure,
+        model.unsteady,
+    )
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, body or (forward, up))
+    return wings._replace(force=(wings.force[0] + drag[0], wings.force[1] + drag[1]))
+
+
+def velocity_at_wings(model: FlightModel, attitude: Phases, u: Phases, w: Phases) -> Pair:
+    """Return the velocity of the body through the air at the wings, in stroke axes [m/s].
+
+    Parameters
+    ----------
+    model : gives the induced flow.
+    attitude : pitch of the stroke axes from the world's [rad].
+    u, w : velocity of the body, forward and up [m/s].
+    """
+    if model.induced_flow is None:
+        return from_world(attitude, u, w)
+    forward, up = model.induced_flow
+    return from_world(attitude, u - forward, w - up)
+
+
 def air_loads(
-    model_and_motion: tuple[FlightModel, WingMotion], forward: Phases, up: Phases, pitch_rate: Phases
+    model: FlightModel,
+    motion: WingMotion,
+    attitude: Phases,
+    u: Phases,
+    w: Phases,
+    pitch_rate: Phases,
+    acceleration: BodyAcceleration | None = None,
 ) -> BodyLoads:
     """Return the air loads on the whole vehicle in stroke axes.
 
     Parameters
     ----------
-    model_and_motion : the flight model and its table of the wing's motion.
-    forward, up : velocity of the body in stroke axes [m/s].
-    pitch_rate : [rad/s].
+    model : the flight model.
+    motion : its table of the wing's motion.
+    attitude : pitch of the stroke axes from the world's [rad].
+    u, w, pitch_rate : velocity of the body, forward and up, and its pitch rate [m/s, m/s, rad/s].
+    acceleration : (x'', z'', psi'') of the body, which unsteady air resists, shape (3, ...) [m/s2, m/s2, rad/s2];
+        None for a body that does not accelerate.
     """
-    model, motion = model_and_motion
-    wings = wing_loads(
-        model.kernel, model.air.density, motion, (forward, up), pitch_rate, model.at_centre_of_pressure
-    )
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, (forward, up))
-    return wings._replace(force=(wings.force[0] + drag[0], wings.force[1] + drag[1]))
+    velocity = velocity_at_wings(model, attitude, u, w)
+    body = () if model.induced_flow is None else from_world(attitude, u, w)
+    loads = _air_loads((model, motion), *velocity, pitch_rate, *body)
+    if motion.unsteady is None or acceleration is None:
+        return loads
+    rates = (*from_world(attitude, acceleration[0], acceleration[1]), acceleration[2])
+    more = [unsteady_density(model) * dot(tuple(one.by_acceleration), rates) for one in motion.unsteady]
+    return BodyLoads((loads.force[0] - more[0], loads.force[1] - more[1]), loads.moment - more[2])
+
+
+def unsteady_density(model: FlightModel) -> Scalar:
+    """Return the density of the air times the share of unsteady loads [kg/m3]."""
+    return model.unsteady * model.air.density
 
 
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) -> PitchState:
@@ -151,8 +277,8 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) 
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     # The air loads depend on the pitch state in three ways only, so three derivatives of the loads serve all four.
-    loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
+    loads = air_loads(model, motion, attitude, u, w, pitch_rate)
     ax, az, pitch_acceleration = accelerations(
-        model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate
+        model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate, unsteady_density(model)
     )
     return jnp.stack([pitch_rate, ax, az, pitch_acceleration])

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from wingbeat._jax.elementary import cos, sin
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Component, Pair
+    from wingbeat._jax.shapes import Component, Pair, Triple
 
 
 def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
@@ -39,3 +39,14 @@ def stroke_pitch(stroke_plane_angle: Component) -> Component:
     stroke_plane_angle : beta, from the body axis [rad].
     """
     return 0.5 * math.pi - stroke_plane_angle
+
+
+def quarter_turn(pair: Pair) -> Pair:
+    """Turn an in-plane vector nose-up by a right angle."""
+    return -pair[1], pair[0]
+
+
+def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
+    """Return the scalar product of two in-plane vectors or of two vectors in space."""
+    products = [one * other for one, other in zip(a, b, strict=True)]
+    return sum(products[1:], products[0])

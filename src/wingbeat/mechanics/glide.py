@@ -19,7 +19,7 @@ from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
-from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.flight_model import FlightModel, at_velocity
 from wingbeat.mechanics.frames import stroke_pitch
 
 if TYPE_CHECKING:
@@ -105,6 +105,7 @@ def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> C
     body_pitch, wing_pitch = _angles(model, posture)
     none = jnp.zeros(())
     ahead, down = posture.speed * jnp.cos(posture.glide_angle), posture.speed * jnp.sin(posture.glide_angle)
+    model = at_velocity(model, (ahead, -down))
     q = jnp.stack([none, none, body_pitch, posture.flap, wing_pitch])
     q_dot = jnp.stack([ahead, -down, none, none, none])
     gravity = equations_of_motion(model, wingbeat, q, q_dot, none).gravity_force

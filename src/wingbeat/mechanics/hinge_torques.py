@@ -11,26 +11,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.mechanics.body_dynamics import strip_loads, strip_moments
-from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.mechanics.frames import from_world
+from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density, velocity_at_wings
+from wingbeat.mechanics.frames import dot, from_world, quarter_turn
+from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips
+from wingbeat.mechanics.unsteady_air import StripSpeeds, UnsteadyLoad, mid_speed, strip_motion, unsteady_load
 from wingbeat.mechanics.wing_motion import (
     Strips,
     WingMotion,
     WingShape,
-    dot,
-    mass_moments,
-    quarter_turn,
     shape_at,
     strips_of,
     stroke_attitude,
-    sum_over_strips,
     time_rates,
     wing_shape,
     with_time_axes,
 )
-from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import BodyAcceleration, Pair, PerStrip, Phases, PitchState, Triple
@@ -52,6 +49,7 @@ class PartialMotion(NamedTuple):
     coriolis : ``sum m v . E r'``, by the pitch rate.
     own_acceleration : ``sum m v . r''``.
     chordwise_lever : quarter chord's v along the unpitched chord, by strip; None unless the wing sweeps.
+    unsteady : load of unsteady air; None in steady air.
     """
 
     normal_lever: PerStrip
@@ -62,6 +60,7 @@ class PartialMotion(NamedTuple):
     coriolis: Phases
     own_acceleration: Phases
     chordwise_lever: PerStrip | None = None
+    unsteady: UnsteadyLoad | None = None
 
 
 class HingeMotion(NamedTuple):
@@ -135,17 +134,16 @@ def _chords(shape: WingShape, strips: Strips) -> _Chords:
     return _Chords(shape, (x, y, z), fore)
 
 
-def hinge_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int) -> HingeMotion:
+def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
     """Tabulate what the hinges move at given phases.
 
     Parameters
     ----------
-    vehicle, wingbeat : the wing and how it beats.
+    model, wingbeat : the wing and how it beats.
     phase : phases, shape (...).
-    count : number of strips.
     """
-    phase = jnp.asarray(phase, dtype=float)
-    strips = with_time_axes(strips_of(vehicle.wing, count), phase)
+    vehicle, phase = model.vehicle, jnp.asarray(phase, dtype=float)
+    strips = with_time_axes(strips_of(vehicle.wing, model.strips), phase)
 
     def by_time(at: Phases) -> _Chords:
         return _chords(shape_at(vehicle, wingbeat, strips, at), strips)
@@ -160,7 +158,20 @@ def hinge_motion(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int
     _, flap_rate, _ = time_rates(lambda at: flap_angle(wingbeat, at), phase, wingbeat.frequency)
     _, pitch_rate, _ = time_rates(lambda at: pitch_angle(wingbeat, at), phase, wingbeat.frequency)
     moving = here, rates, accelerations
-    return HingeMotion(flap_rate, pitch_rate, *(_along(moving, v, strips) for v in (flap, pitch, rates)))
+    motions = [_along(moving, v, strips) for v in (flap, pitch, rates)]
+    if is_unsteady(model):
+        width = vehicle.wing.semi_span / model.strips * span_ratio(wingbeat, phase)
+        moved = strip_motion(here.shape, rates.shape, accelerations.shape, strips.chord)
+        motions = [
+            motion._replace(unsteady=unsteady_load(moved, _speeds(motion, v, here, strips), strips.chord, width))
+            for motion, v in zip(motions, (flap, pitch, rates), strict=True)
+        ]
+    return HingeMotion(flap_rate, pitch_rate, *motions)
+
+
+def _speeds(along: PartialMotion, velocity: _Chords, here: _Chords, strips: Strips) -> StripSpeeds:
+    speeds = along.chordwise_lever, along.normal_lever, dot(velocity.fore, here.shape.normal)
+    return StripSpeeds(*speeds[:2], mid_speed(here.shape, *speeds, strips.chord), speeds[2])
 
 
 def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: Strips) -> PartialMotion:
@@ -216,16 +227,22 @@ def hinge_loads(
     body_pitch, u, w, pitch_rate = pitch_state
     ax, az, pitch_acceleration = body_acceleration
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
+    velocity = velocity_at_wings(model, attitude, u, w)
+    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
     moments = strip_moments(model.kernel, motion, strips) if model.at_centre_of_pressure else 0.0
     apparent = from_world(attitude, ax, az + model.air.gravity)
+    accelerates = (*from_world(attitude, ax, az), pitch_acceleration) if is_unsteady(model) else None
 
     def required(along: PartialMotion) -> _GeneralisedForce:
         air = strips.normal * along.normal_lever + moments * along.chord_rotation
         if along.chordwise_lever is not None:
             air = air + strips.chordwise * along.chordwise_lever
+        against_air = -2.0 * sum_over_strips(air)
+        if along.unsteady is not None:
+            through_air, density = (*velocity, pitch_rate), unsteady_density(model)
+            against_air = against_air - along.unsteady.load(density, through_air, accelerates, strips.speed)
         return _GeneralisedForce(
-            air=-2.0 * sum_over_strips(air),
+            air=against_air,
             inertia=along.own_acceleration,
             body=dot(apparent, along.first_moment)
             + pitch_acceleration * along.euler

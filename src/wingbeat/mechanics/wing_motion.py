@@ -6,24 +6,21 @@ the last, because XLA on CPU works along the last axis, and strips are few.
 
 from __future__ import annotations
 
-import functools
 import math
-import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.mechanics.frames import from_world, stroke_pitch
+from wingbeat.mechanics.frames import dot, from_world, quarter_turn, stroke_pitch
+from wingbeat.mechanics.strip_sums import mass_moments
+from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_load
 from wingbeat.mechanics.wing_shape import Strips, WingShape
 from wingbeat.vehicle import Vehicle, Wing
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Component, Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Sums, Triple
-
-
-_FEW_STRIPS = 32
+    from wingbeat._jax.shapes import Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Triple
 
 
 class WingMotion(NamedTuple):
@@ -49,6 +46,7 @@ class WingMotion(NamedTuple):
     tilt : of the stroke plane [rad]; None where it is 0.
     span : unit vector along the span, in the plane of symmetry; None unless loads go with the whole airspeed.
     spanwise_speed : along the span [m/s]; None unless loads go with the whole airspeed.
+    unsteady : loads of unsteady air on the body, forward, up and nose-up; None in steady air.
     """
 
     ahead: Phases | PerStrip
@@ -69,6 +67,7 @@ class WingMotion(NamedTuple):
     tilt: Phases | None = None
     span: Pair | None = None
     spanwise_speed: PerStrip | None = None
+    unsteady: tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad] | None = None
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
@@ -210,34 +209,14 @@ def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar)
     return value, scaled(first, frequency), scaled(second, frequency * frequency)
 
 
-def quarter_turn(pair: Pair) -> Pair:
-    """Turn an in-plane vector nose-up by a right angle."""
-    return -pair[1], pair[0]
-
-
-def sum_over_strips(a: PerStrip) -> Phases:
-    """Return the sum over the strips; of few by additions, of which XLA on CPU makes vector code."""
-    if a.shape[0] > _FEW_STRIPS:
-        return jnp.sum(a, axis=0)
-    return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
-
-
-def mass_moments(mass: PerStripBroadcast, rows: Sequence[PerStrip]) -> Sums:
-    """Return the sums over the strips of each row times the strips' mass, shape (rows, ...).
-
-    One sum of all rows compiles in a third of the time of a sum for each.
-    """
-    return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))
-
-
-def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
-    """Return the scalar product of two in-plane vectors or of two vectors in space."""
-    products = [one * other for one, other in zip(a, b, strict=True)]
-    return sum(products[1:], products[0])
-
-
 def wing_motion(
-    vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int, vector: int = 1, along_span: bool = False
+    vehicle: Vehicle,
+    wingbeat: Wingbeat,
+    phase: Phases,
+    count: int,
+    vector: int = 1,
+    along_span: bool = False,
+    unsteady: bool = False,
 ) -> WingMotion:
     """Tabulate, in one pass, the wing's motion at given phases as it acts on air and body.
 
@@ -248,6 +227,7 @@ def wing_motion(
     count : number of strips, N.
     vector : pads the strips to a multiple of this number.
     along_span : whether to add the motion along the span.
+    unsteady : whether to add the loads of unsteady air.
     """
     phase = jnp.asarray(phase, dtype=float)
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
@@ -260,7 +240,7 @@ def wing_motion(
         return shape, (shape.ahead - quarter * fore[0], shape.above - quarter * fore[1]), fore
 
     (shape, place, fore), rates, accelerations = time_rates(strip_places, phase, wingbeat.frequency)
-    (shape_rate, speed, fore_rate), (_, acceleration, fore_acceleration) = rates, accelerations
+    (shape_rate, speed, fore_rate), (shape_second, acceleration, fore_acceleration) = rates, accelerations
 
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
     mass, gyration = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
@@ -277,6 +257,11 @@ def wing_motion(
     if along_span:
         x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
         span = x, y, z
+    loads = None
+    if unsteady:
+        moved = strip_motion(shape, shape_rate, shape_second, strips.chord)
+        forward, up, nose_up = (unsteady_load(moved, speeds, strips.chord, width) for speeds in moved.speeds[:3])
+        loads = forward, up, nose_up
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
@@ -296,4 +281,5 @@ def wing_motion(
         tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),
         span=None if span is None else (span[0], span[2]),
         spanwise_speed=None if span is None else dot(shape_rate.quarter_chord, span),
+        unsteady=loads,
     )

@@ -132,7 +132,8 @@ def glide_polar(
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
     loads = blade_element_of(SuFan() if aero is None else aero)
-    model = FlightModel(species.vehicle, loads, species.air)
+    # Each glide sets the inflow of its own velocity.
+    model = FlightModel(species.vehicle, loads, species.air, velocity=(1.0, 0.0))
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)
     reach = species.path_bounds["body_pitch"] if trim == "body-pitch" else mean
@@ -178,5 +179,6 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
             f"Reynolds number outside the fitted {low:g} to {high:g} in {outside} of {len(found)} glides "
             f"(it runs from {min(reynolds):.0f} to {max(reynolds):.0f})"
         )
-    notes.append("the model adds no induced drag to the coefficients")
+    if polar.aero.inflow == "none":
+        notes.append("the model adds no induced drag to the coefficients")
     return notes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -10,6 +11,7 @@ from wingbeat.aero import (
     LIBRARY,
     BladeElement,
     CentreTerms,
+    CoefficientModel,
     FormulaCoefficients,
     FormulaTerms,
     TableCoefficients,
@@ -42,9 +44,9 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
     species, coefficients = problem.species, problem.aero.coefficients
     aero = aero_record(problem.aero)
     if isinstance(coefficients, TableCoefficients):
-        aero["table"] = {name: getattr(coefficients, name) for name in _TABLE}
+        aero["table"] = {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)
     elif isinstance(coefficients, FormulaCoefficients) and not _in_the_box(coefficients):
-        aero["formula"] = {name: getattr(coefficients, name) for name in _FORMULA}
+        aero["formula"] = {name: getattr(coefficients, name) for name in _FORMULA} | _aspect_ratio(coefficients)
         for name in ("lift_terms", "drag_terms", "centre_terms"):
             terms = getattr(coefficients, name)
             aero["formula"][name] = None if terms is None else dict(vars(terms))
@@ -80,6 +82,13 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
     if options != DEFAULTS:
         inputs["options"] = options.changed()
     return json.loads(json.dumps(inputs))
+
+
+def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
+    """Return the aspect ratio of a model that states one; JSON has no infinity."""
+    if coefficients.aspect_ratio is None:
+        return {}
+    return {"aspect_ratio": "inf" if math.isinf(coefficients.aspect_ratio) else coefficients.aspect_ratio}
 
 
 def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
@@ -149,7 +158,8 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
     """
-    return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"], aero["airspeed"])
+    terms = {name: aero[name] for name in ("unsteady", "inflow", "induced_factor") if name in aero}
+    return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"], aero["airspeed"], **terms)
 
 
 def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:
@@ -195,7 +205,8 @@ def _coefficients(aero: dict[str, Any]) -> Any:
 
 
 def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
-    return {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
+    known = {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
+    return known | {"aspect_ratio": math.inf} if known.get("aspect_ratio") == "inf" else known
 
 
 def _asked_for(quantity: Quantity) -> str:

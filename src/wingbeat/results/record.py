@@ -44,8 +44,17 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
         "strips": aero.strips,
         "force_point": aero.force_point,
         "airspeed": aero.airspeed,
+        **further_terms(aero),
         **({"function": f"the user's own, {aero.coefficients.program.digest[:16]}"} if own else {}),
     }
+
+
+def further_terms(aero: BladeElement) -> dict[str, Any]:
+    """Return the terms that the air loads have beyond those of Su et al., by name; none of those that are off."""
+    terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
+    return (
+        terms if aero.inflow == "none" else terms | {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
+    )
 
 
 def orbit_record(solution: Solution) -> dict[str, Any]:

@@ -25,7 +25,8 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     if record.get("climb"):
         place += f", climbing {_of(record, 'climb')}"
     named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
-    loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else [])])
+    terms = [f"{aero[name]} {name}" for name in ("unsteady", "inflow") if name in aero]
+    loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
     return {
         "flight": [("species, mean speed", place), ("air loads", loads), *flight_rows(record)],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),

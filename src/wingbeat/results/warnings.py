@@ -23,6 +23,8 @@ _SWING = math.radians(20.0)
 # Phases at which a stroke is checked; a warning is due this far across the plane of symmetry (share of the
 # semi-span) or this far past the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
+# Reduced frequency above which the lag of the wake matters.
+_LAG = 0.3
 # Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
 
@@ -32,7 +34,10 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     problem = solution.problem
     air = problem.air
     notes = list(problem.species.warnings)
-    notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
+    if problem.aero.inflow == "none":
+        notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
+    if problem.aero.unsteady != "none":
+        notes += lag_of_wake(problem, solution.wingbeat)
     notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
@@ -132,6 +137,21 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
     return [
         f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
         f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
+    ]
+
+
+def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
+    """Warn where unsteady terms without the wake overstate lift: its lag grows with the reduced frequency.
+
+    Theodorsen's function falls to 0.69 of steady lift at a reduced frequency of 0.3, and to 0.55 at 1.
+    """
+    wing, speed = problem.vehicle.wing, problem.speed
+    reduced = math.pi * wingbeat.frequency * wing.mean_chord / speed if speed else math.inf
+    if reduced <= _LAG:
+        return []
+    return [
+        f"the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of {_LAG:g} "
+        f"({'in hover' if math.isinf(reduced) else f'here {reduced:.2g}'}): they overstate lift that follows alpha"
     ]
 
 

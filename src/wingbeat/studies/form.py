@@ -94,6 +94,9 @@ class StudyForm(BaseModel):
     strips: _Counts = Field(default=[10])
     force_point: _Texts = Field(default=["quarter-chord"])
     airspeed: _Texts = Field(default=["planar"])
+    unsteady: _Texts = Field(default=["none"])
+    inflow: _Texts = Field(default=["none"])
+    induced_factor: _Numbers = Field(default=[1.2])
     speed: _Numbers | None = None
     climb: _Numbers = Field(default=[0.0])
     payload: _Numbers = Field(default=[0.0])
@@ -266,7 +269,10 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
         listed = isinstance(values, list) and name != "free"
         if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
-    both = ("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed")
+    both = (
+        *("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed"),
+        *("unsteady", "inflow", "induced_factor"),
+    )
     for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")

@@ -24,7 +24,7 @@ from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import dotted
 from wingbeat.studies.form import StudyForm, number
 from wingbeat.studies.objective import as_inputs
-from wingbeat.studies.recipe import MOTION, Recipe
+from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe
 from wingbeat.studies.sampling import unit_points
 
 MOST_POINTS = 10_000_000
@@ -32,7 +32,7 @@ MOST_POINTS = 10_000_000
 _ENOUGH = 100
 # What multiplies, in the order of its loops.
 _TOP = (
-    *("species", "aero", "extension", "blend_width_deg", "strips", "force_point", "airspeed", "minimise"),
+    *("species", "aero", *OF_COEFFICIENTS, *OF_ELEMENTS, "minimise"),
     *("subject_to", "speed", "climb", "payload", "starts", "seed", "most_starts"),
 )
 
@@ -222,7 +222,7 @@ def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], C
 
     makers = {
         "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
-        "aero": (("aero", "extension", "blend_width_deg", "strips", "force_point", "airspeed"), loads),
+        "aero": (("aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
         "minimise": (("minimise",), lambda name: as_inputs(name, folder)),
         "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }

@@ -23,8 +23,11 @@ from wingbeat.studies.objective import from_inputs
 
 # Every point says these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
-_OF_COEFFICIENTS = ("aero.extension", "aero.blend_width_deg")
-_OF_ELEMENTS = ("aero.strips", "aero.force_point", "aero.airspeed")
+# The numbers and words of the coefficients, and those of the air loads, in the order of their constructors.
+OF_COEFFICIENTS = ("extension", "blend_width_deg")
+OF_ELEMENTS = ("strips", "force_point", "airspeed", "unsteady", "inflow", "induced_factor")
+_OF_COEFFICIENTS = tuple(f"aero.{name}" for name in OF_COEFFICIENTS)
+_OF_ELEMENTS = tuple(f"aero.{name}" for name in OF_ELEMENTS)
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)
 _AT_REST = {"speed": 10.0, "climb": 0.0, "payload": 0.0}
 

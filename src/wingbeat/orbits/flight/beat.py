@@ -12,8 +12,8 @@ from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
 from wingbeat.mechanics.body_dynamics import strip_loads
-from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table
-from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
+from wingbeat.mechanics.frames import to_world
 from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.orbits.flight.shooting import STEPS, Flown
@@ -149,7 +149,7 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
     return _Tables(
         phase,
         motion_table(model, wingbeat, phase),
-        hinge_motion(model.vehicle, wingbeat, phase, model.strips),
+        hinge_motion(model, wingbeat, phase),
         flap_angle(wingbeat, phase),
         pitch_angle(wingbeat, phase),
         jnp.asarray(wingbeat.frequency, dtype=float),
@@ -162,9 +162,10 @@ def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity
     body = fusion_barrier(body_rates(model, motion, path)[1:])
     body_pitch, u, w, pitch_rate = path
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    loads = air_loads((model, motion), *from_world(attitude, u, w), pitch_rate)
+    loads = air_loads(model, motion, attitude, u, w, pitch_rate, body)
     force_x, force_z = to_world(attitude, *loads.force)
-    strips = strip_loads(model.kernel, model.air.density, motion, from_world(attitude, u, w), pitch_rate)
+    velocity = velocity_at_wings(model, attitude, u, w)
+    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
     chord = strips_of(model.vehicle.wing, model.strips).chord
     return Beat(

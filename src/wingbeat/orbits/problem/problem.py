@@ -33,7 +33,6 @@ _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
 FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
 SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
 CLIMB_LIMITS: dict[str, Any] = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB, "unit": "m/s"}
-_START = np.eye(4)  # derivative of the initial pitch state by itself
 
 Bounds = Mapping[str, tuple[float, float]]
 
@@ -58,9 +57,8 @@ class OrbitProblem:
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
-    wings_may_cross : let strip corners pass through the plane of symmetry, and flap angles leave their range. By
-        default each wing stays on its own side. If every parameter that shapes the stroke is fixed, an orbit whose
-        wings cross draws a warning.
+    wings_may_cross : let each wing leave its side of the plane of symmetry, and flap angles their range. A stroke
+        whose parameters are all fixed may do so anyway, with a warning.
 
     Raises
     ------
@@ -106,6 +104,7 @@ class OrbitProblem:
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
+        _ = aero.inflow == "none" or self.model  # refuses a descent into its own wake
         given: Bounds = dict(self.bounds or {})  # type: ignore[arg-type]
         object.__setattr__(self, "bounds", given)
         free = tuple(self.free or self.species.free)
@@ -199,7 +198,7 @@ class OrbitProblem:
         limits, faults = getattr(self, "_plausible_limits", None), FaultList()
         if limits is not None:
             moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)
-            faults.raise_if_any()
+        faults.raise_if_any()
         return moved
 
     def _quantities(self) -> list[Quantity]:
@@ -275,7 +274,7 @@ class OrbitProblem:
     @functools.cached_property
     def model(self) -> FlightModel:
         """The flight model of vehicle, air loads and air; cached: its coefficients take as long as a flight."""
-        return FlightModel(self.vehicle, self.aero, self.air)
+        return FlightModel(self.vehicle, self.aero, self.air, (self.speed, self.climb))
 
     def unknowns(self) -> Unknowns:
         """Return names, bounds and scales of the unknowns."""
@@ -323,11 +322,12 @@ class OrbitProblem:
         return self.species.wingbeat.frequency
 
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the residual of the state at the end of the period, shape (6,) [m, m, rad, m/s, m/s, rad/s].
+        """Return how far the end of the period is from closing the orbit, shape (6,) [m, m, rad, m/s, m/s, rad/s].
 
         Parameters
         ----------
-        end, unknowns : the state at the end, shape (6,), from x = z = 0, and the unknowns, as in `wingbeat`.
+        end : state at the end of the period, shape (6,). The flight starts at x = z = 0.
+        unknowns : pitch state at phase 0 and free parameters, as in the method `wingbeat`.
         frequency : of the wingbeat [Hz].
         """
         travelled = np.array([self.speed, self.climb]) / frequency
@@ -342,7 +342,7 @@ class OrbitProblem:
         frequency : of the wingbeat [Hz].
         """
         jacobian = np.array(end_jacobian)
-        jacobian[2:, :4] -= _START
+        jacobian[2:, :4] -= np.eye(4)  # the initial pitch state by itself
         if "frequency" in self.free:
             column = 4 + self.free.index("frequency")
             jacobian[0, column] += self.speed / frequency**2

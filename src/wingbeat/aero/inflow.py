@@ -1,0 +1,94 @@
+"""Induced flow by momentum: the even stream of air through the disc of the wings that holds the weight.
+
+Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
+``2 rho A v |V + v n| = k T``, with T the mean force of the wings, n its direction, V the velocity of the animal, A
+the disc over the span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 by Pennycuick 2008,
+Modelling the Flying Bird). The air at the wings moves with ``-v n``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Pair, Scalar
+
+INFLOWS = ("none", "momentum")
+# Newton's steps; outside the vortex ring 12 leave less than 1e-12 m/s to gain.
+_STEPS = 16
+# Keeps the direction of no force, and the slope at rest without induced flow, from dividing by 0.
+_TINY = 1e-30
+
+
+def disc_area(semi_span: Scalar) -> Scalar:
+    """Return the area of the disc that the wings span, ``pi R^2`` [m2].
+
+    Parameters
+    ----------
+    semi_span : R [m].
+    """
+    return math.pi * semi_span * semi_span
+
+
+def induced_flow(
+    density: Scalar, area: Scalar, factor: Scalar, force: Pair, velocity: Pair, xp: Any = np
+) -> tuple[Any, Any]:
+    """Return the velocity of the air at the wings, forward and up [m/s].
+
+    Parameters
+    ----------
+    density : of the air [kg/m3].
+    area : of the disc [m2].
+    factor : k, times the momentum of an ideal disc; 0 is no induced flow.
+    force : mean force of both wings, forward and up [N].
+    velocity : mean velocity of the animal, forward and up [m/s].
+    xp : array module of the numbers.
+
+    >>> forward, up = induced_flow(1.225, disc_area(0.279), 1.0, (0.0, 0.316 * 9.81), (0.0, 0.0))
+    >>> round(float(-up), 3)
+    2.275
+    """
+    size = xp.sqrt(force[0] * force[0] + force[1] * force[1] + _TINY)
+    forward, up = force[0] / size, force[1] / size
+    along = velocity[0] * forward + velocity[1] * up
+    squared = velocity[0] * velocity[0] + velocity[1] * velocity[1]
+    hover = factor * size / (2.0 * density * area) + _TINY  # induced speed squared at rest
+    speed = hover / xp.sqrt(squared + hover)
+    for _ in range(_STEPS):
+        through = xp.sqrt(squared + 2.0 * speed * along + speed * speed)
+        slope = through + speed * (along + speed) / through
+        speed = speed - (speed * through - hover) / slope
+    return -speed * forward, -speed * up
+
+
+def check_descent(
+    faults: FaultList, density: float, area: float, factor: float, weight: float, velocity: tuple[float, float]
+) -> None:
+    """Note a fault if a descent meets its own wake as a vortex ring, where momentum theory does not hold.
+
+    Straight down the range is that between hover and twice the induced speed of hover (Leishman 2006, Principles of
+    Helicopter Aerodynamics, section 2.13). With forward speed it narrows and ends at about the induced speed of
+    hover (Johnson 2005, NASA TP-2005-213477); here it is the circle through these points.
+
+    Parameters
+    ----------
+    faults : takes the fault.
+    density : of the air [kg/m3].
+    area : of the disc [m2].
+    factor : k, as in `induced_flow`.
+    weight : [N].
+    velocity : of the animal, forward and up [m/s].
+    """
+    hover = math.sqrt(factor * weight / (2.0 * density * area))
+    speed, climb = velocity
+    if speed * speed + (climb + hover) ** 2 < hover * hover:
+        rule = (
+            f"descends into its own wake (vortex ring): below {hover:.2g} m/s forward and between 0 and "
+            f"{2 * hover:.2g} m/s down, momentum theory gives no induced flow"
+        )
+        faults.add("climb", climb, rule, "fly faster, or leave the inflow out")

@@ -1,0 +1,104 @@
+"""Sectional coefficients from those of a finite wing: its own induced flow is taken out.
+
+Prandtl's lifting line: a wing of aspect ratio A meets the air at ``alpha`` less ``eps = C_L / (pi A)``, and the
+force on its sections is normal to that air. So the section at ``alpha - eps`` has
+``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from wingbeat._jax.config import jnp
+from wingbeat._jax.elementary import horner
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
+from wingbeat.errors import Fault, InvalidInputError
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Angles, Spline
+
+# Knots of the tables over the whole turn: a spline through them is within 1e-6 of the formulas of the library,
+# but for the blends, where it is within 1e-4.
+_CELLS = 1440
+_PASSES = 10
+
+
+class SectionalKernel(NamedTuple):
+    """Coefficients of a section as cubic splines over equal steps of the whole turn; a JAX pytree."""
+
+    lift_spline: Spline
+    drag_spline: Spline
+    centre_spline: Spline
+
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
+        """Return c_l and c_d at `alpha` [rad], any shape."""
+        return self._value(self.lift_spline, alpha), self._value(self.drag_spline, alpha)
+
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
+        """Return x_cp at `alpha` [rad], any shape; NaN if there is none."""
+        return self._value(self.centre_spline, alpha)
+
+    def _value(self, spline: Spline, alpha: Angles) -> Angles:
+        cells = (alpha + math.pi) * (_CELLS / (2 * math.pi))
+        cell = jnp.clip(jnp.floor(cells), 0, _CELLS - 1)
+        pieces = jnp.asarray(spline)[:, cell.astype(jnp.int32)]
+        return horner(tuple(pieces), cells - cell)
+
+
+def sectional_kernel(model: CoefficientModel) -> Kernel:
+    """Return the kernel of the sections of a wing whose coefficients were measured at its aspect ratio.
+
+    Parameters
+    ----------
+    model : of any aspect ratio; one of an infinite wing is returned as it is.
+
+    Raises
+    ------
+    InvalidInputError : a model without an aspect ratio, or one so small that two angles of the wing give one angle
+        of its sections.
+    """
+    if model.aspect_ratio is None:
+        rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"
+        fix = "use a model that has one, state aspect_ratio in the table or model, or leave the inflow out"
+        raise InvalidInputError([Fault("aero.inflow", "momentum", rule, fix)])
+    if math.isinf(model.aspect_ratio):
+        return model.kernel()
+    knots = np.linspace(-math.pi, math.pi, _CELLS + 1)
+    alpha = _wing_angles(model, model.aspect_ratio, knots)
+    lift, drag = model.lift(alpha), model.drag(alpha)
+    sine, cosine = np.sin(alpha - knots), np.cos(alpha - knots)
+    centre = model.centre_of_pressure(alpha) if model.has_centre_of_pressure else np.full_like(alpha, np.nan)
+    columns = (lift * cosine + drag * sine, drag * cosine - lift * sine, centre)
+    return SectionalKernel(*(_spline(knots, column) for column in columns))
+
+
+def _wing_angles(model: CoefficientModel, aspect_ratio: float, section: np.ndarray) -> np.ndarray:
+    """Return the angles of attack of a wing [rad] at which its sections have the angles `section`."""
+
+    def turned(alpha: np.ndarray) -> np.ndarray:
+        return model.lift(alpha) / (math.pi * aspect_ratio)
+
+    fine = np.linspace(-math.pi, math.pi, 4 * _CELLS + 1)
+    there = fine - turned(fine)
+    if not (np.diff(there) > 0).all():
+        rule = f"cannot be made sectional: its lift rises too fast for an aspect ratio of {aspect_ratio:g}"
+        raise InvalidInputError([Fault("aero.coefficients", model.name, rule, "check aspect_ratio")])
+    alpha = np.interp(section, there, fine, period=2 * math.pi)
+    # np.interp leaves angles in [-pi, pi] of a period apart; each pass divides what is left by 3 or more.
+    alpha = section + np.remainder(alpha - section + math.pi, 2 * math.pi) - math.pi
+    for _ in range(_PASSES):
+        alpha = section + turned(alpha)
+    return alpha
+
+
+def _spline(knots: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the pieces of a periodic spline, constant first, whose variable runs from 0 to 1 in each cell."""
+    from scipy.interpolate import CubicSpline
+
+    if np.isnan(values).any():
+        return np.full((4, _CELLS), np.nan)
+    whole = np.append(values[:-1], values[0])
+    return CubicSpline(knots, whole, bc_type="periodic").c[::-1] * (knots[1] - knots[0]) ** np.arange(4)[:, None]

@@ -1,0 +1,196 @@
+"""Air loads on the five coordinates, from the motion of the wing's points in the world.
+
+It shares the formulas of a strip with `body_dynamics`, but no sum over the strips: each form checks the other.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from wingbeat._jax.config import jnp
+from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
+from wingbeat.aero.unsteady import added_inertia, added_mass
+from wingbeat.kinematics import Wingbeat, span_ratio
+from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
+from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
+from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_points import PointMotion
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        CoordinateMatrix,
+        Coordinates,
+        PerStrip,
+        Phases,
+        Scalar,
+        StripsByCoordinates,
+        StripVectors,
+        Vector,
+    )
+
+
+class AirForces(NamedTuple):
+    """Air loads of both wings and the body on the five coordinates.
+
+    Attributes
+    ----------
+    generalised : generalised forces f_aero, shape (..., 5) [N, N m].
+    power : of the air loads on all that moves through the air [W], shape (...).
+    strips : loads on the strips of the left wing, shape (..., N).
+    strip_force : force on each strip in the world [N], shape (..., N, 3).
+    strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
+    added_mass : by which f_aero falls with q'', shape (..., 5, 5) [kg, kg m, kg m2]; zero in steady air.
+    """
+
+    generalised: Coordinates
+    power: Phases
+    strips: StripForces
+    strip_force: StripVectors
+    strip_velocity: StripVectors
+    added_mass: CoordinateMatrix
+
+
+class _AirResistance(NamedTuple):
+    """What a thin aerofoil's air resists: motions of each strip of the left wing, and its inertia against them.
+
+    `mass` and `inertia` are of a strip. `lever` and `turn` are the speed of the mid-chord along the normal and the
+    turning of the chord by q', shape (N, 5); `normal_bias` and `turning_bias` are their rates at ``q'' = 0``.
+    `turning` is of the chord [rad/s].
+    """
+
+    mass: PerStrip
+    inertia: PerStrip
+    lever: StripsByCoordinates
+    turn: StripsByCoordinates
+    normal_bias: PerStrip
+    turning_bias: PerStrip
+    turning: PerStrip
+
+    @property
+    def added_mass(self) -> CoordinateMatrix:
+        """The generalised inertia of the air at both wings, shape (5, 5)."""
+        return 2.0 * (
+            jnp.einsum("n,ni,nj->ij", self.mass, self.lever, self.lever)
+            + jnp.einsum("n,ni,nj->ij", self.inertia, self.turn, self.turn)
+        )
+
+    def forces(self, q_acceleration: Coordinates) -> tuple[PerStrip, PerStrip]:
+        """Return the force of each strip along its normal at mid-chord [N], and its couple [N m]."""
+        return (
+            -self.mass * (self.normal_bias + self.lever @ q_acceleration),
+            -self.inertia * (self.turning_bias + self.turn @ q_acceleration),
+        )
+
+
+def _air_resistance(
+    model: FlightModel, chord: PerStrip, width: Scalar, motion: PointMotion, wind: Vector | float
+) -> _AirResistance:
+    density = unsteady_density(model)
+    points, velocity, partial, bias = motion.position, motion.velocity, motion.partial, motion.bias
+
+    def mid(of: Any) -> Any:
+        quarter = 0.25 * chord.reshape(-1, *[1] * (of.chordwise.ndim - 1))
+        return of.quarter_chord - quarter * of.chordwise
+
+    def across(normal: Any, vector: Any) -> PerStrip:
+        return jnp.sum(normal * vector, axis=-1)
+
+    through_air = mid(velocity) - wind
+    return _AirResistance(
+        added_mass(density, chord, width),
+        added_inertia(density, chord, width),
+        jnp.einsum("na,nai->ni", points.normal, mid(partial)),
+        jnp.einsum("na,nai->ni", points.normal, partial.chordwise),
+        across(velocity.normal, through_air) + across(points.normal, mid(bias)),
+        across(velocity.normal, velocity.chordwise) + across(points.normal, bias.chordwise),
+        across(points.normal, velocity.chordwise),
+    )
+
+
+def air_forces_on(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    time: Phases,
+    motion: PointMotion,
+    q_acceleration: Coordinates | None = None,
+) -> AirForces:
+    """Return the air loads from the motion of the wing points at one instant.
+
+    Parameters
+    ----------
+    model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
+    motion : of the wing points.
+    q_acceleration : q'', which unsteady air resists, shape (5,); None for none.
+    """
+    strips = strips_of(model.vehicle.wing, model.strips)
+    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
+    width = length / model.strips
+    points, velocity, wind = motion.position, motion.velocity.quarter_chord, _wind(model)
+    through_air = velocity if wind is None else velocity - wind
+    chord_speed = jnp.sum(through_air * points.chordwise, axis=-1)
+    normal_speed = jnp.sum(through_air * points.normal, axis=-1)
+    span_speed = None
+    if model.full_airspeed:
+        span_speed = jnp.sum(through_air * jnp.cross(points.normal, points.chordwise), axis=-1)
+    forces = strip_forces(
+        model.kernel,
+        model.air.density,
+        width * strips.chord,
+        chord_speed,
+        normal_speed,
+        jnp.zeros_like(strips.chord),
+        span_speed,
+    )
+    force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
+    lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
+    if model.at_centre_of_pressure:
+        ahead = pressure_offset(model.kernel, forces.alpha, strips.chord)[:, None]
+        lever = lever + ahead[..., None] * motion.partial.chordwise
+        drift = drift + ahead * motion.drift.chordwise
+    wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
+    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
+    drift_power = 2.0 * jnp.sum(force * drift)
+    air_mass = jnp.zeros((5, 5))
+    if is_unsteady(model):
+        resistance = _air_resistance(model, strips.chord, width, motion, 0.0 if wind is None else wind)
+        along = chord_speed, normal_speed
+        turned = with_turning(forces, unsteady_density(model), strips.chord, width, resistance.turning, *along)
+        rotation = (turned.chordwise - forces.chordwise)[:, None] * points.chordwise + (
+            turned.normal - forces.normal
+        )[:, None] * points.normal
+        normal, couple = resistance.forces(jnp.zeros(5) if q_acceleration is None else q_acceleration)
+        couple = couple + turned.couple
+        generalised = generalised + 2.0 * (
+            jnp.einsum("na,nai->i", rotation, motion.partial.quarter_chord)
+            + normal @ resistance.lever
+            + couple @ resistance.turn
+        )
+        quarter = 0.25 * strips.chord[:, None]
+        drifting = motion.drift.quarter_chord - quarter * motion.drift.chordwise
+        drift_power = drift_power + 2.0 * (
+            jnp.sum(rotation * motion.drift.quarter_chord)
+            + normal @ jnp.sum(points.normal * drifting, axis=-1)
+            + couple @ jnp.sum(points.normal * motion.drift.chordwise, axis=-1)
+        )
+        force = force + rotation + normal[:, None] * points.normal
+        air_mass = resistance.added_mass
+    return AirForces(
+        generalised,
+        generalised @ q_dot + drift_power,
+        forces,
+        force,
+        velocity,
+        air_mass,
+    )
+
+
+def _wind(model: FlightModel) -> Any:
+    """Return the velocity of the air at the wings in the world [m/s], shape (3,); None without inflow."""
+    if model.induced_flow is None:
+        return None
+    forward, up = (jnp.asarray(part, dtype=float) for part in model.induced_flow)
+    return jnp.stack([forward, jnp.zeros(()), up])

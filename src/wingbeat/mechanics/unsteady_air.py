@@ -1,0 +1,249 @@
+"""The loads of unsteady air on a motion of the wing, from sums over the strips that depend on time alone.
+
+Rotation, added mass and couples of a thin aerofoil (`wingbeat.aero.unsteady`) are at most products of two speeds.
+With ``xi = (V_x, V_z, psi')`` the motion of the body through the air in stroke axes, each speed of a strip is
+linear in xi, with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C +
+psi' (D . xi + E))``, a the acceleration of the body, with A to E tabulated like the moments of the wing's mass. The
+couple against the turning of the chord alone needs the airspeed of each strip.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.elementwise_jvp import computed_once
+from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_lift
+from wingbeat.mechanics.frames import dot
+from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips
+from wingbeat.mechanics.wing_shape import WingShape
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import (
+        ByBodyMotion,
+        PerStrip,
+        PerStripBroadcast,
+        PerStripOrNone,
+        Phases,
+        Scalar,
+        Triple,
+        TripleOrNone,
+    )
+
+
+class StripSpeeds(NamedTuple):
+    """Speeds that a motion gives the strips, per unit of the motion; None stands for none.
+
+    Attributes
+    ----------
+    chord, normal : of the quarter chord, along the chord and the normal that the strip has without pitch.
+    mid : of the mid-chord, along the normal of the chord.
+    turn : of the chord about the span, leading edge up.
+    """
+
+    chord: PerStrip | None
+    normal: PerStrip | None
+    mid: PerStrip
+    turn: PerStrip | None
+
+
+class StripRates(NamedTuple):
+    """Time derivatives of the speeds of the same names in `StripSpeeds`."""
+
+    mid: PerStrip
+    turn: PerStrip | None
+
+
+class StripMotion(NamedTuple):
+    """How the motions V_x, V_z and psi' of the body, and the wing's own motion, move the strips.
+
+    Attributes
+    ----------
+    speeds, rates : by these four motions.
+    """
+
+    speeds: tuple[StripSpeeds, ...]
+    rates: tuple[StripRates, ...]
+
+
+def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: PerStripBroadcast) -> StripMotion:
+    """Return how the strips move.
+
+    Parameters
+    ----------
+    shape, rate, second : of the wing, and its first and second time derivatives.
+    chord : of the strips [m].
+    """
+    # Without this the tangents of every sum over the strips compute the shape anew: 1.3 times the time of a flight.
+    shape, rate, second = computed_once((shape, rate, second))
+    along, along_rate, along_second = _unpitched(shape, rate, second)
+    normal, normal_rate = (None, -shape.flap_sine, shape.flap_cosine), (None, -rate.flap_sine, rate.flap_cosine)
+    places = shape.quarter_chord, rate.quarter_chord, second.quarter_chord
+    turns = (
+        (None, None, _products((normal[2], along[0])), _products((1.0, rate.pitch), *_pairs(normal, along_rate))),
+        (
+            None,
+            None,
+            _products((normal_rate[2], along[0]), (normal[2], along_rate[0])),
+            _products((1.0, second.pitch), *_pairs(normal_rate, along_rate), *_pairs(normal, along_second)),
+        ),
+    )
+    speeds, rates = [], []
+    for of_chord, of_chord_rate, of_normal, of_normal_rate, turn, turn_rate in zip(
+        *_speeds(along, along_rate, places), *_speeds(normal, normal_rate, places), *turns, strict=True
+    ):
+        mid = mid_speed(shape, of_chord, of_normal, turn, chord)
+        across = (
+            _products((1.0, of_chord_rate), (rate.pitch, of_normal)),
+            _products((1.0, of_normal_rate), (-rate.pitch, of_chord)),
+        )
+        speeds.append(StripSpeeds(of_chord, of_normal, mid, turn))
+        rates.append(StripRates(mid_speed(shape, *across, turn_rate, chord), turn_rate))
+    return computed_once(StripMotion(tuple(speeds), tuple(rates)))
+
+
+def mid_speed(
+    shape: WingShape,
+    of_chord: PerStrip | None,
+    of_normal: PerStrip | None,
+    turn: PerStrip | None,
+    chord: PerStripBroadcast,
+) -> PerStrip:
+    """Return the speed of the mid-chord along the normal of the chord.
+
+    Parameters
+    ----------
+    shape : gives the pitch.
+    of_chord, of_normal, turn : as in `StripSpeeds`.
+    chord : of the strips [m].
+    """
+    found = _products((shape.pitch_cosine, of_normal), (-shape.pitch_sine, of_chord), (-0.25 * chord, turn))
+    assert found is not None
+    return found
+
+
+def _products(*pairs: tuple[PerStripOrNone | float, PerStripOrNone]) -> Any:
+    """Return the sum of the products of pairs; None counts as 0, and so does the sum of none."""
+    products = [a * b for a, b in pairs if a is not None and b is not None]
+    return sum(products[1:], products[0]) if products else None
+
+
+def _pairs(one: TripleOrNone, other: TripleOrNone) -> Any:
+    """Return the pairs of components whose products sum to the scalar product of two vectors."""
+    return zip(one, other, strict=True)
+
+
+def _unpitched(shape: WingShape, rate: WingShape, second: WingShape) -> tuple[TripleOrNone, ...]:
+    """Return the unit vector along the chord without pitch, and its two time derivatives; None is 0."""
+    if shape.sweep_sine is None:
+        return (jnp.ones_like(shape.pitch), None, None), (None, None, None), (None, None, None)
+
+    def turned(at: WingShape, along: WingShape) -> tuple[Triple, Triple]:
+        return jax.jvp(lambda one: one.unpitched, (at,), (along,))
+
+    (chord, chord_rate), (_, chord_second) = jax.jvp(turned, (shape, rate), (rate, second))
+    found = chord, chord_rate, chord_second
+    return jax.tree_util.tree_map(lambda part: jnp.broadcast_to(part, shape.pitch.shape), found)
+
+
+def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, Triple, Triple]) -> Any:
+    """Return the speeds along an axis by (V_x, V_z, psi') and by the wing's own motion, and their derivatives.
+
+    `places` are the quarter chords with their two time derivatives.
+    """
+    (x, _, z), (x_speed, _, z_speed) = places[:2]
+    (x_axis, _, z_axis), (x_rate, _, z_rate) = axis, axis_rate
+    return (
+        (x_axis, z_axis, _products((z_axis, x), (x_axis, -z)), _products(*_pairs(axis, places[1]))),
+        (
+            x_rate,
+            z_rate,
+            _products((z_rate, x), (x_rate, -z), (z_axis, x_speed), (x_axis, -z_speed)),
+            _products(*_pairs(axis_rate, places[1]), *_pairs(axis, places[2])),
+        ),
+    )
+
+
+class UnsteadyLoad(NamedTuple):
+    """The load of unsteady air on one motion of both wings, per density of the air.
+
+    Attributes
+    ----------
+    by_acceleration : A, by the acceleration of the body in stroke axes and its pitch acceleration, shape (3, ...).
+    by_velocity : B, by xi, shape (3, ...).
+    own : C, of the wing's own motion, shape (...).
+    by_spin, own_spin : D and E, by the pitch rate times xi, and by the pitch rate, shapes (3, ...) and (...).
+    damping, damping_by_spin : by the airspeed of each strip, and by that times the pitch rate.
+    """
+
+    by_acceleration: ByBodyMotion
+    by_velocity: ByBodyMotion
+    own: Phases
+    by_spin: ByBodyMotion
+    own_spin: Phases
+    damping: PerStrip | None
+    damping_by_spin: PerStrip | None
+
+    def load(self, density: Scalar, velocity: Triple, acceleration: Triple | None, airspeed: PerStrip) -> Phases:
+        """Return the generalised force of the air on the motion.
+
+        Parameters
+        ----------
+        density : rho [kg/m3].
+        velocity : xi [m/s, m/s, rad/s].
+        acceleration : of the body in stroke axes, and its pitch acceleration [m/s2, m/s2, rad/s2]; None for none.
+        airspeed : of the strips [m/s].
+        """
+        spin = velocity[2]
+        steady = dot(_rows(self.by_velocity), velocity) + self.own
+        turning = dot(_rows(self.by_spin), velocity) + self.own_spin
+        resisted = steady + spin * turning
+        if acceleration is not None:
+            resisted = resisted + dot(_rows(self.by_acceleration), acceleration)
+        if self.damping is not None:
+            resisted = resisted + sum_over_strips(airspeed * (self.damping + spin * self.damping_by_spin))
+        return -density * resisted
+
+
+def _rows(matrix: ByBodyMotion) -> Triple:
+    return matrix[0], matrix[1], matrix[2]
+
+
+def unsteady_load(
+    motion: StripMotion, speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases
+) -> UnsteadyLoad:
+    """Return the load of unsteady air on a motion.
+
+    Parameters
+    ----------
+    motion : of the strips.
+    speeds : that the motion on which the air acts gives the strips.
+    chord, width : of the strips [m].
+    """
+    mass = added_mass(1.0, chord, width) * speeds.mid
+    inertia = None if speeds.turn is None else added_inertia(1.0, chord, width) * speeds.turn
+    spin, turning = (rotation_lift(1.0, chord, width, moved.turn) for moved in motion.speeds[2:])
+
+    def rotation(lift: PerStrip, moved: StripSpeeds) -> tuple[PerStrip, Any]:
+        minus_chord = None if moved.chord is None else -moved.chord
+        return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
+
+    rows = (
+        *(_products((mass, moved.mid), (inertia, moved.turn)) for moved in motion.speeds[:3]),
+        *(
+            _products((mass, rates.mid), (inertia, rates.turn), rotation(turning, moved))
+            for moved, rates in zip(motion.speeds, motion.rates, strict=True)
+        ),
+        *(_products(rotation(spin, moved)) for moved in motion.speeds),
+    )
+    zero = jnp.zeros_like(speeds.mid)
+    sums = mass_moments(2.0, [zero if row is None else row for row in rows])
+    # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
+    by_spin = sums[7:10] + jnp.stack([-sums[1], sums[0], jnp.zeros_like(sums[0])])
+    damping = damping_by_spin = None
+    if speeds.turn is not None:
+        damping, damping_by_spin = (
+            -2.0 * damping_couple(1.0, chord, width, moved.turn, jnp.ones_like(speeds.turn)) * speeds.turn
+            for moved in (motion.speeds[3], motion.speeds[2])
+        )
+    return UnsteadyLoad(sums[:3], sums[3:6], sums[6], by_spin, sums[10], damping, damping_by_spin)

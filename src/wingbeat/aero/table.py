@@ -177,7 +177,8 @@ def _stated_aspect_ratio(faults: FaultList, path: Path) -> float | None:
             where = f"{path.name} row {i}, aspect_ratio"
             text = found[1].strip()
             stated = math.inf if text == "inf" else numbers(faults, [text], lambda _, where=where: where)[0]
-            check_aspect_ratio(faults, where, stated)
+            if not math.isnan(stated):
+                check_aspect_ratio(faults, where, stated)
     return stated
 
 

@@ -23,12 +23,16 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
         ]
     return {
         "mean power, by the use of negative work": [("braked", _watts(account["braking"])), *costs],
-        "parts of the hinge power: mean, minimum, maximum": [
-            (name, ", ".join(_watts(share[key]) for key in ("mean", "least", "most")))
-            for name, share in account["shares"].items()
-        ],
+        "parts of the hinge power: mean, minimum, maximum": _spreads(account["shares"]),
+        "what the power of all actuators is spent on: mean, minimum, maximum": _spreads(account["spent"]),
         "springs at the flap hinges": springs,
     }
+
+
+def _spreads(parts: dict[str, dict[str, float]]) -> list[tuple[str, str]]:
+    return [
+        (name, ", ".join(_watts(part[key]) for key in ("mean", "least", "most"))) for name, part in parts.items()
+    ]
 
 
 def _fate(returned: float) -> str:

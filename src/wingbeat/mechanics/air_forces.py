@@ -13,7 +13,7 @@ from wingbeat.aero.unsteady import added_inertia, added_mass
 from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
-from wingbeat.mechanics.frames import from_world, to_world
+from wingbeat.mechanics.frames import dot, from_world, to_world
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_points import PointMotion
 
@@ -30,6 +30,24 @@ if TYPE_CHECKING:
     )
 
 
+class AirPower(NamedTuple):
+    """What a flight spends on the air [W], shape (...).
+
+    Attributes
+    ----------
+    profile : on the lift and drag of the strips in the air at the wings; holds the induced part of a polar that was
+        measured on a finite wing.
+    induced : on the stream of air that holds the weight, ``-F . v``; 0 without inflow.
+    parasite : on the drag of the body.
+    unsteady : on rotation, added mass and couples; that on added mass is stored in the air and returned.
+    """
+
+    profile: Phases
+    induced: Phases
+    parasite: Phases
+    unsteady: Phases
+
+
 class AirForces(NamedTuple):
     """Air loads of both wings and the body on the five coordinates.
 
@@ -37,6 +55,7 @@ class AirForces(NamedTuple):
     ----------
     generalised : generalised forces f_aero, shape (..., 5) [N, N m].
     power : of the air loads on all that moves through the air [W], shape (...).
+    spent : on what, with the opposite sign.
     strips : loads on the strips of the left wing, shape (..., N).
     strip_force : force on each strip in the world [N], shape (..., N, 3).
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
@@ -45,6 +64,7 @@ class AirForces(NamedTuple):
 
     generalised: Coordinates
     power: Phases
+    spent: AirPower
     strips: StripForces
     strip_force: StripVectors
     strip_velocity: StripVectors
@@ -151,41 +171,76 @@ def air_forces_on(
         lever = lever + ahead[..., None] * motion.partial.chordwise
         drift = drift + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
+    steady_power = wings @ q_dot + 2.0 * jnp.sum(force * drift)
+    travel = from_world(q[2], q_dot[0], q_dot[1])
+    drag = body_drag(model.vehicle.body.drag_area, model.air.density, travel)
+    drag_power = dot(drag, travel)
     generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
-    drift_power = 2.0 * jnp.sum(force * drift)
-    air_mass = jnp.zeros((5, 5))
+    zero = jnp.zeros_like(steady_power)
+    unsteady = _Unsteady(jnp.zeros(5), zero, jnp.zeros_like(force), jnp.zeros((5, 5)))
     if is_unsteady(model):
         resistance = _air_resistance(model, strips.chord, width, motion, 0.0 if wind is None else wind)
         along = chord_speed, normal_speed
         turned = with_turning(forces, unsteady_density(model), strips.chord, width, resistance.turning, *along)
-        rotation = (turned.chordwise - forces.chordwise)[:, None] * points.chordwise + (
-            turned.normal - forces.normal
-        )[:, None] * points.normal
-        normal, couple = resistance.forces(jnp.zeros(5) if q_acceleration is None else q_acceleration)
-        couple = couple + turned.couple
-        generalised = generalised + 2.0 * (
-            jnp.einsum("na,nai->i", rotation, motion.partial.quarter_chord)
-            + normal @ resistance.lever
-            + couple @ resistance.turn
-        )
-        quarter = 0.25 * strips.chord[:, None]
-        drifting = motion.drift.quarter_chord - quarter * motion.drift.chordwise
-        drift_power = drift_power + 2.0 * (
-            jnp.sum(rotation * motion.drift.quarter_chord)
-            + normal @ jnp.sum(points.normal * drifting, axis=-1)
-            + couple @ jnp.sum(points.normal * motion.drift.chordwise, axis=-1)
-        )
-        force = force + rotation + normal[:, None] * points.normal
-        air_mass = resistance.added_mass
-    return AirForces(
-        generalised,
-        generalised @ q_dot + drift_power,
-        forces,
-        force,
-        velocity,
-        air_mass,
+        rotation = turned.chordwise - forces.chordwise, turned.normal - forces.normal, turned.couple
+        unsteady = _unsteady(motion, strips.chord, q_dot, resistance, rotation, q_acceleration)
+    against_steady, against_unsteady = (
+        zero if wind is None else -2.0 * jnp.sum(one * wind) for one in (force, unsteady.force)
     )
+    return AirForces(
+        generalised + unsteady.generalised,
+        steady_power + drag_power + unsteady.power,
+        AirPower(
+            profile=-steady_power - against_steady,
+            induced=against_steady + against_unsteady,
+            parasite=-drag_power,
+            unsteady=-unsteady.power - against_unsteady,
+        ),
+        forces,
+        force + unsteady.force,
+        velocity,
+        unsteady.added_mass,
+    )
+
+
+class _Unsteady(NamedTuple):
+    """The unsteady share of `AirForces`: of generalised forces, power, strip forces, and the added mass."""
+
+    generalised: Coordinates
+    power: Phases
+    force: StripVectors
+    added_mass: CoordinateMatrix
+
+
+def _unsteady(
+    motion: PointMotion,
+    chord: PerStrip,
+    q_dot: Coordinates,
+    resistance: _AirResistance,
+    rotation: tuple[PerStrip, PerStrip, PerStrip],
+    q_acceleration: Coordinates | None,
+) -> _Unsteady:
+    """Return the loads of unsteady air.
+
+    `rotation` is that of turning strips: force along the chord, along the normal, and couple.
+    """
+    points = motion.position
+    turning = rotation[0][:, None] * points.chordwise + rotation[1][:, None] * points.normal
+    normal, couple = resistance.forces(jnp.zeros(5) if q_acceleration is None else q_acceleration)
+    couple = couple + rotation[2]
+    generalised = 2.0 * (
+        jnp.einsum("na,nai->i", turning, motion.partial.quarter_chord)
+        + normal @ resistance.lever
+        + couple @ resistance.turn
+    )
+    drifting = motion.drift.quarter_chord - 0.25 * chord[:, None] * motion.drift.chordwise
+    drift_power = 2.0 * (
+        jnp.sum(turning * motion.drift.quarter_chord)
+        + normal @ jnp.sum(points.normal * drifting, axis=-1)
+        + couple @ jnp.sum(points.normal * motion.drift.chordwise, axis=-1)
+    )
+    force = turning + normal[:, None] * points.normal
+    return _Unsteady(generalised, generalised @ q_dot + drift_power, force, resistance.added_mass)
 
 
 def _wind(model: FlightModel) -> Any:

@@ -50,6 +50,7 @@ class Loads(NamedTuple):
     hinge_power, actuator_power : of the hinges, and of all actuators [W].
     aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], see `HingeLoads`.
     air_power : of the air loads on all that moves through the air [W].
+    profile_power, induced_power, parasite_power, unsteady_power : what that power is spent on [W], see `AirPower`.
     centre_of_mass : x and z [m], shape (..., 2).
     momentum : x and z [kg m/s], shape (..., 2).
     angular_momentum : about the centre of mass, nose-up positive [kg m2/s].
@@ -81,6 +82,10 @@ class Loads(NamedTuple):
     inertial_power: Phases
     body_power: Phases
     air_power: Phases
+    profile_power: Phases
+    induced_power: Phases
+    parasite_power: Phases
+    unsteady_power: Phases
     centre_of_mass: PhasesPair
     momentum: PhasesPair
     angular_momentum: Phases
@@ -158,6 +163,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) 
         air_force=air.generalised,
         **hinges._asdict(),
         air_power=air.power,
+        **{f"{name}_power": watts for name, watts in air.spent._asdict().items()},
         **whole,
     )
 

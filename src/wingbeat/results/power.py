@@ -16,11 +16,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 SHARES = {"aerodynamic": "aerodynamic_power", "inertial": "inertial_power", "body": "body_power"}
+SPENT = {name: f"{name}_power" for name in ("profile", "induced", "parasite", "unsteady")}
 _RETURNED = (-1.0, 0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 def power_account(dataset: xr.Dataset) -> dict[str, Any]:
-    """Account for the hinge power of an orbit, both wings [W].
+    """Account for the power of an orbit, both wings [W].
 
     Parameters
     ----------
@@ -31,8 +32,10 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     A dictionary for JSON: ``mean_power``, ``mean_positive_power``; ``braking``, the mean negative work;
     ``cost_by_returned``, pairs of the share of negative work that is returned (-1: it costs as much as positive
     work) and the cost; ``shares``, aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum
-    (``most``); ``best_spring`` of both flap hinges together with ``stiffness`` [N m/rad], ``rest_angle`` [rad],
-    None if no spring helps, and the remaining ``mean_positive_power``. All values are None if the flight diverged.
+    (``most``); ``spent``, what the power of all actuators is spent on, likewise: profile, induced, parasite and
+    unsteady air loads, and inertial, the rate of kinetic and potential energy; ``best_spring`` of both flap hinges
+    together with ``stiffness`` [N m/rad], ``rest_angle`` [rad], None if no spring helps, and the remaining
+    ``mean_positive_power``. All values are None if the flight diverged.
 
     Raises
     ------
@@ -55,9 +58,21 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
         "braking": positive - mean,
         "cost_by_returned": [[share, positive - share * (positive - mean)] for share in _RETURNED],
         "shares": {name: _spread(dataset[variable].values) for name, variable in SHARES.items()},
+        "spent": {name: _spread(values) for name, values in spent_power(dataset).items()},
         "best_spring": {"mean_positive_power": None, **spring},
     }
     return finite_or_none(account)
+
+
+def spent_power(dataset: xr.Dataset) -> dict[str, np.ndarray]:
+    """Return what the power of the actuators is spent on over the beat [W]; the sum is that power.
+
+    Parameters
+    ----------
+    dataset : `Orbit.dataset`, also one read from a file.
+    """
+    against_air = {name: dataset[variable].values for name, variable in SPENT.items()}
+    return {**against_air, "inertial": (dataset["actuator_power"] + dataset["air_power"]).values}
 
 
 def _spread(values: np.ndarray) -> dict[str, float]:
@@ -65,12 +80,12 @@ def _spread(values: np.ndarray) -> dict[str, float]:
 
 
 def check_orbit(dataset: xr.Dataset) -> None:
-    """Raise `InvalidInputError` unless the dataset is that of an orbit with its shares of power."""
+    """Raise `InvalidInputError` unless the dataset is that of an orbit with the parts of its power."""
     faults = FaultList()
     if dataset.attrs.get(KIND) != "orbit":
         faults.add(
             "dataset", dataset.attrs.get(KIND), "is not an orbit: only a closed wingbeat has a power account"
         )
-    elif missing := [name for name in SHARES.values() if name not in dataset]:
+    elif missing := [name for name in (*SHARES.values(), *SPENT.values()) if name not in dataset]:
         faults.add("dataset", missing, "is missing from it", "solve the orbit again")
     faults.raise_if_any()

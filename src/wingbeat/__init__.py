@@ -73,6 +73,8 @@ if TYPE_CHECKING:
     from wingbeat.results.solving import solve_orbits as solve_orbits
     from wingbeat.results.spread import Spread as Spread
     from wingbeat.results.spread import orbit_spread as orbit_spread
+    from wingbeat.results.terms import TermTrace as TermTrace
+    from wingbeat.results.terms import trace_terms as trace_terms
     from wingbeat.species import Species as Species
     from wingbeat.species import bat as bat
     from wingbeat.species import bird as bird
@@ -122,6 +124,7 @@ _HOME = {
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
     "Study": "studies.study",
+    "TermTrace": "results.terms",
     "TorqueDrivenFlight": "results.flight",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
@@ -153,6 +156,7 @@ _HOME = {
     "solve_orbit": "results.solving",
     "solve_orbits": "results.solving",
     "species_names": "species",
+    "trace_terms": "results.terms",
     "uncertainty_by_samples": "results.sensitivities",
 }
 _MODULES = {

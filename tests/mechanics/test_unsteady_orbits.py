@@ -105,3 +105,29 @@ def test_the_mean_force_of_the_wings_is_what_made_the_inflow(orbit):
 
 def drag_free(body):
     return dataclasses.replace(body, drag_area=0.0)
+
+
+# --- Sensitivities, files
+
+
+@pytest.mark.parametrize("path", ["aero.induced_factor", "air.density", "wing.semi_span"])
+def test_sensitivities_with_all_terms_are_those_of_orbits_solved_again(orbit, path):
+    found = wb.sensitivities(orbit, quantities=("frequency",))
+    slope = next(one for one in found.slopes if one.parameter.path == path)
+    parameter = slope.parameter
+    step = 2e-3 * parameter.size
+    again = [
+        wb.solve_orbit(parameter.changed(orbit.problem, parameter.value + side * step), starts=1).record()
+        for side in (-1.0, 1.0)
+    ]
+    assert [one["status"] for one in again] == ["converged", "converged"]
+    difference = (again[1]["objective_value"] - again[0]["objective_value"]) / (2.0 * step)
+    assert slope.quantities["frequency"] == pytest.approx(difference, rel=2e-2)
+
+
+def test_an_orbit_with_all_terms_comes_back_from_its_file(orbit, tmp_path):
+    orbit.save(tmp_path / "orbit.nc")
+    again = wb.load_orbit(tmp_path / "orbit.nc")
+    assert again.record() == orbit.record()
+    assert again.record()["aero"]["inflow"] == "momentum"
+    assert again.problem.model.induced_flow == orbit.problem.model.induced_flow

@@ -31,7 +31,7 @@ def unmarked_jumps(branches, marks):
 
     A continuation in n steps changes no unknown by more than n times `max_step`, in the optimiser's scale.
     """
-    marked = {(m.lower_speed, m.upper_speed) for m in marks if m.kind in ("gap", "branch")}
+    marked = {(m.lower, m.upper) for m in marks if m.kind in ("gap", "branch")}
     steps = {link.interval: link.steps for link in branches.links if (link.lower, link.upper) == (0, 0)}
     jumps = []
     for interval, (below, above) in enumerate(itertools.pairwise(optima[0] for optima in branches.optima)):
@@ -80,7 +80,7 @@ def test_every_optimum_of_a_curve_is_certified_and_none_beats_the_first(bat):
 
 def test_the_change_of_family_is_marked_and_nothing_jumps_beside_the_marks(bat):
     marks = marks_of(bat)
-    assert [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"] == [(6.0, 7.0)]
+    assert [(m.lower, m.upper) for m in marks if m.kind == "branch"] == [(6.0, 7.0)]
     assert "another family becomes better near 6." in next(m.what for m in marks if m.kind == "branch")
     assert [m.what for m in marks if m.kind == "bounds"] == ["flap_mean met"]
     assert unmarked_jumps(bat, marks) == []
@@ -97,7 +97,7 @@ def test_a_jump_put_into_a_smooth_curve_is_found_or_marked(bat):
     assert (5.0, 6.0) in unmarked_jumps(planted, marks_of(planted))
     untold = [j for j in bat.links if (j.interval, j.lower, j.upper) != (0, 0, 0)]
     marks = marks_of(Branches(bat.optima, tuple(untold)))
-    assert (5.0, 6.0) in [(m.lower_speed, m.upper_speed) for m in marks if m.kind == "branch"]
+    assert (5.0, 6.0) in [(m.lower, m.upper) for m in marks if m.kind == "branch"]
 
 
 def test_a_gap_is_marked(bat):

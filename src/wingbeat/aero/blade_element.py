@@ -49,12 +49,14 @@ class BladeElement:
     inflow : "momentum" adds the induced flow that holds the weight (`wingbeat.aero.inflow`) to sectional
         coefficients, made from those of a finite wing where they are not sectional; "none" leaves it out.
     induced_factor : induced power over that of an ideal disc; 1.2 after Pennycuick 2008.
+    share : share of the unsteady terms and of the induced factor that acts, 0 to 1. No air has a share below 1, but
+        orbits along it show what the terms do (`trace_terms`).
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
-        negative induced factor, a centre of pressure with a model that has none, or inflow with a model without an
-        aspect ratio; what `coefficients_of` refuses.
+        negative induced factor, a share outside 0 to 1 or of no term, a centre of pressure with a model that has
+        none, or inflow with a model without an aspect ratio; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -69,6 +71,7 @@ class BladeElement:
     unsteady: str = "none"
     inflow: str = "none"
     induced_factor: float = 1.2
+    share: float = 1.0
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -82,6 +85,9 @@ class BladeElement:
         faults.choice("aero.unsteady", self.unsteady, UNSTEADY)
         faults.choice("aero.inflow", self.inflow, INFLOWS)
         faults.number("aero.induced_factor", self.induced_factor, at_least=0, fix="1 is an ideal disc")
+        faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 is all of each term")
+        if self.share != 1 and self.unsteady == self.inflow == "none":
+            faults.add("aero.share", self.share, "is a share of no term", "set unsteady or inflow, or leave it out")
         faults.raise_if_any()
         if self.inflow != "none":
             sectional_kernel(self.coefficients)  # refuses a model that it cannot make sectional

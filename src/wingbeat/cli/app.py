@@ -30,6 +30,7 @@ COMMANDS = {
     "uncertainty": "Compute the uncertainty of an orbit's frequency and power.",
     "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
+    "terms": "Follow the best wingbeat from none of a term of the air loads to all of it.",
     "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",

@@ -113,8 +113,8 @@ class FlightModel:
             "strips": loads.strips,
             "at_centre_of_pressure": loads.force_point == "centre-of-pressure",
             "full_airspeed": loads.airspeed == "full",
-            "unsteady": 0.0 if loads.unsteady == "none" else 1.0,
-            "induced_factor": None if loads.inflow == "none" else loads.induced_factor,
+            "unsteady": 0.0 if loads.unsteady == "none" else loads.share,
+            "induced_factor": None if loads.inflow == "none" else loads.share * loads.induced_factor,
             "induced_flow": _checked_flow(vehicle, loads, air, velocity),
         }
         for name, value in fields.items():
@@ -134,9 +134,10 @@ def _checked_flow(
         faults.raise_if_any()
         return None
     area, weight = disc_area(vehicle.wing.semi_span), vehicle.mass * air.gravity
-    check_descent(faults, air.density, area, aero.induced_factor, weight, velocity)
+    factor = aero.share * aero.induced_factor
+    check_descent(faults, air.density, area, factor, weight, velocity)
     faults.raise_if_any()
-    flow = flow_at(vehicle, air, aero.induced_factor, velocity)
+    flow = flow_at(vehicle, air, factor, velocity)
     return float(flow[0]), float(flow[1])
 
 

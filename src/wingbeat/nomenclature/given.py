@@ -118,6 +118,7 @@ AERO = (
     Term("airspeed", "", "airspeed that determines the loads of a strip"),
     Term("unsteady", "", "unsteady terms of the air loads"),
     Term("inflow", "", "model of the induced flow"),
+    Term("share", "1", "share of the unsteady terms and of the induced factor that acts"),
     Term("induced_factor", "1", "induced power of the inflow over that of an ideal disc", "k"),
     Term("function", "", "digest of a coefficient function"),
     Term("constant", "1", "constant of a coefficient formula"),

@@ -10,6 +10,7 @@ from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
 from wingbeat.plots.study_page import study_page as study_page
+from wingbeat.plots.terms_page import terms_page as terms_page
 from wingbeat.plots.tornado_page import tornado_page as tornado_page
 from wingbeat.plots.wingbeat_page import wingbeat_page as wingbeat_page
 
@@ -24,6 +25,7 @@ __all__ = [
     "power_page",
     "save_figure",
     "study_page",
+    "terms_page",
     "tornado_page",
     "wingbeat_page",
 ]

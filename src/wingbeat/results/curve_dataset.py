@@ -152,6 +152,10 @@ def power_name(objective: str) -> str:
     return "objective_value" if is_mean else "mean_positive_power"
 
 
+def _by_speed(mark: Mark) -> dict[str, Any]:
+    return {"kind": mark.kind, "lower_speed": mark.lower, "upper_speed": mark.upper, "what": mark.what}
+
+
 def _attributes(
     problem: OrbitProblem, records: Sequence[Any], marks: Sequence[Mark], inputs: dict[str, Any], seconds: float
 ) -> dict[str, Any]:
@@ -165,7 +169,7 @@ def _attributes(
         "climb": float(problem.climb),
         "objective": problem.minimise.name,
         "constraints": json.dumps([str(c) for c in problem.subject_to]),
-        "marks": json.dumps([mark._asdict() for mark in marks]),
+        "marks": json.dumps([_by_speed(mark) for mark in marks]),
         "warnings": json.dumps(_common_warnings(records)),
         "solve_seconds": seconds,
         "version": __version__,

@@ -158,7 +158,7 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
     """
-    terms = {name: aero[name] for name in ("unsteady", "inflow", "induced_factor") if name in aero}
+    terms = {name: aero[name] for name in ("unsteady", "inflow", "induced_factor", "share") if name in aero}
     return BladeElement(_coefficients(aero), aero["strips"], aero["force_point"], aero["airspeed"], **terms)
 
 

@@ -52,9 +52,9 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
 def further_terms(aero: BladeElement) -> dict[str, Any]:
     """Return the terms that the air loads have beyond those of Su et al., by name; none of those that are off."""
     terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
-    return (
-        terms if aero.inflow == "none" else terms | {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
-    )
+    if aero.inflow != "none":
+        terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
+    return terms | {"share": aero.share} if terms and aero.share != 1 else terms
 
 
 def orbit_record(solution: Solution) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Branches of orbits along speed: each optimum is continued both ways. A jump to another optimum ends a branch."""
+"""Branches of orbits along a number: each optimum is continued both ways. A jump to another one ends a branch."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from wingbeat.orbits.many.along import SPEED, Along
 from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, refine
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
@@ -25,7 +26,7 @@ R = TypeVar("R")
 
 
 class BranchLink(NamedTuple):
-    """Optimum `lower` of one speed and `upper` of the next are one branch, `steps` steps apart."""
+    """Optimum `lower` of one problem and `upper` of the next are one branch, `steps` steps apart."""
 
     interval: int
     lower: int
@@ -41,10 +42,11 @@ class Landing(NamedTuple):
 
 
 class Branches(NamedTuple):
-    """The optima of each speed, best first, and their links; a speed without an orbit has its failed solution."""
+    """The optima of each problem, best first, and their links; one without an orbit has its failed solution."""
 
     optima: tuple[tuple[Solution, ...], ...]
     links: tuple[BranchLink, ...]
+    along: Along = SPEED
 
 
 def trace(
@@ -69,9 +71,29 @@ def trace(
     options : of the solvers.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
+    return trace_along(SPEED, problems, starts, seed, progress, threads, options)
+
+
+def trace_along(
+    along: Along,
+    problems: list[OrbitProblem],
+    starts: int,
+    seed: int,
+    progress: Progress | None = None,
+    threads: int | None = None,
+    options: SolverOptions = DEFAULTS,
+) -> Branches:
+    """Solve problems that differ in one number and continue each optimum to its neighbours until nothing is new.
+
+    Parameters
+    ----------
+    along : the number in which they differ.
+    problems : in the order of that number.
+    starts, seed, progress, threads, options : as in `trace`, with its speeds the numbers.
+    """
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
-            return _BranchTracer(problems, pool, progress, options).branches(starts, seed)
+            return _BranchTracer(along, problems, pool, progress, options).branches(starts, seed)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -81,12 +103,14 @@ class _BranchTracer:
 
     def __init__(
         self,
+        along: Along,
         problems: list[OrbitProblem],
         pool: ThreadPoolExecutor,
         progress: Progress | None,
         options: SolverOptions,
     ) -> None:
-        self._problems, self._pool, self._progress, self._options = problems, pool, progress, options
+        self._along, self._problems = along, problems
+        self._pool, self._progress, self._options = pool, progress, options
         self._met: list[list[Solution]] = [[] for _ in problems]
         self._links: dict[tuple[int, int, int], int] = {}
         self._tried: set[tuple[int, int, int]] = set()
@@ -159,7 +183,7 @@ class _BranchTracer:
         return bool(tasks)
 
     def _continued(self, place: int, index: int, way: int) -> Landing:
-        return carry(self._met[place][index], self._problems[place + way])
+        return carry(self._met[place][index], self._problems[place + way], self._along)
 
     def _due(self, way: int) -> list[tuple[int, int, int]]:
         """Return the tasks of the optima that have no link to the next speed in one direction yet."""
@@ -199,33 +223,35 @@ class _BranchTracer:
             BranchLink(place, ranks[place][low], ranks[place + 1][high], steps)
             for (place, low, high), steps in self._links.items()
         ]
-        return Branches(tuple(optima), tuple(sorted(links)))
+        return Branches(tuple(optima), tuple(sorted(links)), self._along)
 
 
-def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
-    """Continue an optimum to another speed, in steps so short that each lands within `max_step` of the one before.
+def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:
+    """Continue an optimum to another problem, in steps so short that each lands within `max_step` of the last.
 
     Parameters
     ----------
     optimum : a certified orbit.
-    problem : the same problem at another speed.
+    problem : the same problem with another value of one number, such as the speed.
+    along : that number.
 
     Returns
     -------
-    The certified orbit at that speed and the number of steps. If the branch ends on the way: 0 steps, and the orbit
-    to which a local search from the branch's end leads, if any.
+    The certified orbit of that problem and the number of steps. If the branch ends on the way: 0 steps, and the
+    orbit to which a local search from the branch's end leads, if any.
     """
     options = optimum.options.continuation
-    speed, last = optimum.problem.speed, problem.speed
+    first_step, least_step = along.steps(options)
+    value, last = along.of(optimum.problem), along.of(problem)
     here, rate = optimum.place, np.zeros(optimum.place.size)
-    step = math.copysign(min(options.first_speed_step, abs(last - speed)), last - speed)
+    step = math.copysign(min(first_step, abs(last - value)), last - value)
     hessian: ReducedHessian | None = None
     steps = 0
-    while abs(step) >= options.least_speed_step:
+    while abs(step) >= least_step:
         # A remainder too short to be a step of its own is added to this one.
-        ends = abs(last - speed - step) < options.least_speed_step
-        step = last - speed if ends else step
-        there = problem if ends else dataclasses.replace(problem, speed=speed + step)
+        ends = abs(last - value - step) < least_step
+        step = last - value if ends else step
+        there = problem if ends else along.moved(problem, value + step)
         programme = Transcription(there, optimum.options)
         candidate, hessian = _next_to(programme, unknowns_at(here + rate * step, there), hessian)
         found = here if candidate is None else place_of(candidate)
@@ -235,9 +261,9 @@ def carry(optimum: Solution, problem: OrbitProblem) -> Landing:
         steps += 1
         if ends:
             return Landing(certified_optimum(candidate, 0.0), steps)
-        rate, here, speed = (found - here) / step, found, speed + step
+        rate, here, value = (found - here) / step, found, value + step
         fitting = options.aimed_step * options.max_step / max(np.abs(rate).max(), 1e-9)
-        step = math.copysign(min(fitting, options.step_growth * abs(step), abs(last - speed)), step)
+        step = math.copysign(min(fitting, options.step_growth * abs(step), abs(last - value)), step)
     candidate = refine(Transcription(problem, optimum.options), unknowns_at(here, problem))
     return Landing(certified_optimum(candidate, 0.0) if candidate.is_optimum else None, 0)
 

@@ -1,4 +1,4 @@
-"""Marks on a curve of best orbits: where it changes branch, where the active bounds change, and gaps."""
+"""Marks along best orbits: where they change branch, where the active bounds change, and gaps."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
 
 
 class Mark(NamedTuple):
-    """A change of the best orbit between two neighbouring speeds [m/s]; `what` describes it."""
+    """A change of the best orbit between two neighbouring problems; `what` describes it."""
 
     kind: str
-    lower_speed: float
-    upper_speed: float
+    lower: float
+    upper: float
     what: str
 
 
 def marks_of(branches: Branches) -> list[Mark]:
-    """Return the changes of the best orbit from speed to speed.
+    """Return the changes of the best orbit from problem to problem.
 
     ``gap``: one side has no certified orbit. ``branch``: no continuation leads from the best orbit of one side to
     that of the other, so that unknowns jump. ``bounds``: other bounds are active.
     """
     marks = []
     for interval, (below, above) in enumerate(_neighbours(branches)):
-        ends = below.problem.speed, above.problem.speed
+        ends = branches.along.of(below.problem), branches.along.of(above.problem)
         if not certified(below) or not certified(above):
-            marks.append(Mark(GAP, *ends, "no certified orbit at one of these speeds"))
+            marks.append(Mark(GAP, *ends, f"no certified orbit at one of these {branches.along.name}s"))
             continue
         if _link_of_best(branches, interval) is None:
             marks.append(Mark(BRANCH, *ends, _how_it_changes(branches, interval)))
@@ -44,9 +44,9 @@ def marks_of(branches: Branches) -> list[Mark]:
 
 
 def families(branches: Branches) -> list[list[int]]:
-    """Return the family number of each optimum of each speed; families are in the order of their best rank.
+    """Return the family number of each optimum of each problem; families are in the order of their best rank.
 
-    A family has one optimum at a speed. Where two families lead to one optimum, the family with fewer steps
+    A family has one optimum of a problem. Where two families lead to one optimum, the family with fewer steps
     continues.
     """
     labels = [[-1] * len(optima) for optima in branches.optima]
@@ -89,9 +89,9 @@ def _how_it_changes(branches: Branches, interval: int) -> str:
     if 0 in ways and 0 in back:
         before = below[back[0]].objective - below[0].objective
         after = above[ways[0]].objective - above[0].objective
-        low, high = below[0].problem.speed, above[0].problem.speed
+        low, high = (branches.along.of(one[0].problem) for one in (below, above))
         share = before / (before + after) if before + after > 0 else 0.5
-        return f"another family becomes better near {low + share * (high - low):.2f} m/s"
+        return f"another family becomes better near {low + share * (high - low):.2f} {branches.along.unit}".rstrip()
     if 0 in ways:
         return "a better family begins"
     if 0 in back:

@@ -9,7 +9,7 @@ from wingbeat.orbits.options.checks import check_options
 
 @dataclass(frozen=True)
 class ContinuationOptions:
-    """Options of the continuation of orbits along speed and from problem to problem.
+    """Options of the continuation of orbits along speed, along the share of a term, and from problem to problem.
 
     Parameters
     ----------
@@ -18,8 +18,9 @@ class ContinuationOptions:
         one branch only if orbits between them lead from one to the other.
     first_speed_step, least_speed_step : steps of speed [m/s]. A branch ends if the smallest step cannot continue
         it.
+    first_share_step, least_share_step : the same along the share of a term of the air loads.
     step_growth : the next step is at most this multiple of the last.
-    aimed_step : the next step of speed is chosen so that the orbit moves by this share of `max_step`.
+    aimed_step : the next step is chosen so that the orbit moves by this share of `max_step`.
     step_iterations : iterations of the solver if Newton's method fails, for example where a bound becomes active.
     fewer_starts : at speeds between the first and the last, the number of starts is divided by this, because
         continuation finds most optima there.
@@ -38,6 +39,8 @@ class ContinuationOptions:
     max_step: float = 0.15
     first_speed_step: float = 0.25
     least_speed_step: float = 0.02
+    first_share_step: float = 0.1
+    least_share_step: float = 0.005
     step_growth: float = 4.0
     aimed_step: float = 0.8
     step_iterations: int = 20

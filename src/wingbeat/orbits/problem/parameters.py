@@ -155,6 +155,8 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
                 yield _made(f"aero.{curve}.{name}", value, (*place, field, name))
     if getattr(coefficients, "blend_width_deg", None) is not None:  # a function has no blends
         yield _made("aero.blend_width_deg", coefficients.blend_width_deg, (*place, "blend_width_deg"))
+    if problem.aero.inflow != "none":
+        yield _made("aero.induced_factor", problem.aero.induced_factor, ("aero", "induced_factor"))
 
 
 def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:

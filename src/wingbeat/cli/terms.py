@@ -1,0 +1,117 @@
+"""``wingbeat terms``: what terms of the air loads do to the best wingbeat."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import (
+    DEFAULT_AIR_LOADS,
+    SPECIES,
+    AirLoadOptions,
+    Climb,
+    Settings,
+    Whole,
+    WithinPlausible,
+    check_files,
+    check_outputs,
+    species_with,
+)
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.ranges import parse_range
+from wingbeat.cli.streams import plain_console
+from wingbeat.errors import FaultList
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.plots import save_figure, terms_page
+from wingbeat.results.terms import found_any, trace_terms
+
+
+def terms(
+    species: Annotated[str, SPECIES],
+    *,
+    speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
+    climb: Climb = 0.0,
+    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    shares: Annotated[str, Parameter(help="Shares of the terms, 0 for none and 1 for all, start:stop:step.")] = (
+        "0:1:0.25"
+    ),
+    within_plausible: WithinPlausible = False,
+    minimise: Annotated[str, Parameter(help="Quantity to minimise: frequency, positive-power, ...")] = "frequency",
+    subject_to: Annotated[
+        list[str] | None,
+        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
+    ] = None,
+    starts: Annotated[Whole, Parameter(help="Starts at both ends; a third as many at each share in between.")] = 6,
+    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    set_: Settings = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find the best wingbeats from none of a term of the air loads to all of it, and where their family changes.
+
+    Name the terms with --unsteady and --inflow; if both are named, they grow together.
+    Exit code 3: no share has a certified orbit.
+
+    Examples: wingbeat terms pigeon --speed 8 --unsteady thin-aerofoil;
+    wingbeat terms bat --speed 6 --inflow momentum --plot inflow.png
+    """
+    faults = FaultList()
+    check_files(faults, None, plot=plot)
+    faults.raise_if_any()
+    row = [float(share) for share in parse_range(shares, "--shares")]
+    problem = OrbitProblem(
+        species_with(species, set_),
+        speed=speed,
+        climb=climb,
+        aero=air.loads(),
+        bounds="plausible" if within_plausible else {},
+        minimise=minimise,
+        subject_to=subject_to or (),
+    )
+    check_outputs(None, plot)
+    with progress_bar(f"{problem.species.name} along the share of the terms") as progress:
+        found = trace_terms(problem, row, starts, seed, progress)
+    record = found.record()
+    if plot:
+        save_figure(terms_page(record), plot)
+    if json:
+        print(json_format.dumps(record, indent=2, allow_nan=False))
+    else:
+        _print(record)
+    return EXIT_GOOD if found_any(found) else EXIT_NOT_CERTIFIED
+
+
+_HEADS = ("share", "family", "frequency\n[Hz]", "amplitude\n[deg]", "power\n[W]")
+_SPENT = ("profile", "induced", "parasite", "unsteady")
+
+
+def _print(record: dict[str, Any]) -> None:
+    from rich.table import Table
+
+    console = plain_console()
+    table = Table(box=None, pad_edge=False)
+    for head in (*_HEADS, *(f"{name}\n[W]" for name in _SPENT)):
+        table.add_column(head, justify="right", no_wrap=True)
+    for point in record["points"]:
+        table.add_row(*_cells(point))
+    console.print(table)
+    console.print("power: mean of all actuators; what it is spent on stands beside it")
+    for mark in record["marks"]:
+        console.print(f"share {mark['lower']:g} to {mark['upper']:g}: {mark['what']}")
+    told = "one family of wingbeats leads" if record["same_family"] else "no single family of wingbeats leads"
+    console.print(f"{told} from share {record['points'][0]['share']:g} to {record['points'][-1]['share']:g}")
+
+
+def _cells(point: dict[str, Any]) -> list[str]:
+    share = f"{point['share']:g}"
+    if point["wingbeat"] is None:
+        return [share, point["status"], *("-" for _ in range(len(_HEADS) + len(_SPENT) - 2))]
+    beat = point["wingbeat"]
+    numbers = (beat["frequency"], math.degrees(beat["flap_amplitude"]), point["mean_actuator_power"])
+    spent = (point["spent"][name] for name in _SPENT)
+    return [share, str(point["family"] + 1), *(f"{value:.3g}" for value in (*numbers, *spent))]

@@ -1,0 +1,65 @@
+"""What terms of the air loads do to the best wingbeat, drawn along their share."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, legend_above, letter_panels, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_SPENT = {"profile": FIRST, "induced": SECOND, "unsteady": THIRD}
+
+
+def terms_page(record: dict[str, Any]) -> Figure:
+    """Draw frequency, flap amplitude and power of the best orbits along the share of the terms.
+
+    Lines end where the best orbit changes branch. The last panel shows what the mean power is spent on.
+
+    Parameters
+    ----------
+    record : of a `TermTrace`.
+    """
+    with drawing():
+        figure = new_figure(PAGE, 66.0)
+        terms = " and ".join(record["aero"][name] for name in ("unsteady", "inflow") if name in record["aero"])
+        name = record["species"]
+        title = f"{name[:1].upper()}{name[1:]} at {record['speed']:.4g} m/s: from none to all of {terms}"
+        figure.suptitle(title, fontsize=8.5, parse_math=False)
+        frequency, amplitude, power = figure.subplots(1, 3)
+        runs = _runs(record)
+        _draw(frequency, runs, lambda point: point["wingbeat"]["frequency"], "frequency [Hz]")
+        amplitude_of = "flap amplitude [deg]"
+        _draw(amplitude, runs, lambda point: math.degrees(point["wingbeat"]["flap_amplitude"]), amplitude_of)
+        for part, look in _SPENT.items():
+            _draw(power, runs, lambda point, part=part: point["spent"][part], "mean power [W]", label=part, **look)
+        _draw(power, runs, lambda point: point["mean_actuator_power"], "mean power [W]", label="all actuators")
+        legend_above(power, columns=2)
+        letter_panels(figure.axes)
+    return figure
+
+
+def _runs(record: dict[str, Any]) -> list[list[dict[str, Any]]]:
+    """Return the points in runs that no change of branch and no gap tears."""
+    torn = {mark["lower"] for mark in record["marks"] if mark["kind"] != "bounds"}
+    runs: list[list[dict[str, Any]]] = [[]]
+    for point in record["points"]:
+        if point["wingbeat"] is not None:
+            runs[-1].append(point)
+        if point["share"] in torn:
+            runs.append([])
+    return [run for run in runs if run]
+
+
+def _draw(axes: Axes, runs: Any, of: Any, label_of_axis: str, label: str = "", **look: Any) -> None:
+    look = {"color": "k", "marker": "o", "ms": 3, **look}
+    for number, run in enumerate(runs):
+        (line,) = axes.plot([point["share"] for point in run], [of(point) for point in run], **look)
+        if label and number == 0:
+            line.set_label(label)
+    highest = max([0.0, *(of(point) for run in runs for point in run)])
+    axes.set(xlabel="share of the terms [-]", ylabel=label_of_axis, xlim=(-0.03, 1.03))
+    axes.set_ylim(min(0.0, axes.get_ylim()[0]), max(1.08 * highest, axes.get_ylim()[1]))

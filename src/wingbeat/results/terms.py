@@ -1,0 +1,136 @@
+"""What terms of the air loads do: best orbits from none of a term to all of it, and where their family changes."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat._version import __version__
+from wingbeat.errors import FaultList
+from wingbeat.orbits.many.along import SHARE, with_share
+from wingbeat.orbits.many.branches import Branches, trace_along
+from wingbeat.orbits.many.transitions import certified, families, marks_of
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.power import power_account
+from wingbeat.results.record import aero_record, finite_or_none
+
+SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
+_MOST = 101
+_NUMBERS = ("objective_value", "mean_power", "mean_positive_power", "mean_actuator_power", "body_pitch_range")
+
+
+@dataclass(frozen=True)
+class TermTrace:
+    """Best orbits along the share of the terms of the air loads; made by `trace_terms`.
+
+    Attributes
+    ----------
+    problem : with all of each term.
+    orbits : the best of each share, in order; those without a certified orbit say why.
+    branches : every optimum that was found, and how they are linked.
+    seconds : that it took [s].
+    """
+
+    problem: OrbitProblem
+    orbits: tuple[Orbit, ...]
+    branches: Branches
+    seconds: float
+
+    def record(self) -> dict[str, Any]:
+        """Return the trace as a JSON-able dictionary: SI units, radians, None for what has no value.
+
+        ``points`` has the best orbit of each share, with its ``family``; ``marks`` says between which shares the
+        best orbit changes branch or bounds, or is missing; ``same_family`` whether continuation leads from none of
+        the terms to all of them along the best orbits.
+        """
+        labels = families(self.branches)
+        marks = [mark._asdict() for mark in marks_of(self.branches)]
+        points = []
+        for orbit, row in zip(self.orbits, labels, strict=True):
+            about = orbit.record()
+            found = orbit.status.value == "converged"
+            point = {"share": orbit.problem.aero.share, "status": about["status"], "message": about["message"]}
+            point |= {"family": row[0] if found else None, "optima": len(row) if found else 0}
+            point |= {name: about[name] if found else None for name in _NUMBERS}
+            point["wingbeat"] = about["wingbeat"] if found else None
+            point["spent"] = _mean_spent(orbit) if found else None
+            points.append(point)
+        record = {
+            **{"species": self.problem.species.name, "speed": self.problem.speed, "climb": self.problem.climb},
+            "objective": self.problem.minimise.name,
+            "aero": aero_record(self.problem.aero),
+            "points": points,
+            "marks": marks,
+            "same_family": all(mark["kind"] == "bounds" for mark in marks),
+            "solve_seconds": self.seconds,
+            "version": __version__,
+        }
+        return finite_or_none(record)
+
+
+def _mean_spent(orbit: Orbit) -> dict[str, float]:
+    return {name: part["mean"] for name, part in power_account(orbit.dataset)["spent"].items()}
+
+
+def trace_terms(
+    problem: OrbitProblem,
+    shares: Sequence[float] = SHARES,
+    starts: int = 6,
+    seed: int = 0,
+    progress: Progress | None = None,
+    options: SolverOptions = DEFAULTS,
+) -> TermTrace:
+    """Find the best orbits from none of the terms of a problem's air loads to all of them.
+
+    Every optimum found at a share is continued to the neighbouring shares. So the trace tells whether a term
+    changes the wingbeat step by step, or makes another family of wingbeats the best.
+
+    Parameters
+    ----------
+    problem : with ``unsteady`` or ``inflow`` in its air loads, or both; they grow together. Without any inflow, at
+        share 0, the coefficients are still those of sections.
+    shares : at least two, increasing, from 0 (none) to 1 (all).
+    starts : number of starts at the first and the last share; each between gets a third as many.
+    seed : of the random starts.
+    progress : called with (tasks done, tasks known so far).
+    options : of the solvers.
+
+    Raises
+    ------
+    InvalidInputError : air loads without a term, shares that do not increase within 0 to 1, starts or seed out of
+        range.
+
+    >>> import wingbeat as wb
+    >>> loads = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil")
+    >>> pigeon = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=loads)
+    >>> wb.trace_terms(pigeon, shares=[0.0, 1.0], starts=1).record()["same_family"]
+    True
+    """
+    check_search(starts, seed)
+    faults = FaultList()
+    if problem.aero.unsteady == problem.aero.inflow == "none":
+        fix = "give the air loads unsteady='thin-aerofoil' or inflow='momentum'"
+        faults.add("problem.aero", "unsteady none, inflow none", "has no term to trace", fix)
+    values = list(shares)
+    good = all([faults.number(f"shares[{i}]", s, at_least=0, at_most=1) for i, s in enumerate(values)])
+    if not 2 <= len(values) <= _MOST:
+        faults.add("shares", len(values), f"must be 2 to {_MOST} shares", "for example 0:1:0.25")
+    elif good and any(low >= high for low, high in itertools.pairwise(values)):
+        faults.add("shares", values, "must increase", "give each share once, the smallest first")
+    faults.raise_if_any()
+    begun = time.perf_counter()
+    problems = [with_share(problem, float(share)) for share in values]
+    branches = trace_along(SHARE, problems, starts, seed, progress, options=options)
+    orbits = tuple(Orbit.of(optima[0], starts, seed) for optima in branches.optima)
+    return TermTrace(problem, orbits, branches, time.perf_counter() - begun)
+
+
+def found_any(trace: TermTrace) -> bool:
+    """Say whether some share has a certified orbit."""
+    return any(certified(optima[0]) for optima in trace.branches.optima)

@@ -209,6 +209,49 @@ def _rows(matrix: ByBodyMotion) -> Triple:
     return matrix[0], matrix[1], matrix[2]
 
 
+class _Row(NamedTuple):
+    """What a motion of the strips is resisted with, by its added mass and inertia, and its speeds."""
+
+    mass: PerStrip
+    inertia: PerStrip | None
+    speeds: StripSpeeds
+
+
+def _row(speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases) -> _Row:
+    inertia = None if speeds.turn is None else added_inertia(1.0, chord, width) * speeds.turn
+    return _Row(added_mass(1.0, chord, width) * speeds.mid, inertia, speeds)
+
+
+def _rotation(lift: PerStrip, moved: StripSpeeds, speeds: StripSpeeds) -> tuple[PerStrip, Any]:
+    """Return the two factors of the work of a rotation's lift by one motion on another; it is 0 on itself."""
+    minus_chord = None if moved.chord is None else -moved.chord
+    return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
+
+
+def _inertial(row: _Row, rates: StripRates) -> tuple[Any, ...]:
+    return (row.mass, rates.mid), (row.inertia, rates.turn)
+
+
+def _sums(motion: StripMotion, rows: list[Any]) -> Any:
+    zero = jnp.zeros_like(motion.speeds[3].mid)
+    return mass_moments(2.0, [zero if row is None else row for row in rows])
+
+
+def _load(row: _Row, motion: StripMotion, tables: Any, chord: PerStripBroadcast, width: Phases) -> UnsteadyLoad:
+    """Return the load of a motion from its tables A, B, C, D without the turning of the axes, and E."""
+    by_acceleration, by_velocity, own, by_spin, own_spin = tables
+    # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
+    turned = jnp.stack([-by_acceleration[1], by_acceleration[0], jnp.zeros_like(by_acceleration[0])])
+    damping = damping_by_spin = None
+    turn = row.speeds.turn
+    if turn is not None:
+        damping, damping_by_spin = (
+            -2.0 * damping_couple(1.0, chord, width, moved.turn, jnp.ones_like(turn)) * turn
+            for moved in (motion.speeds[3], motion.speeds[2])
+        )
+    return UnsteadyLoad(by_acceleration, by_velocity, own, by_spin + turned, own_spin, damping, damping_by_spin)
+
+
 def unsteady_load(
     motion: StripMotion, speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases
 ) -> UnsteadyLoad:
@@ -220,30 +263,68 @@ def unsteady_load(
     speeds : that the motion on which the air acts gives the strips.
     chord, width : of the strips [m].
     """
-    mass = added_mass(1.0, chord, width) * speeds.mid
-    inertia = None if speeds.turn is None else added_inertia(1.0, chord, width) * speeds.turn
+    row = _row(speeds, chord, width)
     spin, turning = (rotation_lift(1.0, chord, width, moved.turn) for moved in motion.speeds[2:])
-
-    def rotation(lift: PerStrip, moved: StripSpeeds) -> tuple[PerStrip, Any]:
-        minus_chord = None if moved.chord is None else -moved.chord
-        return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
-
-    rows = (
-        *(_products((mass, moved.mid), (inertia, moved.turn)) for moved in motion.speeds[:3]),
-        *(
-            _products((mass, rates.mid), (inertia, rates.turn), rotation(turning, moved))
-            for moved, rates in zip(motion.speeds, motion.rates, strict=True)
-        ),
-        *(_products(rotation(spin, moved)) for moved in motion.speeds),
+    moves = list(zip(motion.speeds, motion.rates, strict=True))
+    sums = _sums(
+        motion,
+        [
+            *(_products((row.mass, moved.mid), (row.inertia, moved.turn)) for moved in motion.speeds[:3]),
+            *(_products(*_inertial(row, rates), _rotation(turning, moved, speeds)) for moved, rates in moves),
+            *(_products(_rotation(spin, moved, speeds)) for moved in motion.speeds),
+        ],
     )
-    zero = jnp.zeros_like(speeds.mid)
-    sums = mass_moments(2.0, [zero if row is None else row for row in rows])
-    # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
-    by_spin = sums[7:10] + jnp.stack([-sums[1], sums[0], jnp.zeros_like(sums[0])])
-    damping = damping_by_spin = None
-    if speeds.turn is not None:
-        damping, damping_by_spin = (
-            -2.0 * damping_couple(1.0, chord, width, moved.turn, jnp.ones_like(speeds.turn)) * speeds.turn
-            for moved in (motion.speeds[3], motion.speeds[2])
+    return _load(row, motion, (sums[:3], sums[3:6], sums[6], sums[7:10], sums[10]), chord, width)
+
+
+def unsteady_loads_on_body(
+    motion: StripMotion, chord: PerStripBroadcast, width: Phases
+) -> tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad]:
+    """Return the loads of unsteady air on the motions V_x, V_z and psi' of the body.
+
+    A is symmetric and the part of D without the turning of the axes antisymmetric, so 24 sums serve 33 tables.
+
+    Parameters
+    ----------
+    motion : of the strips.
+    chord, width : of the strips [m].
+    """
+    rows = [_row(speeds, chord, width) for speeds in motion.speeds[:3]]
+    spin, turning = (rotation_lift(1.0, chord, width, moved.turn) for moved in motion.speeds[2:])
+    own, own_rates = motion.speeds[3], motion.rates[3]
+    pairs = ((0, 1), (0, 2), (1, 2))
+    moves = list(zip(motion.speeds[:3], motion.rates[:3], strict=True))
+
+    def inertia(i: int, j: int) -> Any:
+        return _products((rows[i].mass, rows[j].speeds.mid), (rows[i].inertia, rows[j].speeds.turn))
+
+    sums = _sums(
+        motion,
+        [
+            *(inertia(i, i) for i in range(3)),
+            *(inertia(i, j) for i, j in pairs),
+            *(_products(_rotation(spin, rows[j].speeds, rows[i].speeds)) for i, j in pairs),
+            *(
+                _products(*_inertial(row, rates), _rotation(turning, moved, row.speeds))
+                for row in rows
+                for moved, rates in moves
+            ),
+            *(_products(*_inertial(row, own_rates), _rotation(turning, own, row.speeds)) for row in rows),
+            *(_products(_rotation(spin, own, row.speeds)) for row in rows),
+        ],
+    )
+    zero = jnp.zeros_like(sums[0])
+    a, (xz, xp, zp), (d_xz, d_xp, d_zp) = sums[:3], sums[3:6], sums[6:9]
+    by_acceleration = jnp.stack([a[0], xz, xp]), jnp.stack([xz, a[1], zp]), jnp.stack([xp, zp, a[2]])
+    by_spin = jnp.stack([zero, d_xz, d_xp]), jnp.stack([-d_xz, zero, d_zp]), jnp.stack([-d_xp, -d_zp, zero])
+    forward, up, nose_up = (
+        _load(
+            rows[i],
+            motion,
+            (by_acceleration[i], sums[9 + 3 * i : 12 + 3 * i], sums[18 + i], by_spin[i], sums[21 + i]),
+            chord,
+            width,
         )
-    return UnsteadyLoad(sums[:3], sums[3:6], sums[6], by_spin, sums[10], damping, damping_by_spin)
+        for i in range(3)
+    )
+    return forward, up, nose_up

@@ -15,7 +15,7 @@ from wingbeat._jax.elementary import cos, sin
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, stroke_pitch
 from wingbeat.mechanics.strip_sums import mass_moments
-from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_load
+from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_loads_on_body
 from wingbeat.mechanics.wing_shape import Strips, WingShape
 from wingbeat.vehicle import Vehicle, Wing
 
@@ -260,8 +260,7 @@ def wing_motion(
     loads = None
     if unsteady:
         moved = strip_motion(shape, shape_rate, shape_second, strips.chord)
-        forward, up, nose_up = (unsteady_load(moved, speeds, strips.chord, width) for speeds in moved.speeds[:3])
-        loads = forward, up, nose_up
+        loads = unsteady_loads_on_body(moved, strips.chord, width)
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,

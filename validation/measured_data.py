@@ -37,13 +37,15 @@ class Polar:
     moment: Array | None = None
 
 
-def _rows(path: Path) -> list[dict[str, str]]:
+def rows(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a CSV file whose comments begin with #."""
     lines = [line for line in read_text(path).splitlines() if line and not line.startswith("#")]
     return list(csv.DictReader(lines))
 
 
-def _columns(rows: list[dict[str, str]], *names: str) -> list[Array]:
-    return [np.array([float(row[name]) for row in rows]) for name in names]
+def columns(table: list[dict[str, str]], *names: str) -> list[Array]:
+    """Return columns of numbers."""
+    return [np.array([float(row[name]) for row in table]) for name in names]
 
 
 def gulls(folder: Path) -> list[Polar]:
@@ -52,12 +54,12 @@ def gulls(folder: Path) -> list[Polar]:
     Coefficients are those derived in the file with half the area of both wings: the columns called CL and CD in
     its source are areas. The angle is that of the mount; the wings are twisted, so that zero lift falls elsewhere.
     """
-    rows = _rows(folder / NEEDED[0])
+    table = rows(folder / NEEDED[0])
     found = []
-    for wing in sorted({row["wing_id"] for row in rows}):
-        own = [row for row in rows if row["wing_id"] == wing]
+    for wing in sorted({row["wing_id"] for row in table}):
+        own = [row for row in table if row["wing_id"] == wing]
         names = "alpha_deg", "CL_half_area", "CD_half_area", "Cm_shoulder_half_area_MAC", "Re_MAC"
-        alpha, lift, drag, moment, reynolds = _columns(own, *names)
+        alpha, lift, drag, moment, reynolds = columns(own, *names)
         between = float(reynolds.min()), float(reynolds.max())
         found.append(Polar(f"gull {wing}", "gull", lift, drag, between, alpha, moment))
     return found
@@ -65,8 +67,8 @@ def gulls(folder: Path) -> list[Polar]:
 
 def jackdaw(folder: Path) -> Polar:
     """Return the gliding jackdaw: wings alone, the drag that its wake shows as induced and profile drag."""
-    rows = _rows(folder / NEEDED[1])
-    speed, lift, induced, profile = _columns(rows, "airspeed_m_s", "CL", "CD_induced", "CD_profile")
+    table = rows(folder / NEEDED[1])
+    speed, lift, induced, profile = columns(table, "airspeed_m_s", "CL", "CD_induced", "CD_profile")
     reynolds = speed * JACKDAW_AREA / JACKDAW_SPAN / VISCOSITY
     between = float(reynolds.min()), float(reynolds.max())
     return Polar("jackdaw, gliding, wings alone", "jackdaw", lift, induced + profile, between)
@@ -74,11 +76,11 @@ def jackdaw(folder: Path) -> Polar:
 
 def plates(folder: Path) -> list[Polar]:
     """Return the thin flat plates of small aspect ratio, read off a printed figure by eye."""
-    rows = _rows(folder / NEEDED[2])
+    table = rows(folder / NEEDED[2])
     found = []
-    for ratio in sorted({float(row["aspect_ratio_if_mirrored"]) for row in rows}):
-        own = [row for row in rows if float(row["aspect_ratio_if_mirrored"]) == ratio]
-        alpha, lift, drag, reynolds = _columns(own, "alpha_deg", "CL", "CD", "Re")
+    for ratio in sorted({float(row["aspect_ratio_if_mirrored"]) for row in table}):
+        own = [row for row in table if float(row["aspect_ratio_if_mirrored"]) == ratio]
+        alpha, lift, drag, reynolds = columns(own, "alpha_deg", "CL", "CD", "Re")
         between = float(reynolds.min()), float(reynolds.max())
         found.append(Polar(f"thin plate, aspect ratio {ratio:g}", "plate", lift, drag, between, alpha))
     return found

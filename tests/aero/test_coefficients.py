@@ -241,7 +241,7 @@ def test_every_fault_of_a_model_is_told_at_once():
             "bad",
             terms,
             terms,
-            grade="C",
+            grade="D",
             reynolds_range=(2.0, 1.0),
             alpha_range_deg=(0.0, math.nan),
             extension="signed",

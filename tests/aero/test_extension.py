@@ -16,8 +16,9 @@ from wingbeat.aero.blends import Blend, Jet, even_blend, jet_of, odd_blend
 RIGHT = math.pi / 2
 WIDTH = math.radians(1.0)
 JOINS_DEG = (-180, -90, 0, 90, 180)
+FORMULAS = {name: model for name, model in LIBRARY.items() if isinstance(model(), FormulaCoefficients)}
 MODELS = {
-    **LIBRARY,
+    **FORMULAS,
     # Exponentials and a centre of pressure everywhere at once.
     "drag-decays": lambda extension="mirrored", width=1.0: FormulaCoefficients(
         "drag-decays",

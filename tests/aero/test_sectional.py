@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.coefficients import by_the_lifting_line
 from wingbeat.aero.sectional import SectionalKernel, sectional_kernel
 
 DEGREES = np.arange(0.0, 91.0, 2.5)
@@ -26,17 +27,6 @@ def written(tmp_path, *comments):
     path = tmp_path / "wing.csv"
     path.write_text(text_of(*comments), encoding="utf-8")
     return path
-
-
-def by_the_lifting_line(kernel, aspect_ratio, section):
-    """Return angle, C_L, C_D of a wing whose sections have the angles `section`, by bisection on the downwash."""
-    c_l, c_d = (np.asarray(part) for part in kernel.lift_drag(section))
-    low, high = np.full_like(section, -0.5), np.full_like(section, 0.5)
-    for _ in range(60):
-        eps = 0.5 * (low + high)
-        above = eps > (c_l * np.cos(eps) - c_d * np.sin(eps)) / (math.pi * aspect_ratio)
-        low, high = np.where(above, low, eps), np.where(above, eps, high)
-    return section + eps, c_l * np.cos(eps) - c_d * np.sin(eps), c_d * np.cos(eps) + c_l * np.sin(eps)
 
 
 @pytest.mark.parametrize("name", ["su-fan", "table"])

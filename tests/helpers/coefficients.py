@@ -1,5 +1,7 @@
 """Coefficients of a kernel with their exact derivatives, at any number of angles by one compiled function."""
 
+import math
+
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
@@ -30,3 +32,14 @@ def value_slope_curvature(model, alpha):
     parts = [_MANY(kernel, part) for part in rows.reshape(-1, TOGETHER)]
     columns = 3 if model.has_centre_of_pressure else 2
     return [np.concatenate(order)[: angles.size, :columns] for order in zip(*parts, strict=True)]
+
+
+def by_the_lifting_line(kernel, aspect_ratio, section):
+    """Return angle, C_L, C_D of a wing whose sections have the angles `section`, by bisection on the downwash."""
+    c_l, c_d = (np.asarray(part) for part in kernel.lift_drag(section))
+    low, high = np.full_like(section, -0.5), np.full_like(section, 0.5)
+    for _ in range(60):
+        eps = 0.5 * (low + high)
+        above = eps > (c_l * np.cos(eps) - c_d * np.sin(eps)) / (math.pi * aspect_ratio)
+        low, high = np.where(above, low, eps), np.where(above, eps, high)
+    return section + eps, c_l * np.cos(eps) - c_d * np.sin(eps), c_d * np.cos(eps) + c_l * np.sin(eps)

@@ -1,15 +1,17 @@
 """Air loads: quasi-steady coefficients of a wing strip, and blade elements that turn them into forces."""
 
+from wingbeat.aero.animal_wings import WING_ESTIMATES, Estimate, Feathered, FeatheredRevolving, Membrane
 from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement
+from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.choosing import coefficients_of, load_coefficients
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import EXTENSIONS
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.inflow import INFLOWS
+from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.published import (
-    LIBRARY,
     Byl,
     Dickinson,
     ParslewCrowther,
@@ -30,14 +32,21 @@ __all__ = [
     "INFLOWS",
     "LIBRARY",
     "UNSTEADY",
+    "WING_ESTIMATES",
     "BladeElement",
     "Byl",
+    "CamberedCoefficients",
+    "CamberedTerms",
     "CentreTerms",
     "CoefficientModel",
     "Dickinson",
+    "Estimate",
+    "Feathered",
+    "FeatheredRevolving",
     "FormulaCoefficients",
     "FormulaTerms",
     "FunctionCoefficients",
+    "Membrane",
     "ParslewCrowther",
     "SuFan",
     "TableCoefficients",

@@ -8,8 +8,8 @@ from typing import Any
 
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.function import FunctionCoefficients
+from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
-from wingbeat.aero.published import LIBRARY
 from wingbeat.aero.table import load_table
 from wingbeat.errors import FaultList, suggest
 

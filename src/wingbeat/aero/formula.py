@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 
 _DEG = 180 / math.pi
-GRADES = ("A", "B")
+# How far a model is to be trusted, and what its name then says.
+GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
 
 
 class Wave(NamedTuple):
@@ -190,7 +191,8 @@ class CentreTerms:
         )
 
 
-def _check_range(faults: FaultList, where: str, limits: Any) -> None:
+def check_range(faults: FaultList, where: str, limits: Any) -> None:
+    """Note a fault unless `limits` are two numbers that do not decrease."""
     if not isinstance(limits, tuple) or len(limits) != 2:
         faults.add(where, limits, "must be a pair", "give (lowest, highest)")
     elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
@@ -210,7 +212,7 @@ class FormulaCoefficients(CoefficientModel):
     lift_terms, drag_terms : formulas of C_L and C_D.
     centre_terms : formula of the centre of pressure, or None.
     citation, doi : where the formulas come from; no DOI is None.
-    grade : "A" if read in the source's own words, "B" if cited second-hand.
+    grade : "A" if read in the source's own words, "B" if cited second-hand, "C" if in part a guess.
     reynolds_range : chord Reynolds numbers of the fit, or None.
     alpha_range_deg : angles of the fit [deg].
     extension : how the formulas reach every angle (`wingbeat.aero.extension`).
@@ -243,10 +245,10 @@ class FormulaCoefficients(CoefficientModel):
     def __post_init__(self) -> None:
         faults = FaultList()
         check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
-        faults.choice("grade", self.grade, GRADES)
+        faults.choice("grade", self.grade, tuple(GRADES))
         if self.reynolds_range is not None:
-            _check_range(faults, "reynolds_range", self.reynolds_range)
-        _check_range(faults, "alpha_range_deg", self.alpha_range_deg)
+            check_range(faults, "reynolds_range", self.reynolds_range)
+        check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
             rule = "evaluates the drag formula at negative angles, where its exponential term diverges"
@@ -254,8 +256,7 @@ class FormulaCoefficients(CoefficientModel):
         faults.raise_if_any()
 
     def __str__(self) -> str:
-        second_hand = ", cited second-hand" if self.grade == "B" else ""
-        return f"{self.name} ({self.citation or 'no source given'}{second_hand})"
+        return f"{self.name} ({self.citation or 'no source given'}{GRADES[self.grade]})"
 
     @property
     def has_centre_of_pressure(self) -> bool:

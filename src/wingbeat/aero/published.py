@@ -1,4 +1,4 @@
-"""Published coefficient models by name, and the lines of theory to set them against.
+"""Published coefficient models, and the lines of theory to set them against.
 
 Angles a are in degrees as published. Grade B models are cited second-hand: their constants come from other
 people's code and papers, not from the source.
@@ -7,7 +7,6 @@ people's code and papers, not from the source.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -199,16 +198,6 @@ def Byl(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoe
     return _sine_cosine(
         "byl", 1.8, 1.8, 1.8, citation="Byl 2010", extension=extension, blend_width_deg=blend_width_deg
     )
-
-
-LIBRARY: dict[str, Callable[..., FormulaCoefficients]] = {
-    "su-fan": SuFan,
-    "dickinson": Dickinson,
-    "wang": Wang2004,
-    "whitney-wood": WhitneyWood,
-    "parslew-crowther": ParslewCrowther,
-    "byl": Byl,
-}
 
 
 def thin_aerofoil_lift(alpha: ArrayLike) -> NDArray[np.float64]:

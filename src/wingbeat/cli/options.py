@@ -59,7 +59,7 @@ class AirLoadOptions:
     """The options of the air loads, the same for every command that flies an animal."""
 
     aero: Annotated[
-        str, Parameter(help="Coefficients: su-fan, dickinson, ... (see `polar`), a table (.csv) or a fit (.toml).")
+        str, Parameter(help="Coefficients: su-fan, feathered, ... (see `polar`), a table (.csv) or a fit (.toml).")
     ] = "su-fan"
     extension: Annotated[str, Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}.")] = (
         "mirrored"

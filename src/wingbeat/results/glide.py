@@ -21,6 +21,7 @@ from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
 from wingbeat.results.saving import Saveable
+from wingbeat.results.warnings import guessed
 from wingbeat.species import Species
 
 if TYPE_CHECKING:
@@ -181,4 +182,4 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
         )
     if polar.aero.inflow == "none":
         notes.append("the model adds no induced drag to the coefficients")
-    return notes
+    return notes + guessed(coefficients)

@@ -10,6 +10,8 @@ from typing import Any
 from wingbeat.aero import (
     LIBRARY,
     BladeElement,
+    CamberedCoefficients,
+    CamberedTerms,
     CentreTerms,
     CoefficientModel,
     FormulaCoefficients,
@@ -32,6 +34,7 @@ from wingbeat.vehicle import Air, Body, Vehicle, Wing
 _OWN = "the user's own"
 _ANEW = "is not in the file; set up the problem with it again"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
+_CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
 
 
@@ -50,6 +53,9 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
         for name in ("lift_terms", "drag_terms", "centre_terms"):
             terms = getattr(coefficients, name)
             aero["formula"][name] = None if terms is None else dict(vars(terms))
+    elif isinstance(coefficients, CamberedCoefficients) and not _in_the_box(coefficients):
+        aero["cambered"] = {name: getattr(coefficients, name) for name in _CAMBERED} | _aspect_ratio(coefficients)
+        aero["cambered"]["terms"] = dict(vars(coefficients.terms))
     inputs = {
         "species": {
             "name": species.name,
@@ -177,7 +183,7 @@ def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
     return {name: (low, high) for name, (low, high) in bounds.items()}
 
 
-def _in_the_box(coefficients: FormulaCoefficients) -> bool:
+def _in_the_box(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
     """Say whether the name alone brings back the formulas; a fit may carry a published model's name."""
     if coefficients.name not in LIBRARY:
         return False
@@ -190,6 +196,10 @@ def _coefficients(aero: dict[str, Any]) -> Any:
         raise NotInFileError(f"{_OWN} function {aero['coefficients']!r} {_ANEW}")
     if "table" in aero:
         return TableCoefficients(**_tuples(aero["table"]), **how)
+    if "cambered" in aero:
+        cambered = _tuples(aero["cambered"])
+        terms = CamberedTerms(**cambered.pop("terms"))
+        return CamberedCoefficients(**cambered, terms=terms, blend_width_deg=aero["blend_width_deg"])
     if "formula" not in aero:
         return load_coefficients(aero["coefficients"], **how)
     formula = _tuples(aero["formula"])

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.kinematics import ANGLES, Wingbeat
 from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
@@ -177,9 +178,23 @@ def fitted_range(solution: Solution, beat: Beat) -> list[str]:
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of beat and strips: there the extension '{coefficients.extension}' applies"
+            f"{share:.0%} of beat and strips: there {_beyond(coefficients)} applies"
         )
-    return notes
+    return notes + guessed(coefficients)
+
+
+def guessed(coefficients: CoefficientModel) -> list[str]:
+    """Say so where the coefficients are in part a guess."""
+    if getattr(coefficients, "grade", "") != "C":
+        return []
+    return [f"the coefficients of {coefficients.name} are in part a guess; wb.aero.WING_ESTIMATES says which"]
+
+
+def _beyond(coefficients: CoefficientModel) -> str:
+    """Return what gives the coefficients beyond the angles of the fit."""
+    if isinstance(coefficients, CamberedCoefficients):
+        return "the join to a plate, or the plate itself,"
+    return f"the extension '{coefficients.extension}'"
 
 
 def _outside(values: np.ndarray, low: float, high: float) -> float:

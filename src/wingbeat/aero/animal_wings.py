@@ -1,0 +1,203 @@
+"""Coefficient models of the wings of animals, each number with its interval and with what it rests on.
+
+``validation/animal_wings.py`` makes the numbers of `Feathered` from the measurements, which are not part of this
+project, and its page shows how well they hold.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
+from wingbeat.aero.extension import check_extension
+from wingbeat.errors import FaultList
+
+
+class Estimate(NamedTuple):
+    """A term of a coefficient model: its value, the ends of its interval, and what it rests on."""
+
+    value: float
+    low: float
+    high: float
+    basis: str
+
+
+_GULL = "nine gull wings; interval: 95 %, bootstrap over wings"
+_JACKDAW = "gliding jackdaw; interval: 95 %, bootstrap over flights and wings"
+_ASSUMED = "held fixed: single wings do not determine how sharply the curve bends"
+
+_FEATHERED = {
+    "zero_lift_deg": Estimate(-3.01, -7.70, 1.62, _GULL),
+    "lift_slope": Estimate(3.90, 3.68, 4.31, _GULL),
+    "lift_lowest": Estimate(-0.207, -0.288, -0.104, _GULL),
+    "lift_highest": Estimate(1.38, 1.34, 1.41, _GULL),
+    "lift_rounding": Estimate(0.15, 0.1, 0.3, _ASSUMED),
+    "drag_least": Estimate(0.0137, 0.0069, 0.0165, _JACKDAW),
+    "drag_induced": Estimate(0.0468, 0.0453, 0.0489, _JACKDAW),
+    "low_onset_deg": Estimate(4.63, 4.33, 6.45, _GULL),
+    "low_rise": Estimate(0.546, 0.487, 0.577, _GULL),
+    "high_onset_deg": Estimate(19.4, 17.1, 22.7, _GULL),
+    "high_rise": Estimate(1.39, 1.00, 2.75, _GULL),
+    "onset_rounding_deg": Estimate(2.0, 1.0, 4.0, _ASSUMED),
+}
+_REVOLVING = _FEATHERED | {
+    "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of the only other revolving wing here, dickinson"),
+    "lift_highest": Estimate(
+        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: the card of that study to a fly's wing"
+    ),
+    "lift_rounding": Estimate(0.25, 0.15, 0.5, "guess"),
+    "drag_least": Estimate(
+        0.0944, 0.03, 0.13, "largest lift-to-drag ratio of 6.3, pigeon; interval: dried wings of other birds"
+    ),
+    "drag_induced": Estimate(0.0531, 0.0, 0.0637, "guess: an ideal wing of aspect ratio 6"),
+    "high_rise": Estimate(
+        1.36,
+        0.4,
+        3.0,
+        "C_D of 0.87 at 43 degrees, midway between 0.49 (ratio of 3.33) and 1.53 (force normal to wing)",
+    ),
+}
+_MEMBRANE = (
+    _FEATHERED
+    | {
+        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "camber of 6.5 to 9 % of bats, thin circular arc: -2 camber"),
+        "lift_slope": Estimate(4.1, 3.7, 4.7, "thin plate of aspect ratio 2, by lifting line; high end: theory"),
+        "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
+        "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, raised by camber times slope"),
+        "drag_least": Estimate(0.039, 0.015, 0.10, "guess: midway between a thin plate and the plate of su-fan"),
+        "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 of an ideal wing of aspect ratio 6"),
+    }
+    | {
+        name: _FEATHERED[name]._replace(basis="guess: as feathered")
+        for name in (
+            "lift_rounding",
+            "low_onset_deg",
+            "low_rise",
+            "high_onset_deg",
+            "high_rise",
+            "onset_rounding_deg",
+        )
+    }
+)
+WING_ESTIMATES: dict[str, dict[str, Estimate]] = {
+    "feathered": _FEATHERED,
+    "feathered-revolving": _REVOLVING,
+    "membrane": _MEMBRANE,
+}
+
+
+def _terms(name: str, extension: str, blend_width_deg: float) -> CamberedTerms:
+    faults = FaultList()
+    check_extension(faults, extension, blend_width_deg)
+    faults.raise_if_any()
+    return CamberedTerms(**{term: estimate.value for term, estimate in WING_ESTIMATES[name].items()})
+
+
+def Feathered(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
+    """Return a bird's wing of aspect ratio 6: the shape of nine printed gull wings, the drag of a gliding jackdaw.
+
+    Zero lift, slope, both stalls and the drag of separated flow are medians of nine half wings of a gull (wind
+    tunnel, -20 to 25 degrees), brought to aspect ratio 6 by Prandtl's lifting line. Least drag and induced part are
+    those of the wings of a live jackdaw. From 25 to 45 and from -20 to -45 degrees, where nothing was measured, the
+    curves run into those of a plate.
+
+    Printed wings: wind-tunnel data of github.com/charvey23/UMWTStaticStability. Jackdaw: KleinHeerenbrink,
+    Warfvinge and Hedenstrom 2016, J. Exp. Biol. 219:1572, doi 10.1242/jeb.132480.
+
+    Parameters
+    ----------
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
+
+    >>> import numpy as np
+    >>> lift, drag = (curve(np.deg2rad(8.0)) for curve in (Feathered().lift, Feathered().drag))
+    >>> round(float(lift), 2), round(float(lift / drag), 1)
+    (0.75, 16.9)
+    """
+    return CamberedCoefficients(
+        "feathered",
+        _terms("feathered", extension, blend_width_deg),
+        low_join_deg=(-45.0, -20.0),
+        high_join_deg=(25.0, 45.0),
+        citation="fitted to nine gull wings and a jackdaw (KleinHeerenbrink et al. 2016, doi 10.1242/jeb.132480)",
+        doi="10.1242/jeb.132480",
+        reynolds_range=(4.5e4, 2.1e5),
+        blend_width_deg=blend_width_deg,
+        aspect_ratio=6.0,
+    )
+
+
+def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
+    """Return a bird's wing with the delayed stall of revolving pigeon wings, for slow flight and hover.
+
+    Measured: the largest C_L, 1.64 at 43 degrees, and the largest lift-to-drag ratio, 6.3. Its drag beyond stall is
+    midway between two sources that disagree by a factor of three. Zero lift and the lower side are those of
+    `Feathered`, the rest is a guess. A revolving wing holds its own induced flow, so no aspect ratio is stated.
+
+    Usherwood 2009 (PMC3380271) and Crandell and Tobalske 2011 (J. Exp. Biol. 214:1867) for dried pigeon wings;
+    Usherwood and Ellington 2002 for the direction of the force on a revolving plate.
+
+    Parameters
+    ----------
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
+
+    >>> import numpy as np
+    >>> round(float(FeatheredRevolving().lift(np.deg2rad(43.0))), 2)
+    1.64
+    """
+    return CamberedCoefficients(
+        "feathered-revolving",
+        _terms("feathered-revolving", extension, blend_width_deg),
+        low_join_deg=(-45.0, -20.0),
+        high_join_deg=(43.0, 65.0),
+        citation="revolving pigeon wings, Usherwood 2009 and Crandell and Tobalske 2011; lower side as feathered",
+        grade="C",
+        reynolds_range=(5e4, 1.08e5),
+        blend_width_deg=blend_width_deg,
+    )
+
+
+def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
+    """Return a bat's wing of aspect ratio 6: a thin plate with the measured camber of bats; the rest is a guess.
+
+    We found no polar of a bat's wing that we could read. Measured: the camber of 12 species, 6.5 to 9 % of the
+    chord, which gives the angle of zero lift; and the lift slope of thin plates. `WING_ESTIMATES` says of every
+    other number that it is a guess, with a wide interval. That a compliant wing stalls later is left out.
+
+    Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J. Aircraft
+    37:825, read off a figure.
+
+    Parameters
+    ----------
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
+
+    Raises
+    ------
+    InvalidInputError : an unknown extension, a width outside (0, 3].
+
+    >>> import numpy as np
+    >>> round(float(Membrane().lift(np.deg2rad(0.0))), 2)
+    0.65
+    """
+    return CamberedCoefficients(
+        "membrane",
+        _terms("membrane", extension, blend_width_deg),
+        low_join_deg=(-45.0, -20.0),
+        high_join_deg=(25.0, 45.0),
+        citation="thin plates with the camber of bats (Bullen and McKenzie 2007)",
+        doi="10.1071/ZO07010",
+        grade="C",
+        reynolds_range=(2e4, 1.4e5),
+        blend_width_deg=blend_width_deg,
+        aspect_ratio=6.0,
+    )

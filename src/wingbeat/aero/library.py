@@ -1,0 +1,22 @@
+"""The coefficient models that have a name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from wingbeat.aero.animal_wings import Feathered, FeatheredRevolving, Membrane
+from wingbeat.aero.cambered import CamberedCoefficients
+from wingbeat.aero.formula import FormulaCoefficients
+from wingbeat.aero.published import Byl, Dickinson, ParslewCrowther, SuFan, Wang2004, WhitneyWood
+
+LIBRARY: dict[str, Callable[..., FormulaCoefficients | CamberedCoefficients]] = {
+    "su-fan": SuFan,
+    "dickinson": Dickinson,
+    "wang": Wang2004,
+    "whitney-wood": WhitneyWood,
+    "parslew-crowther": ParslewCrowther,
+    "byl": Byl,
+    "feathered": Feathered,
+    "feathered-revolving": FeatheredRevolving,
+    "membrane": Membrane,
+}

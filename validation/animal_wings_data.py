@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from wingbeat.errors import FileError
 
-NEEDED = ("gull_wing_polar.csv", "gull_wing_geometry.csv", "jackdaw_glide_wake.csv")
+JACKDAW_FILE = "jackdaw_glide_wake.csv"
+NEEDED = ("gull_wing_polar.csv", "gull_wing_geometry.csv", JACKDAW_FILE)
 
 
 @dataclass(frozen=True)

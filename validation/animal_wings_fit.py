@@ -52,8 +52,6 @@ PROFILE = CurveForm(
     lowest={"drag_least": 0.0, "low_rise": 0.0, "high_rise": 0.0, "high_onset_deg": 8.0},
     highest={"low_rise": 2.0, "high_rise": 6.0, "low_onset_deg": 15.0, "high_onset_deg": 26.0},
 )
-LEVEL = CurveForm("drag_least", lambda x, drag_least: drag_least + 0.0 * x, {"drag_least": 0.02})
-INDUCED = CurveForm("drag_induced C_L^2", lambda x, drag_induced: drag_induced * x**2, {"drag_induced": 0.05})
 
 
 @dataclass(frozen=True)
@@ -86,17 +84,14 @@ def typical(fits: list[HalfWingFit]) -> Terms:
 
 
 def live_drag(glides: Glides, shape: Terms, frames: Array | slice = slice(None)) -> Terms:
-    """Return least drag and induced part of the jackdaw's wings, given the separation drag of a shape.
+    """Return least drag and induced part of the jackdaw's wings by least squares, given the shape of a wing.
 
-    The abscissa is C_L: nobody measured the jackdaw's angle of attack.
+    The separation drag of the shape is taken off at the lift of each frame: nobody measured the angle of attack.
     """
     lift = glides.lift[frames]
     _, induced = reduced(lift, lift, glides.induced[frames], glides.aspect_ratio[frames], ASPECT_RATIO)
-    least = glides.profile[frames] - separation_at(lift, shape)
-    return (
-        fit_curve(lift, least, LEVEL, label="profile").parameters
-        | fit_curve(lift, induced, INDUCED, label="induced").parameters
-    )
+    least = float(np.mean(glides.profile[frames] - separation_at(lift, shape)))
+    return {"drag_least": least, "drag_induced": float(induced @ lift**2 / (lift**2 @ lift**2))}
 
 
 def separation_at(lift: Array, shape: Terms) -> Array:
@@ -124,8 +119,8 @@ class Interval:
     spread: tuple[float, float] | None
 
 
-def intervals(fits: list[HalfWingFit], glides: Glides) -> dict[str, Interval]:
-    """Return every term with the interval of a bootstrap over wings and, for the live drag, over flights."""
+def resampled(fits: list[HalfWingFit], glides: Glides) -> list[Terms]:
+    """Return fits to wings and, for the live drag, to flights that were drawn with replacement."""
     random = np.random.default_rng(SEED)
     flights = [np.flatnonzero(glides.flight == flight) for flight in sorted(set(glides.flight))]
     drawn = []
@@ -133,6 +128,11 @@ def intervals(fits: list[HalfWingFit], glides: Glides) -> dict[str, Interval]:
         wings = [fits[i] for i in random.integers(len(fits), size=len(fits))]
         frames = np.concatenate([flights[i] for i in random.integers(len(flights), size=len(flights))])
         drawn.append(feathered(wings, glides, frames))
+    return drawn
+
+
+def intervals(fits: list[HalfWingFit], glides: Glides, drawn: list[Terms]) -> dict[str, Interval]:
+    """Return every term with its interval over the resampled fits."""
     edge = 0.5 * (100.0 - CONFIDENCE)
     found = {}
     for name, value in feathered(fits, glides).items():

@@ -202,3 +202,15 @@ def test_a_model_of_ones_own_comes_back_from_its_record():
         problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=given_aero)
         again = problem_from(inputs_of(problem, 1, 0)).aero.coefficients
         assert again == given_aero
+
+
+def test_searches_with_animal_wings_are_certified():
+    """All three models share one compiled flight."""
+    cases = ("pigeon", 8.0, "feathered"), ("bat", 5.0, "membrane"), ("pigeon", 6.0, "feathered-revolving")
+    for animal, speed, aero in cases:
+        problem = wb.OrbitProblem(wb.load_species(animal), speed=speed, aero=aero)
+        orbit = wb.solve_orbit(problem, starts=2)
+        assert orbit.status == wb.Status.CONVERGED, (animal, aero)
+        warnings = " ".join(orbit.record()["warnings"])
+        assert ("in part a guess" in warnings) == (aero != "feathered")
+        assert "there the join to a plate, or the plate itself, applies" in warnings

@@ -11,10 +11,10 @@ from wingbeat._jax.config import jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.unsteady import added_inertia, added_mass
 from wingbeat.kinematics import Wingbeat, span_ratio
-from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
+from wingbeat.mechanics.body_dynamics import body_air, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
 from wingbeat.mechanics.frames import from_world, to_world
-from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_motion import strips_of, tail_tilt
 from wingbeat.mechanics.wing_points import PointMotion
 
 if TYPE_CHECKING:
@@ -151,8 +151,12 @@ def air_forces_on(
         lever = lever + ahead[..., None] * motion.partial.chordwise
         drift = drift + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, from_world(q[2], q_dot[0], q_dot[1]))
-    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
+    through_air_around = from_world(q[2], q_dot[0], q_dot[1])
+    tilt = tail_tilt(model.vehicle, wingbeat)
+    own = body_air(model.vehicle, model.air.density, through_air_around, q_dot[2], tilt=tilt)
+    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *own.force)))
+    if own.moment is not None:
+        generalised = generalised.at[2].add(own.moment)
     drift_power = 2.0 * jnp.sum(force * drift)
     air_mass = jnp.zeros((5, 5))
     if is_unsteady(model):

@@ -63,5 +63,5 @@ GLIDE = (
     Term("tail_moment", "N m", "moment that a tail would need to supply, nose up positive", "M_t"),
     Term("glide.flap_torque", "N m", "flap torque that holds the wings, both wings", "τ_φ"),
     Term("glide.pitch_torque", "N m", "wing pitch torque that holds the wings, both wings", "τ_θ"),
-    Term("trimmed", "1", "whether the pitching moment vanishes without a tail"),
+    Term("trimmed", "1", "whether the pitching moment vanishes"),
 )

@@ -1,8 +1,8 @@
 """Air load of a tail: a flat surface of low aspect ratio, at any angle of attack.
 
 ``C_L = a sin(alpha) cos(alpha)``, ``C_D = C_D0 + a sin^2(alpha) cos^2(alpha) + C_B sin^4(alpha)``. At small angles
-the lift grows with the slope a, which for a slender tail is ``pi/2`` times the aspect ratio, and there is no suction
-at the leading edge, so that the lift tilts back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361,
+the lift grows with the slope a, which for a slender tail is ``pi/2`` times the aspect ratio. There is no suction at
+the leading edge, so that the lift tilts back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361,
 doi 10.1098/rstb.1993.0079). Measured tails lift less than that where they are widely spread or above 20 degrees
 (Maybury et al. 2001, doi 10.1098/rspb.2001.1666; Evans 2003, doi 10.1098/rspb.2003.2373). The sines bound the lift
 at 45 degrees and turn the surface into a plate across the flow; that part of the formula is ours.

@@ -65,7 +65,7 @@ class Glide(NamedTuple):
     glide_ratio : distance over height lost.
     body_pitch, wing_pitch, flap : [rad].
     tail_tilt : added to the tail's incidence [rad]; 0 without a tail.
-    tail_moment : the moment that a tail would need to supply, beside what the vehicle's own supplies, nose-up positive
+    tail_moment : the moment that a tail would need to supply, or a tail that is there in addition, nose-up positive
         [N m]; 0 where the glide is trimmed.
     flap_torque, pitch_torque : that hold the wings [N m].
     trimmed : whether the pitching moment vanishes.
@@ -107,7 +107,10 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
 
 @exported
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
-    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]; without a tail it has no tilt."""
+    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m].
+
+    Without a tail, the numbers of the posture end before its tilt.
+    """
     posture = Posture(*numbers)
     if model.vehicle.tail is not None:
         wingbeat = unpack(("tail_tilt",), wingbeat, numbers[5:])

@@ -16,7 +16,7 @@ from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_va
 
 
 def _own_name(path: str) -> str:
-    """Return the name of a number among those of a whole animal: the mass of a wing and the numbers of a tail say so."""
+    """Return the name of a number among those of a whole animal: that of a wing's mass or of a tail says so."""
     part, _, name = path.rpartition(".")
     if path == "vehicle.wing.mass" or part == "vehicle.tail":
         return f"{part.removeprefix('vehicle.')}_{name}"
@@ -61,8 +61,8 @@ def bird(
     name, common_name, scientific_name : its names.
     tail : whether it gets a tail, spread by 60 degrees, from the laws of `wingbeat.species.tail_laws`.
     measured : any number of a species file, by its name; it replaces the one from the laws: ``wing_mass``,
-        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density``, ``tail_area``
-        and so on.
+        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density``,
+        ``tail_area`` and so on.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Laws of the tails of birds: length, area, arm, lift slope and drag from the mass alone, each written once.
 
-A bird's tail is taken as a triangle that opens backwards from its root, spread by 60 degrees. No law of the tails of
-bats or of robots was found.
+A bird's tail is taken as a triangle that opens backwards from its root, spread by 60 degrees. No law of the tails
+of bats or of robots was found.
 """
 
 from __future__ import annotations
@@ -58,8 +58,8 @@ TAIL_ARM = Law(
     "0.088 (m / 0.26)^(1/3) + 2/3 of the tail length 0.1364 m^0.2209",
     ("m kg",),
     lambda mass: _base(mass) + 2 / 3 * _length(mass),
-    f"no law found: from the centre of mass to the root of the tail of one dissected pigeon of 0.26 kg, {HARVEY}, scaled "
-    f"by isometry; then to the centre of area of the triangle, where a slender tail lifts ({THOMAS})",
+    f"no law found: from the centre of mass to the root of the tail of one dissected pigeon of 0.26 kg, {HARVEY}, "
+    f"scaled by isometry; then to the centre of area of the triangle, where a slender tail lifts ({THOMAS})",
     (0.7, 1.4),
     "guess",
     Data({"m": (0.26 / 27, 0.26 * 27)}, "one pigeon of 0.26 kg; a guess: a third to 3 times its length"),
@@ -79,8 +79,8 @@ TAIL_DRAG = Law(
     "0.02",
     (),
     lambda: 0.02,
-    "no law found: a jackdaw's body and tail have a drag coefficient of 0.2 with the tail folded and of 0.4 with the "
-    "tail fully spread (KleinHeerenbrink et al. 2016, doi 10.1242/jeb.132480); the difference, 6e-4 m2, over "
+    "no law found: a jackdaw's body and tail have a drag coefficient of 0.2 with the tail folded and of 0.4 with "
+    "the tail fully spread (KleinHeerenbrink et al. 2016, doi 10.1242/jeb.132480); the difference, 6e-4 m2, over "
     "the 0.026 m2 of a triangle 0.122 m long and spread by 120 degrees",
     (0.5, 2.5),
     "guess: a smooth plate has 0.01 in laminar flow",

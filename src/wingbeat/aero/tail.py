@@ -40,32 +40,35 @@ def tail_force(
     area: Scalar,
     lift_slope: Scalar,
     drag_coefficient: Scalar,
+    normal: Pair,
     velocity: tuple[Phases, Phases],
     xp: Any = np,
 ) -> Pair:
-    """Return the force on a tail, along its chord and along its normal [N].
+    """Return the force on a tail [N], in the axes of its velocity.
+
+    Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)`` and the
+    surface's normal n.
 
     Parameters
     ----------
-    density : of the air [kg/m3].
-    area : [m2].
+    density : rho [kg/m3].
+    area : S [m2].
     lift_slope : a [1/rad].
     drag_coefficient : C_D0, at no lift.
-    velocity : of the tail's aerodynamic centre through the air, along chord and normal [m/s].
+    normal : n, unit vector to the upper side.
+    velocity : v, of the tail's aerodynamic centre through the air [m/s].
     xp : array module of the numbers.
 
-    >>> chord, normal = tail_force(1.225, 0.004, 3.0, 0.02, (10.0, 0.0))
-    >>> round(float(chord), 6), abs(float(normal))
+    >>> forward, up = tail_force(1.225, 0.004, 3.0, 0.02, (0.0, 1.0), (10.0, 0.0))
+    >>> round(float(forward), 6), abs(float(up))
     (-0.0049, 0.0)
     """
-    along, across = velocity
-    squared = along * along + across * across
+    across = velocity[0] * normal[0] + velocity[1] * normal[1]
+    squared = velocity[0] * velocity[0] + velocity[1] * velocity[1]
     moving = squared > 0.0
     safe = xp.where(moving, squared, 1.0)
-    speed = xp.where(moving, xp.sqrt(safe), 0.0)
     sine_squared = across * across / safe
-    lift = -lift_slope * along * across / safe
-    lift_drag = lift_slope * (1.0 - sine_squared) + BROADSIDE * sine_squared
-    drag = drag_coefficient + sine_squared * lift_drag
-    half = 0.5 * density * area * speed
-    return half * (-lift * across - drag * along), half * (lift * along - drag * across)
+    push = -0.5 * density * area * xp.where(moving, xp.sqrt(safe), 0.0)
+    along = drag_coefficient + (BROADSIDE - lift_slope) * sine_squared * sine_squared
+    lift = lift_slope * across
+    return push * (along * velocity[0] + lift * normal[0]), push * (along * velocity[1] + lift * normal[1])

@@ -64,7 +64,8 @@ def complete_tail(numbers: dict[str, Number], faults: FaultList) -> None:
     if not has_tail(numbers):
         return
     for key in TAIL:
-        if key.required and key.path not in numbers:
+        refused = any(fault.where.endswith(f"tail.{key.name}") for fault in faults.faults)
+        if key.required and key.path not in numbers and not refused:
             faults.add(key.path, NOTHING, "must be given for a tail", f"{key.meaning} [{key.unit}]")
     for path in TAIL_PATHS:
         numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))

@@ -253,13 +253,13 @@ class Species:
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and texts, fit for JSON.
 
-        ``vehicle``, ``wingbeat`` and ``air`` are just as in an orbit record.
+        ``vehicle``, ``wingbeat`` and ``air`` are as in an orbit record, except that the wingbeat has every law.
         """
         plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for record in ("vehicle", "wingbeat", "air"):
             plain[record] = dataclasses.asdict(plain[record])
         if self.vehicle.tail is None:
-            del plain["vehicle"]["tail"], plain["wingbeat"]["tail_tilt"]
+            del plain["vehicle"]["tail"]
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         return _jsonable(plain)
 

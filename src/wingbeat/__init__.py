@@ -85,6 +85,7 @@ if TYPE_CHECKING:
     from wingbeat.studies.study import plan_study as plan_study
     from wingbeat.vehicle import Air as Air
     from wingbeat.vehicle import Body as Body
+    from wingbeat.vehicle import Tail as Tail
     from wingbeat.vehicle import Vehicle as Vehicle
     from wingbeat.vehicle import Wing as Wing
 
@@ -124,6 +125,7 @@ _HOME = {
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
     "Study": "studies.study",
+    "Tail": "vehicle",
     "TermTrace": "results.terms",
     "TorqueDrivenFlight": "results.flight",
     "Vehicle": "vehicle",

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
-_OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt")
+_OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt", "tail_tilt")
 
 
 @register_record(optional=_OPTIONAL)
@@ -46,6 +46,7 @@ class Wingbeat:
     sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
         without phase it is largest at mid-downstroke (protraction).
     stroke_plane_tilt : added to the wing's stroke-plane angle [rad].
+    tail_tilt : added to the tail's incidence [rad]; without a tail it has no effect.
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
 
@@ -73,6 +74,7 @@ class Wingbeat:
     sweep_amplitude: float = 0.0
     sweep_phase: float = 0.0
     stroke_plane_tilt: float = 0.0
+    tail_tilt: float = 0.0
     flap_harmonics: tuple[float, ...] = ()
     pitch_harmonics: tuple[float, ...] = ()
     span_harmonics: tuple[float, ...] = ()
@@ -94,6 +96,7 @@ class Wingbeat:
         faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
         faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
         faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
+        faults.number("wingbeat.tail_tilt", self.tail_tilt, unit="rad")
         self._check_sweep(faults)
         self._check_harmonics(faults)
         faults.raise_if_any()

@@ -104,13 +104,53 @@ class Wing:
 
 @register_record
 @dataclass(frozen=True)
+class Tail:
+    """A tail: a flat surface that turns with the body; its mass counts to the body.
+
+    Parameters
+    ----------
+    area : [m2].
+    arm : distance of its aerodynamic centre behind the body's centre of mass, along the body axis [m]; negative for
+        a surface ahead of it.
+    lift_slope : slope of its lift coefficient [1/rad].
+    drag_coefficient : drag coefficient at no lift.
+    height : of its aerodynamic centre above the body axis through the centre of mass [m].
+    incidence : of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` adds to it.
+
+    Raises
+    ------
+    InvalidInputError : an area or slope that is not positive, a negative drag coefficient, not a finite number.
+    """
+
+    area: float
+    arm: float
+    lift_slope: float
+    drag_coefficient: float = 0.0
+    height: float = 0.0
+    incidence: float = 0.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("tail.area", self.area, above=0, unit="m2", fix="leave the tail out if there is none")
+        faults.number("tail.arm", self.arm, unit="m")
+        fix = "pi/2 times the aspect ratio of a slender tail"
+        faults.number("tail.lift_slope", self.lift_slope, above=0, unit="1/rad", fix=fix)
+        faults.number("tail.drag_coefficient", self.drag_coefficient, at_least=0)
+        faults.number("tail.height", self.height, unit="m")
+        faults.number("tail.incidence", self.incidence, unit="rad")
+        faults.raise_if_any()
+
+
+@register_record
+@dataclass(frozen=True)
 class Vehicle:
-    """An animal or a robot: its body and its two equal wings.
+    """An animal or a robot: its body, its two equal wings and perhaps a tail.
 
     Attributes
     ----------
     body : the body without its wings.
     wing : the left wing; the right one is its mirror image.
+    tail : the tail; None, as in the paper, means no tail.
 
     >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
     >>> round(pigeon.mass, 3)
@@ -119,6 +159,7 @@ class Vehicle:
 
     body: Body
     wing: Wing
+    tail: Tail | None = None
 
     @property
     def mass(self) -> Any:

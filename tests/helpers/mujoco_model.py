@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from tests.helpers.tail_oracle import tail_load
+
 mujoco = pytest.importorskip("mujoco")
 
 # The compiler refuses a moving body without mass or inertia: what is nothing is written so, then set to zero.
@@ -118,9 +120,21 @@ def joint_map(model, strips):
     return moved
 
 
-def inverse_dynamics(vehicle, twist_ratio, gravity, q, q_dot, q_acceleration, strip_force):
+def _push_tail(model, data, vehicle, air_density, q, q_dot, air):
+    """Add the force of the tail, by the oracle's formula, where it acts on MuJoCo's body."""
+    if vehicle.tail is None:
+        return
+    parts = {"tail": vars(vehicle.tail)}, {"tail_tilt": 0.0}
+    (x, z), place, _ = tail_load(*parts, air_density, q[2], q_dot[:2], q_dot[2])
+    body = model.body("body").id
+    at = data.xpos[body] + [place[0], 0.0, place[1]]
+    mujoco.mj_applyFT(model, data, np.array([x, 0.0, z]), np.zeros(3), at, body, air)
+
+
+def inverse_dynamics(vehicle, twist_ratio, gravity, q, q_dot, q_acceleration, strip_force, air_density=1.225):
     """Run MuJoCo's inverse dynamics on recorded motion (K, 5) and strip forces (K, N, 3) of the left wing.
 
+    A tail's force is evaluated apart, from the recorded motion.
     Strip i turns by its share k_i of the root pitch; the force on root pitch is therefore sum k_i tau_i.
     """
     count = strip_force.shape[1]
@@ -133,6 +147,7 @@ def inverse_dynamics(vehicle, twist_ratio, gravity, q, q_dot, q_acceleration, st
         data.qpos[:], data.qvel[:], data.qacc[:] = moved @ q[k], moved @ q_dot[k], moved @ q_acceleration[k]
         mujoco.mj_inverse(model, data)
         air = np.zeros(model.nv)
+        _push_tail(model, data, vehicle, air_density, q[k], q_dot[k], air)
         for ids, sign in zip(bodies, SIDES.values(), strict=True):
             for body, force in zip(ids, strip_force[k] * [1.0, sign, 1.0], strict=True):
                 mujoco.mj_applyFT(model, data, force, np.zeros(3), data.xpos[body], body, air)

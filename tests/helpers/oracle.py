@@ -16,6 +16,7 @@ import math
 import numpy as np
 
 from tests.helpers.oracle_laws import prescribed, wing_angles
+from tests.helpers.tail_oracle import moment, tail_load
 
 X, Y, Z = np.eye(3)
 STILL = np.zeros(3)
@@ -131,7 +132,7 @@ class Wing:
         self.e_n = -np.sin(tilt) * level + np.cos(tilt) * e_n0
 
         # Places.
-        self.body = np.array([x, 0.0, z])
+        self.body, self.psi, self.rate = np.array([x, 0.0, z]), psi, q_dot[2]
         x_s, y_s, z_s = wing["shoulder"]
         hang = x_s * x_b + y_s * Y + z_s * z_b
         self.shoulder = self.body + hang
@@ -226,6 +227,13 @@ def _body_drag(vehicle, air, velocity):
     return -0.5 * air["density"] * vehicle["body"]["drag_area"] * np.linalg.norm(velocity) * velocity
 
 
+def body_air(vehicle, wingbeat, air, wing):
+    """(force along x and z and nose-up moment, power) of the air on the body and its tail."""
+    drag, velocity = _body_drag(vehicle, air, wing.v_body)[[0, 2]], wing.v_body[[0, 2]]
+    force, place, moving = tail_load(vehicle, wingbeat, air["density"], wing.psi, velocity, wing.rate)
+    return np.array([*(drag + force), moment(force, place)]), drag @ velocity + force @ moving
+
+
 # --- The flier with the wing motion prescribed
 
 
@@ -244,8 +252,7 @@ def accelerations(
     """Body accelerations (ax, az, psi_dd), m/s2 and rad/s2: Newton and Euler about the reference point."""
     wing, body = _prescribed(vehicle, wingbeat, state, phase, strips), vehicle["body"]
     matrix = np.diag([body["mass"], body["mass"], body["pitch_inertia"]])
-    push = _body_drag(vehicle, air, wing.v_body) - body["mass"] * air["gravity"] * Z
-    right = np.array([push[0], push[2], 0.0])
+    right = body_air(vehicle, wingbeat, air, wing)[0] - [0.0, body["mass"] * air["gravity"], 0.0]
 
     def resultant(force, arm):
         """Both wings' force along x and z and nose-up moment."""
@@ -293,7 +300,7 @@ def air_power(vehicle, wingbeat, air, state, phase, coefficients, strips, force_
     """Power (W) that the air loads on both wings and the body deliver."""
     wing = _prescribed(vehicle, wingbeat, state, phase, strips)
     _, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
-    return 2.0 * np.sum(force * velocity) + _body_drag(vehicle, air, wing.v_body) @ wing.v_body
+    return 2.0 * np.sum(force * velocity) + body_air(vehicle, wingbeat, air, wing)[1]
 
 
 def energies(vehicle, wingbeat, air, state, phase, strips):
@@ -332,5 +339,5 @@ def aero_forces(vehicle, wingbeat, air, q, q_dot, t, coefficients, strips, force
     wing = Wing(vehicle, wingbeat, q, q_dot, np.zeros(5), t, strips)
     place, _, force, alpha, lift, drag = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     f_aero = 2.0 * np.einsum("nk,nkj->j", force, wing.jacobian(place))
-    f_aero[:2] += _body_drag(vehicle, air, wing.v_body)[[0, 2]]
+    f_aero[:3] += body_air(vehicle, wingbeat, air, wing)[0]
     return f_aero, {"alpha": alpha, "lift": lift, "drag": drag}

@@ -25,11 +25,13 @@ EVERY_LAW = {
     "span_retraction": 0.3,
     "twist_ratio": 0.6,
     "stroke_plane_tilt": 0.1,
+    "tail_tilt": 0.15,
     "downstroke_fraction": 0.55,
     "flap_harmonics": (0.05, 0.02),
     "pitch_harmonics": (0.03, -0.04),
     "span_harmonics": (0.02, 0.01),
 }
+TAIL = wb.Tail(0.005, 0.15, 3.0, drag_coefficient=0.03, height=0.02, incidence=-0.1)
 SHOULDER, CHORD, TILTED, DRAG_AREA = (0.02, 0.01, 0.03), (0.12, 0.13, 0.06), 1.3, 1e-3
 
 
@@ -41,7 +43,7 @@ def vehicle_and_beat(name, every_law):
         species.vehicle.wing, shoulder=SHOULDER, chord=CHORD, stroke_plane_angle=TILTED, mass_exponent=1.5
     )
     body = dataclasses.replace(species.vehicle.body, drag_area=DRAG_AREA)
-    return wb.Vehicle(body, wing), dataclasses.replace(species.wingbeat, **EVERY_LAW)
+    return wb.Vehicle(body, wing, TAIL), dataclasses.replace(species.wingbeat, **EVERY_LAW)
 
 
 def flown_with(name, every_law=True, coefficients="su-fan", velocity=CRUISE, **terms):

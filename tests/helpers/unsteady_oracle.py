@@ -115,8 +115,8 @@ def unbalance(flier, state, phase, acceleration):
     loads = strip_loads(flier, state, phase, acceleration)
     wing = loads.wing
     ax, az, turning = acceleration
-    drag = oracle._body_drag(flier.vehicle, flier.air, wing.v_body)
-    left = np.array([drag[0], drag[2], 0.0]) - body["mass"] * np.array([ax, az + gravity, 0.0])
+    own, _ = oracle.body_air(flier.vehicle, flier.wingbeat, flier.air, wing)
+    left = own - body["mass"] * np.array([ax, az + gravity, 0.0])
     left[2] -= body["pitch_inertia"] * turning
     for force, place, _ in loads.pushes:
         left += _resultant(force, place - wing.body)
@@ -148,8 +148,8 @@ def torques_and_powers(flier, state, phase):
     flap, pitch = wing_angles(flier.wingbeat, phase)
     in_body = loads.turning + span @ wing.w_body
     actuators = sum(2.0 * np.sum(force * wing.in_body_axes(r, v)) for force, r, v in groups)
-    drag = oracle._body_drag(flier.vehicle, flier.air, wing.v_body)
-    air = sum(2.0 * np.sum(force * v) for force, _, v in loads.pushes) + drag @ wing.v_body
+    _, air = oracle.body_air(flier.vehicle, flier.wingbeat, flier.air, wing)
+    air += sum(2.0 * np.sum(force * v) for force, _, v in loads.pushes)
     return {
         "torques": torque,
         "hinge_power": torque @ np.array([flap[1], pitch[1]]),

@@ -19,6 +19,7 @@ ODD = wb.Vehicle(
     wb.Body(0.0584, 2.4e-5),
     wb.Wing(0.30, (0.11, 0.13, 0.09, 0.04), 0.0048, 0.94, (0.03, 0.02, 0.01), math.radians(75)),
 )
+TAILED = dataclasses.replace(ODD, tail=wb.Tail(0.004, 0.12, 2.5, 0.03, height=0.02, incidence=-0.2))
 # Vehicle, wingbeat, state at the top of the stroke, strips.
 FLIGHTS = {
     "pigeon": (PIGEON, wb.Wingbeat(7.0, 0.0, 0.70, 0.14, 0.26), wb.State(u=10.0, body_pitch=0.1), 10),
@@ -30,6 +31,12 @@ FLIGHTS = {
     ),
     "odd": (
         ODD,
+        wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, twist_ratio=1.6),
+        wb.State(0.3, 1.2, -0.4, 5.0, 1.0, -3.0),
+        7,
+    ),
+    "odd with a tail": (
+        TAILED,
         wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, twist_ratio=1.6),
         wb.State(0.3, 1.2, -0.4, 5.0, 1.0, -3.0),
         7,
@@ -120,6 +127,13 @@ def test_sees_a_wing_that_is_slightly_wrong(row, wrong):
     vehicle, wingbeat = FLIGHTS["odd"][:2]
     other = dataclasses.replace(vehicle, wing=dataclasses.replace(vehicle.wing, **wrong))
     assert errors(other, wingbeat, fly(*FLIGHTS["odd"]))[row] > 100 * TOLERANCE
+
+
+@pytest.mark.parametrize(("row", "wrong"), [("body_pitch", {"arm": 0.1201}), ("x", {"incidence": -0.201})])
+def test_sees_a_tail_that_is_slightly_wrong(row, wrong):
+    vehicle, wingbeat = FLIGHTS["odd with a tail"][:2]
+    other = dataclasses.replace(vehicle, tail=dataclasses.replace(vehicle.tail, **wrong))
+    assert errors(other, wingbeat, fly(*FLIGHTS["odd with a tail"]))[row] > 100 * TOLERANCE
 
 
 def test_sees_a_twist_that_is_slightly_wrong():

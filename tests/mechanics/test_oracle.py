@@ -43,7 +43,7 @@ class Case:
     @property
     def plain(self):
         """Vehicle, wingbeat and air as the oracle takes them."""
-        vehicle = {"body": vars(self.model.vehicle.body), "wing": vars(self.model.vehicle.wing)}
+        vehicle = {part: vars(record) for part, record in vars(self.model.vehicle).items() if record is not None}
         return vehicle, vars(self.wingbeat), vars(self.model.air)
 
     @property
@@ -65,10 +65,19 @@ def richer(uniform):
         "sweep_amplitude": uniform(0.0, 0.4),
         "sweep_phase": uniform(-3.0, 3.0),
         "stroke_plane_tilt": uniform(-0.5, 0.5),
+        "tail_tilt": 0.3,
         "flap_harmonics": tuple(uniform(-0.1, 0.1, 4).tolist()),
         "pitch_harmonics": tuple(uniform(-0.1, 0.1, 6).tolist()),
         "span_harmonics": tuple(uniform(-0.05, 0.05, 4).tolist()),
     }
+
+
+def tail_of(case):
+    """Return a tail for every other case, or None; its numbers do not change the others' draws."""
+    uniform = np.random.default_rng(case).uniform
+    if case % 2 == 0:
+        return None
+    return wb.Tail(uniform(1e-3, 1e-2), uniform(-0.1, 0.3), uniform(1, 4), uniform(0, 0.1), *uniform(-0.2, 0.2, 2))
 
 
 def draw(species, case, random):
@@ -83,9 +92,8 @@ def draw(species, case, random):
         chord=tuple(uniform(0.03, 0.15, 4).tolist()),
     )
     body = dataclasses.replace(species.vehicle.body, drag_area=uniform(1e-4, 2e-3))
-    model = wb.FlightModel(
-        wb.Vehicle(body, wing), wb.aero.BladeElement(coefficients, STRIPS, force_point, airspeed), species.air
-    )
+    loads = wb.aero.BladeElement(coefficients, STRIPS, force_point, airspeed)
+    model = wb.FlightModel(wb.Vehicle(body, wing, tail_of(case)), loads, species.air)
     wingbeat = wb.Wingbeat(
         frequency=uniform(3, 12),
         flap_mean=uniform(-0.3, 0.3),
@@ -282,6 +290,9 @@ def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
         ("beat", "sweep_amplitude", 1 + 1e-7),
         ("beat", "sweep_phase", 1 + 1e-7),
         ("beat", "stroke_plane_tilt", 1 + 1e-7),
+        ("beat", "tail_tilt", 1 + 1e-6),
+        *(("tail", name, 1 + 1e-6) for name in ("area", "arm", "lift_slope", "incidence")),
+        *(("tail", name, 1 + 1e-5) for name in ("drag_coefficient", "height")),
         ("beat", "flap_harmonics", 1 + 1e-7),
         ("beat", "pitch_harmonics", 1 + 1e-7),
         ("beat", "span_harmonics", 1 + 1e-7),
@@ -290,7 +301,7 @@ def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
 def test_the_comparison_sees_a_ten_millionth(part, key, change):
     case = cases("bat")[3]
     vehicle, wingbeat, _ = case.plain
-    parts = {"body": dict(vehicle["body"]), "wing": dict(vehicle["wing"]), "beat": dict(wingbeat)}
+    parts = {name: dict(numbers) for name, numbers in vehicle.items()} | {"beat": dict(wingbeat)}
     parts[part][key] = np.multiply(parts[part][key], change)
-    other = prescribed_by_oracle(case, {"body": parts["body"], "wing": parts["wing"]}, parts["beat"])
+    other = prescribed_by_oracle(case, parts, parts["beat"])
     assert max(by_row(value, other[name]) for name, value in prescribed(case).items()) > TOLERANCE

@@ -65,7 +65,7 @@ def flier_of(model, beat, formula, terms):
         force, factor = (drag * speed, weight + drag * climb), terms.get("induced_factor", 1.2)
         wind = unsteady_oracle.induced_wind(air.density, vehicle.wing.semi_span, factor, force, CRUISE)
     return unsteady_oracle.Flier(
-        {"body": vars(vehicle.body), "wing": vars(vehicle.wing)},
+        {part: vars(record) for part, record in vars(vehicle).items() if record is not None},
         vars(beat),
         vars(air),
         formula,

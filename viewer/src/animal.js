@@ -92,8 +92,20 @@ export class Animal {
     const beak = new THREE.Mesh(new THREE.ConeGeometry(0.16 * width, 0.35 * width, 16).rotateZ(-Math.PI / 2), material);
     beak.position.x = 0.5 * length + 0.08 * width;
     body.add(trunk, beak);
+    if (this.flight.tail) body.add(this.makeTail(material));
     this.still.add(body);
     return body;
+  }
+
+  // A triangle in body axes: root, left and right corner; it turns with the body.
+  makeTail(look) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(this.flight.tail, 3));
+    geometry.setIndex([0, 1, 2]);
+    geometry.computeVertexNormals();
+    const material = look.clone();
+    material.side = THREE.DoubleSide;
+    return new THREE.Mesh(geometry, material);
   }
 
   // Paths of the body and of both wing tips through the last beat, in the world.

@@ -12,8 +12,16 @@ from wingbeat.app.widgets import Field, button, number_field, tag
 from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
+from wingbeat.species.tail_laws import tail_numbers
+from wingbeat.species_schema import TAIL, TAIL_PATHS
 
-_GROUPS = {"vehicle.body": "Body", "vehicle.wing": "Wing", "wingbeat": "Fixed parameters", "air": "Air"}
+_GROUPS = {
+    "vehicle.body": "Body",
+    "vehicle.wing": "Wing",
+    "vehicle.tail": "Tail",
+    "wingbeat": "Fixed parameters",
+    "air": "Air",
+}
 
 
 class Numbers:
@@ -29,6 +37,8 @@ class Numbers:
     def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
         self._species, self._change = species, change
         self._scenario = scenario
+        # A species without a tail has empty fields for one.
+        self._numbers = {key.path: Number((), key.unit) for key in TAIL} | species.numbers
         self._values: dict[str, Field] = {}
         self._bounds: dict[tuple[str, int], Field] = {}
         self._resets: list[Any] = []
@@ -37,10 +47,13 @@ class Numbers:
                 self._build_bound(name)
             self._resets.append(button("As in the species file", lambda: change(bounds={}), "quiet"))
         for group, title in _GROUPS.items():
-            held = [path for path in species.numbers if self._is_shown(path) and path.startswith(f"{group}.")]
+            held = [path for path in self._numbers if self._is_shown(path) and path.startswith(f"{group}.")]
             with _folded(title):
                 for path in held:
                     self._build_number(path)
+                if group == "vehicle.tail" and species.vehicle.tail is None:
+                    button("Add a bird's tail of this mass", self._add_tail, "quiet")
+                    button("Remove the tail", self._remove_tail, "quiet")
         self.show(scenario)
 
     @property
@@ -49,11 +62,20 @@ class Numbers:
         return [*self._values.values(), *self._bounds.values()]
 
     def _is_shown(self, path: str) -> bool:
-        number, free = self._species.numbers[path], self._species.free
-        return path != "vehicle.mass" and path.partition("wingbeat.")[2] not in free and number.value != ()
+        number, free = self._numbers[path], self._species.free
+        empty = number.value == () and not path.startswith("vehicle.tail.")
+        return path != "vehicle.mass" and path.partition("wingbeat.")[2] not in free and not empty
+
+    def _add_tail(self) -> None:
+        found = tail_numbers(self._species.vehicle.mass)
+        self._change(values={**self._scenario.values, **{path: number.value for path, number in found.items()}})
+
+    def _remove_tail(self) -> None:
+        values = self._scenario.values
+        self._change(values={path: value for path, value in values.items() if path not in TAIL_PATHS})
 
     def _build_number(self, path: str) -> None:
-        number = self._species.numbers[path]
+        number = self._numbers[path]
         tip = f"Source: {' '.join(number.source.split())}" if number.source else "No source is given."
         self._values[path] = number_field(
             spoken_path(path), shown_text(path, number), self._set(path), unit=for_people(number.unit)[1], tip=tip
@@ -74,13 +96,13 @@ class Numbers:
         """Show the values of a scenario, and mark those outside what is plausible."""
         self._scenario = scenario
         for path, field in self._values.items():
-            number = self._species.numbers[path]
+            number = self._numbers[path]
             changed = path in scenario.values
             now = number._replace(value=scenario.values[path]) if changed else number
             field.show(shown_text(path, now))
             outside = _is_outside(now)
             hint = range_text(path, now)
-            if changed:
+            if changed and number.value != ():
                 hint = f"{hint}; changed from {shown_text(path, number)}".removeprefix("; ")
             field.mark(f"Outside: {hint}" if outside else hint, outside)
         for (name, end), field in self._bounds.items():
@@ -106,10 +128,10 @@ class Numbers:
         return next((self._values[p] for p in (bare, f"vehicle.{bare}") if p in self._values), None)
 
     def _set(self, path: str) -> Callable[[str], None]:
-        number: Number = self._species.numbers[path]
+        number = self._numbers[path]
 
         def act(text: str) -> None:
-            several = isinstance(number.value, tuple) or path.endswith(".chord")
+            several = (isinstance(number.value, tuple) and number.value != ()) or path.endswith(".chord")
             value = from_shown(text, number.unit, several)
             values = dict(self._scenario.values)
             if not text.strip() or text == shown_text(path, number):

@@ -196,7 +196,7 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         values={
             path: number.value
             for path, number in species.numbers.items()
-            if path != "vehicle.mass" and known.numbers[path].value != number.value
+            if path != "vehicle.mass" and (path not in known.numbers or known.numbers[path].value != number.value)
         },
         starts=min(inputs["starts"], MOST_STARTS),
         seed=inputs["seed"],

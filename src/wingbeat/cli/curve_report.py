@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.cli.streams import plain_console
 from wingbeat.datasets import climb_text
 from wingbeat.paper.measured_powers import published_for
-from wingbeat.vehicle import Air, Body, Vehicle, Wing
+from wingbeat.results.record import vehicle_from
+from wingbeat.vehicle import Air
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,7 +29,7 @@ def drawn(curve: Curve) -> Figure:
     from wingbeat.plots import curve_page
 
     record, speed = curve.record(), curve.dataset["speed"].values
-    vehicle = Vehicle(Body(**record["vehicle"]["body"]), Wing(**record["vehicle"]["wing"]))
+    vehicle = vehicle_from(record["vehicle"])
     beside = published_for(record["species"], vehicle, Air(**record["air"]), float(speed[0]), float(speed[-1]))
     return curve_page(curve.dataset, beside)
 

@@ -11,10 +11,10 @@ from wingbeat._jax.config import jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.unsteady import added_inertia, added_mass
 from wingbeat.kinematics import Wingbeat, span_ratio
-from wingbeat.mechanics.body_dynamics import body_drag, pressure_offset
+from wingbeat.mechanics.body_dynamics import body_air, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
 from wingbeat.mechanics.frames import dot, from_world, to_world
-from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_motion import strips_of, tail_tilt
 from wingbeat.mechanics.wing_points import PointMotion
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class AirPower(NamedTuple):
     profile : on the lift and drag of the strips in the air at the wings; holds the induced part of a polar that was
         measured on a finite wing.
     induced : on the stream of air that holds the weight, ``-F . v``; 0 without inflow.
-    parasite : on the drag of the body.
+    parasite : on the loads of body and tail.
     unsteady : on rotation, added mass and couples; that on added mass is stored in the air and returned.
     """
 
@@ -173,9 +173,13 @@ def air_forces_on(
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
     steady_power = wings @ q_dot + 2.0 * jnp.sum(force * drift)
     travel = from_world(q[2], q_dot[0], q_dot[1])
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, travel)
-    drag_power = dot(drag, travel)
-    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *drag)))
+    tilt = tail_tilt(model.vehicle, wingbeat)
+    own = body_air(model.vehicle, model.air.density, travel, q_dot[2], tilt=tilt)
+    own_power = dot(own.force, travel)
+    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *own.force)))
+    if own.moment is not None:
+        generalised = generalised.at[2].add(own.moment)
+        own_power = own_power + own.moment * q_dot[2]
     zero = jnp.zeros_like(steady_power)
     unsteady = _Unsteady(jnp.zeros(5), zero, jnp.zeros_like(force), jnp.zeros((5, 5)))
     if is_unsteady(model):
@@ -189,11 +193,11 @@ def air_forces_on(
     )
     return AirForces(
         generalised + unsteady.generalised,
-        steady_power + drag_power + unsteady.power,
+        steady_power + own_power + unsteady.power,
         AirPower(
             profile=-steady_power - against_steady,
             induced=against_steady + against_unsteady,
-            parasite=-drag_power,
+            parasite=-own_power,
             unsteady=-unsteady.power - against_unsteady,
         ),
         forces,

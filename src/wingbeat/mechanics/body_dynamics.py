@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import cos, sin
-from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.elementwise_jvp import computed_once, fusion_barrier
 from wingbeat.aero.blade_element import StripForces, strip_forces
+from wingbeat.aero.tail import tail_force
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, to_world
 from wingbeat.mechanics.strip_sums import sum_over_strips
 from wingbeat.mechanics.wing_motion import WingMotion
@@ -133,6 +134,55 @@ def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = jnp)
     speed = xp.where(moving, xp.sqrt(xp.where(moving, squared, 1.0)), 0.0)
     pressure_area = -0.5 * density * drag_area * speed
     return pressure_area * velocity[0], pressure_area * velocity[1]
+
+
+class BodyAir(NamedTuple):
+    """Air loads on the body and its tail.
+
+    Attributes
+    ----------
+    force : forward and up [N], in the axes of the velocity.
+    moment : about the body's centre of mass, nose-up positive [N m]; None without a tail.
+    """
+
+    force: Pair
+    moment: Phases | None
+
+
+def body_air(
+    vehicle: Vehicle,
+    density: Scalar,
+    velocity: Pair,
+    pitch_rate: Phases,
+    axes: Phases = 0.0,
+    tilt: Phases | None = None,
+) -> BodyAir:
+    """Return the air loads on the body and its tail.
+
+    The one place where forces on the body that are not the wings' join. The tail moves through the air around: it
+    feels the body's velocity and the pitch rate at its own place, and none of the flow that the wings induce.
+
+    Parameters
+    ----------
+    vehicle : gives drag area and tail.
+    density : of the air [kg/m3].
+    velocity : of the body's centre of mass through the air around, forward and up [m/s].
+    pitch_rate : [rad/s].
+    axes : how far the axes of the velocity are pitched nose-up from body axes [rad].
+    tilt : added to the tail's incidence [rad]; None for nothing.
+    """
+    drag, tail = body_drag(vehicle.body.drag_area, density, velocity), vehicle.tail
+    if tail is None:
+        return BodyAir(drag, None)
+    # Behind the barriers, geometry and force are computed once for all directions of a derivative: a flight with a
+    # tail takes 1.15 times as long as one without this way, and 1.5 without the barriers.
+    incidence = (tail.incidence if tilt is None else tail.incidence + tilt) - axes
+    (ahead, above), normal = from_world(axes, -tail.arm, tail.height), (-sin(incidence), cos(incidence))
+    (ahead, above), normal = fusion_barrier(((ahead, above), normal))
+    there = velocity[0] - pitch_rate * above, velocity[1] + pitch_rate * ahead
+    force = tail_force(density, tail.area, tail.lift_slope, tail.drag_coefficient, normal, there, jnp)
+    forward, up = computed_once(force)
+    return BodyAir((drag[0] + forward, drag[1] + up), ahead * up - above * forward)
 
 
 def accelerations(

@@ -13,7 +13,7 @@ from wingbeat.aero.blade_element import BladeElement, blade_element_of
 from wingbeat.aero.inflow import check_descent, disc_area, induced_flow
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
-from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_drag, wing_loads
+from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_air, body_drag, wing_loads
 from wingbeat.mechanics.frames import dot, from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.vehicle import Air, Vehicle
@@ -158,7 +158,8 @@ def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
 def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any = np) -> Pair:
     """Return the induced flow at the wings in steady flight, forward and up [m/s].
 
-    The wings carry the weight and overcome the drag of the body at the mean velocity.
+    The wings carry the weight and overcome the drag of the body at the mean velocity. What a tail lifts or drags is
+    left out: it depends on the attitude, which is not known beforehand, and is a small share of the weight.
 
     Parameters
     ----------
@@ -210,8 +211,11 @@ def _air_loads(
         model.at_centre_of_pressure,
         model.unsteady,
     )
-    drag = body_drag(model.vehicle.body.drag_area, model.air.density, body or (forward, up))
-    return wings._replace(force=(wings.force[0] + drag[0], wings.force[1] + drag[1]))
+    axes = 0.0 if model.vehicle.tail is None else stroke_attitude(model.vehicle.wing, motion, 0.0)
+    around = body or (forward, up)
+    own = body_air(model.vehicle, model.air.density, around, pitch_rate, axes, motion.tail_tilt)
+    moment = wings.moment if own.moment is None else wings.moment + own.moment
+    return BodyLoads((wings.force[0] + own.force[0], wings.force[1] + own.force[1]), moment)
 
 
 def velocity_at_wings(model: FlightModel, attitude: Phases, u: Phases, w: Phases) -> Pair:

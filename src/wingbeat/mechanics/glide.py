@@ -17,7 +17,7 @@ import numpy as np
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel, at_velocity
 from wingbeat.mechanics.frames import stroke_pitch
@@ -43,6 +43,7 @@ class Posture(NamedTuple):
     body_above_path : angle of the body above the path [rad].
     flap : flap angle [rad].
     angle_of_attack : that of the root chord, without flap [rad].
+    tail_tilt : added to the tail's incidence [rad].
     """
 
     speed: Scalar
@@ -50,6 +51,7 @@ class Posture(NamedTuple):
     body_above_path: Scalar
     flap: Scalar
     angle_of_attack: Scalar
+    tail_tilt: Scalar = 0.0
 
 
 class Glide(NamedTuple):
@@ -62,7 +64,9 @@ class Glide(NamedTuple):
     glide_angle : of the path below the horizontal [rad].
     glide_ratio : distance over height lost.
     body_pitch, wing_pitch, flap : [rad].
-    tail_moment : the moment that a tail would need to supply, nose-up positive [N m]; 0 where the glide is trimmed.
+    tail_tilt : added to the tail's incidence [rad]; 0 without a tail.
+    tail_moment : the moment that a tail would need to supply, or a tail that is there in addition, nose-up positive
+        [N m]; 0 where the glide is trimmed.
     flap_torque, pitch_torque : that hold the wings [N m].
     trimmed : whether the pitching moment vanishes.
     """
@@ -75,14 +79,17 @@ class Glide(NamedTuple):
     body_pitch: float
     wing_pitch: float
     flap: float
+    tail_tilt: float
     tail_moment: float
     flap_torque: float
     pitch_torque: float
     trimmed: bool
 
 
+# The number of a posture that each trim turns.
+_COLUMNS = {"body-pitch": 2, "flap": 3, "tail": 5}
 # A posture that is none: no balance was found.
-_NO_POSTURE = Posture(*[math.nan] * 5)
+_NO_POSTURE = Posture(*[math.nan] * 6)
 
 
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
@@ -100,8 +107,13 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
 
 @exported
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
-    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m]."""
+    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m].
+
+    Without a tail, the numbers of the posture end before its tilt.
+    """
     posture = Posture(*numbers)
+    if model.vehicle.tail is not None:
+        wingbeat = unpack(("tail_tilt",), wingbeat, numbers[5:])
     body_pitch, wing_pitch = _angles(model, posture)
     none = jnp.zeros(())
     ahead, down = posture.speed * jnp.cos(posture.glide_angle), posture.speed * jnp.sin(posture.glide_angle)
@@ -121,8 +133,8 @@ class GlideSolver:
     wingbeat : gives the twist.
     flap : angle at which the wings are held [rad].
     trim : what is turned until the pitching moment vanishes: ``"body-pitch"`` while the wings keep their angle of
-        attack, ``"flap"`` while the body stays along the path, or ``"tail"`` for nothing.
-    reach : lowest and highest value of the angle that trims [rad], body pitch or flap.
+        attack, ``"flap"`` or ``"tail"`` while the body stays along the path; nothing if there is no tail to turn.
+    reach : lowest and highest value of the angle that trims [rad], body pitch, flap or tilt of the tail.
 
     Attributes
     ----------
@@ -133,7 +145,7 @@ class GlideSolver:
         self, model: FlightModel, wingbeat: Wingbeat, flap: float, trim: str, reach: tuple[float, float]
     ) -> None:
         self.model, self._flap, self._trim, self._reach = model, flap, trim, reach
-        self._evaluate = _required.bind(model, held_still(wingbeat))
+        self._required, self._tilt = _required.bind(model, held_still(wingbeat)), wingbeat.tail_tilt
         weight = model.vehicle.mass * model.air.gravity
         self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
 
@@ -146,18 +158,19 @@ class GlideSolver:
         ----------
         angle_of_attack : [rad].
         """
-        start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack)
+        start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack, self._tilt)
         posture = self._solve(start, rows=2, free=[0, 1])
         if posture is None:
             return self._glide_of(_NO_POSTURE._replace(angle_of_attack=angle_of_attack), trimmed=False)
-        turned = None if self._trim == "tail" else self._trimmed(posture)
+        no_tail = self._trim == "tail" and self.model.vehicle.tail is None
+        turned = None if no_tail else self._trimmed(posture)
         return self._glide_of(turned or posture, trimmed=turned is not None)
 
     def _trimmed(self, untrimmed: Posture) -> Posture | None:
         """Return the posture without a moment nearest to `untrimmed`, or None; forces always balance."""
-        column, reach = 3, np.array(self._reach)
+        column, reach = _COLUMNS[self._trim], np.array(self._reach)
         if self._trim == "body-pitch":
-            column, reach = 2, reach + untrimmed.glide_angle  # above the path, not the horizontal
+            reach = reach + untrimmed.glide_angle  # above the path, not the horizontal
         ends: list[tuple[Posture, float] | None] = [(untrimmed, self._moment(untrimmed))] * 2
         for step in range(1, _STEPS + 1):
             for side, end in enumerate(ends):
@@ -173,6 +186,10 @@ class GlideSolver:
                 ends[side] = None if there is None else (there, moment)
         return None
 
+    def _evaluate(self, numbers: np.ndarray) -> np.ndarray:
+        """Return what must act on the five coordinates in a posture."""
+        return np.asarray(self._required(numbers if self.model.vehicle.tail is not None else numbers[:5]))
+
     def _moment(self, posture: Posture) -> float:
         return float(self._evaluate(np.array(posture))[2])
 
@@ -182,6 +199,8 @@ class GlideSolver:
         lift, drag = (float(c) for c in self.model.kernel.lift_drag(jnp.asarray(alpha)))
         area = 2.0 * vehicle.wing.semi_span * vehicle.wing.mean_chord
         drag += vehicle.body.drag_area / area
+        if vehicle.tail is not None:
+            drag += vehicle.tail.drag_coefficient * vehicle.tail.area / area
         pressure = vehicle.mass * air.gravity / (area * math.hypot(lift, drag))
         return math.sqrt(2.0 * pressure / air.density), math.atan2(drag, lift)
 
@@ -197,7 +216,7 @@ class GlideSolver:
             return found
 
         def residual(unknowns: np.ndarray) -> np.ndarray:
-            return np.asarray(self._evaluate(numbers(unknowns)))[:rows] / self._scale[:rows]
+            return self._evaluate(numbers(unknowns))[:rows] / self._scale[:rows]
 
         found = root(residual, held[free], tol=1e-14)
         posture = Posture(*numbers(found.x).tolist())
@@ -206,7 +225,7 @@ class GlideSolver:
         return posture if balanced and ahead else None
 
     def _glide_of(self, posture: Posture, trimmed: bool) -> Glide:
-        required = np.asarray(self._evaluate(np.array(posture)))
+        required = self._evaluate(np.array(posture))
         body_pitch, wing_pitch = _angles(self.model, posture)
         return Glide(
             posture.angle_of_attack,
@@ -217,6 +236,7 @@ class GlideSolver:
             body_pitch,
             wing_pitch,
             posture.flap,
+            posture.tail_tilt,
             0.0 if trimmed else float(required[2]),
             float(required[3]),
             float(required[4]),

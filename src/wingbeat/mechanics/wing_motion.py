@@ -47,6 +47,7 @@ class WingMotion(NamedTuple):
     span : unit vector along the span, in the plane of symmetry; None unless loads go with the whole airspeed.
     spanwise_speed : along the span [m/s]; None unless loads go with the whole airspeed.
     unsteady : loads of unsteady air on the body, forward, up and nose-up; None in steady air.
+    tail_tilt : added to the tail's incidence [rad]; None where it is 0, and without a tail.
     """
 
     ahead: Phases | PerStrip
@@ -68,6 +69,7 @@ class WingMotion(NamedTuple):
     span: Pair | None = None
     spanwise_speed: PerStrip | None = None
     unsteady: tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad] | None = None
+    tail_tilt: Phases | None = None
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
@@ -95,6 +97,13 @@ def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
     if at_default(wingbeat, "stroke_plane_tilt"):
         return wing.stroke_plane_angle
     return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
+
+
+def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
+    """Return what adds to the tail's incidence [rad]; None where it is off, and without a tail."""
+    if vehicle.tail is None or at_default(wingbeat, "tail_tilt"):
+        return None
+    return wingbeat.tail_tilt
 
 
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
@@ -253,6 +262,7 @@ def wing_motion(
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     swept = shape.sweep_sine is not None
     steady = at_default(wingbeat, "stroke_plane_tilt")
+    tilt = tail_tilt(vehicle, wingbeat)
     span = None
     if along_span:
         x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
@@ -281,4 +291,5 @@ def wing_motion(
         span=None if span is None else (span[0], span[2]),
         spanwise_speed=None if span is None else dot(shape_rate.quarter_chord, span),
         unsteady=loads,
+        tail_tilt=None if tilt is None else jnp.broadcast_to(tilt, phase.shape),
     )

@@ -48,7 +48,7 @@ SERIES = (
     Term("air_power", "W", "power of the air loads on the vehicle", "P_air"),
     Term("profile_power", "W", "power against lift and drag of the strips in the air at the wings", "P_pro"),
     Term("induced_power", "W", "power spent on the induced flow", "P_ind"),
-    Term("parasite_power", "W", "power against the drag of the body", "P_par"),
+    Term("parasite_power", "W", "power against the air loads of body and tail", "P_par"),
     Term("unsteady_power", "W", "power against rotation, added mass and couples", "P_uns"),
     Term("centre_of_mass_x", "m", "forward position of the system's centre of mass", "x_G"),
     Term("centre_of_mass_z", "m", "height of the system's centre of mass", "z_G"),
@@ -67,5 +67,5 @@ GLIDE = (
     Term("tail_moment", "N m", "moment that a tail would need to supply, nose up positive", "M_t"),
     Term("glide.flap_torque", "N m", "flap torque that holds the wings, both wings", "τ_φ"),
     Term("glide.pitch_torque", "N m", "wing pitch torque that holds the wings, both wings", "τ_θ"),
-    Term("trimmed", "1", "whether the pitching moment vanishes without a tail"),
+    Term("trimmed", "1", "whether the pitching moment vanishes"),
 )

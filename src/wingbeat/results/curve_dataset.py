@@ -62,9 +62,13 @@ def curve_dataset(
         table.add(name, unit, label_of(name), lambda r, n=name: r[n])
     for name in PARAMETER_NAMES:
         harmonic, unit, label = harmonic_place(name), NOMENCLATURE[name].unit, label_of(name)
-        if harmonic is None:
+        used = in_use(problem.species.wingbeat, name) or name in problem.free
+        if name == "tail_tilt":
+            if used:
+                table.add(name, unit, label, lambda r: r["wingbeat"].get("tail_tilt", 0.0))
+        elif harmonic is None:
             table.add(name, unit, label, lambda r, n=name: r["wingbeat"][n])
-        elif in_use(problem.species.wingbeat, name) or name in problem.free:
+        elif used:
             table.add(name, unit, label, lambda r, at=harmonic: _harmonic(r["wingbeat"], *at))
     for name in State._fields:
         for column, table_of in (("initial", "initial_state"), ("closure", "closure")):

@@ -18,6 +18,7 @@ from wingbeat.mechanics.flight_model import FlightModel, State, check_state
 from wingbeat.mechanics.flights import fly_beats, fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
+from wingbeat.results.record import vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
 
 if TYPE_CHECKING:
@@ -52,9 +53,9 @@ class Flight(Saveable):
         found = evaluate(self.model, self.wingbeat, self.phase, self.states)
         attributes = {
             KIND: "flight",
-            "vehicle": json.dumps({"body": vars(self.model.vehicle.body), "wing": vars(self.model.vehicle.wing)}),
+            "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
             "air": json.dumps(vars(self.model.air)),
-            "wingbeat": json.dumps(vars(self.wingbeat)),
+            "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
             "version": __version__,
         }
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)

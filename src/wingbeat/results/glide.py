@@ -107,7 +107,7 @@ def glide_polar(
     angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
     trim : what turns until the pitching moment is zero: ``"body-pitch"`` (the wings keep their angle of attack),
-        ``"flap"`` (the body stays along the path), or ``"tail"`` (nothing turns).
+        ``"flap"`` or ``"tail"`` (the body stays along the path); without a tail, ``"tail"`` turns nothing.
 
     Raises
     ------
@@ -137,7 +137,8 @@ def glide_polar(
     model = FlightModel(species.vehicle, loads, species.air, velocity=(1.0, 0.0))
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)
-    reach = species.path_bounds["body_pitch"] if trim == "body-pitch" else mean
+    tilt = species.bounds.get("tail_tilt", either_way)
+    reach = {"body-pitch": species.path_bounds["body_pitch"], "flap": mean, "tail": tilt}[trim]
     solver = GlideSolver(model, species.wingbeat, flap, trim, reach)
     glides = tuple(solver.at(float(angle)) for angle in angles)
     sink = _best(solver, glides, lambda glide: glide.sink)

@@ -25,10 +25,10 @@ from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_quantity
-from wingbeat.results.record import aero_record, vehicle_record
+from wingbeat.results.record import aero_record, vehicle_from, vehicle_record, wingbeat_record
 from wingbeat.species import Species
 from wingbeat.species_schema import Number, Range
-from wingbeat.vehicle import Air, Body, Vehicle, Wing
+from wingbeat.vehicle import Air
 
 # Before the name of a function of the user's.
 _OWN = "the user's own"
@@ -70,7 +70,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
             "plausible": species.plausible,
         },
         "vehicle": vehicle_record(problem.vehicle),
-        "stock_wingbeat": dict(vars(species.wingbeat)),
+        "stock_wingbeat": wingbeat_record(species.wingbeat),
         "aero": aero,
         "air": dict(vars(problem.air)),
         "speed": problem.speed,
@@ -136,12 +136,12 @@ def species_from(inputs: dict[str, Any]) -> Species:
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
     """
-    known, vehicle = inputs["species"], inputs["vehicle"]
+    known = inputs["species"]
     return Species(
         name=known["name"],
         common_name=known["common_name"],
         scientific_name=known["scientific_name"],
-        vehicle=Vehicle(Body(**vehicle["body"]), Wing(**vehicle["wing"])),
+        vehicle=vehicle_from(inputs["vehicle"]),
         wingbeat=Wingbeat(**inputs["stock_wingbeat"]),
         air=Air(**inputs["air"]),
         free=tuple(known["free"]),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.datasets import at_station
@@ -18,7 +19,7 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
-from wingbeat.vehicle import Vehicle
+from wingbeat.vehicle import Body, Tail, Vehicle, Wing
 
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
@@ -26,12 +27,29 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     wing = dict(vars(vehicle.wing))
     wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
     wing["shoulder"] = list(wing["shoulder"])
-    return {"body": dict(vars(vehicle.body)), "wing": wing}
+    parts = {"body": dict(vars(vehicle.body)), "wing": wing}
+    return parts if vehicle.tail is None else parts | {"tail": dict(vars(vehicle.tail))}
+
+
+def vehicle_from(record: dict[str, Any]) -> Vehicle:
+    """Return the vehicle of `vehicle_record`; a record without a tail has none.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary is not one of `vehicle_record`.
+    """
+    tail = record.get("tail")
+    return Vehicle(Body(**record["body"]), Wing(**record["wing"]), None if tail is None else Tail(**tail))
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers."""
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(wingbeat).items()}
+    """Return the wingbeat's numbers; the tilt of the tail only where it is one."""
+    left_out = ("tail_tilt",) if at_default(wingbeat, "tail_tilt") else ()
+    return {
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in vars(wingbeat).items()
+        if name not in left_out
+    }
 
 
 def aero_record(aero: BladeElement) -> dict[str, Any]:

@@ -12,7 +12,9 @@ Rows = list[tuple[str, str]]
 
 # Values that switch off the laws beyond the paper's; such rows are left out.
 _OFF: dict[str, Any] = {
-    **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
+    **dict.fromkeys(
+        ("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"), 0.0
+    ),
     **{name: [] for name in ("flap_harmonics", "pitch_harmonics", "span_harmonics")},
     "downstroke_fraction": 0.5,
 }

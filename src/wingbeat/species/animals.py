@@ -11,11 +11,21 @@ from wingbeat.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, 
 from wingbeat.species.loading import species_of
 from wingbeat.species.record import Species
 from wingbeat.species.settings import plain
+from wingbeat.species.tail_laws import tail_numbers
 from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, to_si
+
+
+def _own_name(path: str) -> str:
+    """Return the name of a number among those of a whole animal: that of a wing's mass or of a tail says so."""
+    part, _, name = path.rpartition(".")
+    if path == "vehicle.wing.mass" or part == "vehicle.tail":
+        return f"{part.removeprefix('vehicle.')}_{name}"
+    return name
+
 
 # What may be given beside mass, span and area: every number of a species file by its own name.
 _MEASURED = {
-    "wing_mass" if path == "vehicle.wing.mass" else path.rpartition(".")[2]: (path, key)
+    _own_name(path): (path, key)
     for key in KEYS
     if key.path not in ("vehicle.mass", "vehicle.body.mass")
     for path in key.spellings
@@ -35,6 +45,7 @@ def bird(
     name: str = "bird",
     common_name: str = "",
     scientific_name: str = "",
+    tail: bool = False,
     **measured: Any,
 ) -> Species:
     """Return a bird from its mass, wing span and wing area.
@@ -48,8 +59,10 @@ def bird(
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
     name, common_name, scientific_name : its names.
+    tail : whether it gets a tail, spread by 60 degrees, from the laws of `wingbeat.species.tail_laws`.
     measured : any number of a species file, by its name; it replaces the one from the laws: ``wing_mass``,
-        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density`` and so on.
+        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density``,
+        ``tail_area`` and so on.
 
     Raises
     ------
@@ -62,7 +75,7 @@ def bird(
     'derived: 0.0706 m^1.098 at m = 0.3 kg '
     """
     size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
-    return _species(BIRD, size, (name, common_name, scientific_name), measured)
+    return _species(BIRD, size, (name, common_name, scientific_name), measured, tail=tail)
 
 
 def bat(
@@ -140,8 +153,11 @@ def _species(
     names: tuple[Any, Any, Any],
     measured: Mapping[str, Any],
     frequency_range: Any = None,
+    tail: Any = False,
 ) -> Species:
     faults = FaultList()
+    if not isinstance(tail, bool):
+        faults.add("tail", shown(tail), "must be True or False", "give its numbers as tail_area= and so on")
     for where, text in zip(("name", "common_name", "scientific_name"), names, strict=True):
         if (
             not isinstance(text, str)
@@ -159,6 +175,8 @@ def _species(
     _check_laws(kind, content.numbers, mass, area, faults)
     faults.raise_if_any()
     derive(kind, content, mass, span, area, limits)
+    for path, number in tail_numbers(mass).items() if tail else ():
+        content.numbers.setdefault(path, number)
     content.numbers.written["vehicle.mass"] = "mass", size["mass"]
     return species_of(content, faults)
 

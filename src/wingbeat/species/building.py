@@ -9,11 +9,14 @@ from typing import Any
 
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import Wingbeat
-from wingbeat.species_schema import Number, Numbers, SpeciesText, display
-from wingbeat.vehicle import Air, Body, Vehicle, Wing
+from wingbeat.nomenclature import plain_unit
+from wingbeat.species_schema import KEYS, TAIL, TAIL_PATHS, Number, Numbers, SpeciesText, display
+from wingbeat.species_schema.faults import NOTHING
+from wingbeat.vehicle import Air, Body, Tail, Vehicle, Wing
 
+DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
-_RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "wingbeat": Wingbeat, "air": Air}
+_RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "vehicle.tail": Tail, "wingbeat": Wingbeat, "air": Air}
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
     for section, record in _RECORDS.items()
@@ -33,19 +36,39 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
     What is missing is filled in by `default_of`, so that one fault does not hide the others.
     """
     made: dict[str, Any] = {}
+    before = len(faults.faults)
     for section, record in _RECORDS.items():
+        if record is Tail and not has_tail(numbers):
+            continue
         paths = {field.name: f"{section}.{field.name}" for field in dataclasses.fields(record)}
         values = {n: numbers[p].value if p in numbers else default_of(p) for n, p in paths.items()}
         try:
             made[section] = record(**values)
         except InvalidInputError as error:
             faults.faults += [given.quote(fault) for fault in error.faults]
-    if len(made) < len(_RECORDS):
+    if len(faults.faults) > before:
         return {}
-    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"])
+    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"], made.get("vehicle.tail"))
     if not math.isfinite(vehicle.mass):
         faults.add("vehicle.mass", vehicle.mass, "must be finite", "make the body or the wings lighter")
     return {"vehicle": vehicle, "wingbeat": made["wingbeat"], "air": made["air"]}
+
+
+def has_tail(numbers: Mapping[str, Number]) -> bool:
+    """Say whether some number of a tail is among these."""
+    return any(key.path in numbers for key in TAIL)
+
+
+def complete_tail(numbers: dict[str, Number], faults: FaultList) -> None:
+    """Add to the numbers of a tail those that have a default, and note those that must be given."""
+    if not has_tail(numbers):
+        return
+    for key in TAIL:
+        refused = any(fault.where.endswith(f"tail.{key.name}") for fault in faults.faults)
+        if key.required and key.path not in numbers and not refused:
+            faults.add(key.path, NOTHING, "must be given for a tail", f"{key.meaning} [{key.unit}]")
+    for path in TAIL_PATHS:
+        numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))
 
 
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:
@@ -62,6 +85,11 @@ def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -
         faults.add(where, value, f"leaves no mass for the body: the whole has {whole:g} kg, each wing {wing:g} kg")
     else:
         numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass less both wings")
+
+
+def in_order(numbers: Mapping[str, Number]) -> dict[str, Number]:
+    """Return the numbers in the order of a species file."""
+    return {key.path: numbers[key.path] for key in KEYS if key.path in numbers}
 
 
 def check_bounds(content: SpeciesText, faults: FaultList) -> None:

@@ -9,10 +9,20 @@ from pathlib import Path
 
 from wingbeat.errors import FaultList, suggest
 from wingbeat.files import read_text
-from wingbeat.species.building import WHOLE, build_records, check_bounds, default_of, derive_body
+from wingbeat.species.building import (
+    DEFAULT,
+    WHOLE,
+    build_records,
+    check_bounds,
+    complete_tail,
+    default_of,
+    derive_body,
+    in_order,
+)
 from wingbeat.species.record import Species, find_warnings
 from wingbeat.species_schema import (
     KEYS,
+    TAIL_PATHS,
     Bound,
     Number,
     SpeciesText,
@@ -80,10 +90,11 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
     for other in content.alternatives.values():
         build_records(other.numbers, other.numbers, faults)
     faults.raise_if_any()
+    complete_tail(numbers, faults)
     for key in KEYS:
-        if key.path not in numbers:
+        if key.path not in numbers and key.path not in TAIL_PATHS:
             default = records["vehicle"].mass if key.path == WHOLE else default_of(key.path)
-            source = "body.mass and both wings" if key.path == WHOLE else "not given: the default"
+            source = "body.mass and both wings" if key.path == WHOLE else DEFAULT
             numbers[key.path] = Number(default, key.unit, source)
     species = Species(
         name=content.name,
@@ -94,7 +105,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         guessed_bounds=frozenset(key for key, bound in bounds.items() if bound.guessed),
         path_bounds={key: bound.bounds for key, bound in path.items()},
         reasons={key: bound.reason for key, bound in bounds.items()},
-        numbers={key.path: numbers[key.path] for key in KEYS},
+        numbers=in_order(numbers),
         alternatives=content.alternatives,
         plausible=content.plausible,
         warnings=(),

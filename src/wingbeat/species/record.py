@@ -11,11 +11,23 @@ from typing import Any, cast
 from wingbeat.errors import FaultList, suggest
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.nomenclature import plain_unit
-from wingbeat.species.building import BODY, WHOLE, WING, build_records, derive_body, words
+from wingbeat.species.building import (
+    BODY,
+    WHOLE,
+    WING,
+    build_records,
+    complete_tail,
+    default_of,
+    derive_body,
+    in_order,
+    words,
+)
 from wingbeat.species.law import OUTSIDE
 from wingbeat.species.plausibility import UNKNOWN, range_of
 from wingbeat.species.settings import plain, settable
+from wingbeat.species.tail_laws import tail_numbers
 from wingbeat.species_schema import (
+    KEYS,
     Alternative,
     Number,
     Numbers,
@@ -124,7 +136,8 @@ class Species:
                 other = given.written[key.path][0]
                 faults.add(path, value, f"is given as {other} too", "keep one of the two")
                 continue
-            number = Number(to_si(value, path), key.unit, self._by_hand(key.path), self.numbers[key.path].range)
+            old = self.numbers.get(key.path)
+            number = Number(to_si(value, path), key.unit, self._by_hand(key.path), old and old.range)
             given.put(key, number, path, value)
         return self._rebuilt(self.numbers | given, given, faults)
 
@@ -137,18 +150,28 @@ class Species:
         """
         section, parts = "wingbeat", {"wingbeat": record}
         if isinstance(record, Vehicle):
-            section, body, wing = "vehicle", record.body, record.wing
-            parts = {"vehicle": record, "vehicle.body": body, "vehicle.wing": wing}
+            section, parts = "vehicle", {"vehicle": record, **{f"vehicle.{n}": r for n, r in vars(record).items()}}
         numbers = dict(self.numbers)
-        for path, number in self.numbers.items():
-            part, _, name = path.rpartition(".")
-            if part in parts and getattr(parts[part], name) != number.value:
-                numbers[path] = number._replace(value=getattr(parts[part], name), source=self._by_hand(path))
-        return dataclasses.replace(self, numbers=numbers, **{section: record})
+        for key in KEYS:
+            part, _, name = key.path.rpartition(".")
+            if part not in parts:
+                continue
+            old, value = numbers.pop(key.path, None), getattr(parts[part], name, None)
+            if old is not None and value == old.value:
+                numbers[key.path] = old
+            elif value is not None and (old is not None or value != default_of(key.path)):  # None: of no tail
+                numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
+        complete_tail(numbers, FaultList())
+        changed = dataclasses.replace(self, **{section: record})
+        if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
+            numbers.pop("wingbeat.tail_tilt", None)
+        return dataclasses.replace(changed, numbers=in_order(numbers))
 
     def _by_hand(self, path: str) -> str:
         """Return the source of a number that is set in place of this species' own."""
-        old = self.numbers[path]
+        old = self.numbers.get(path)
+        if old is None:
+            return "set by hand"
         if old.source.startswith(_SET_BY_HAND):
             return old.source
         return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
@@ -173,6 +196,19 @@ class Species:
         faults.raise_if_any()
         return self.with_values({"body.mass": self.vehicle.body.mass + payload}) if payload else self
 
+    def with_tail(self) -> Species:
+        """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
+
+        Its sources say ``derived``; see `wingbeat.species.tail_laws`. The mass does not change.
+
+        >>> from wingbeat.species import load_species
+        >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
+        0.164
+        """
+        found = Numbers()
+        found.update(tail_numbers(self.vehicle.mass))
+        return self._rebuilt(self.numbers | found, found, FaultList())
+
     def with_alternative(self, name: str) -> Species:
         """Return this species with the numbers of one of its `alternatives`.
 
@@ -196,15 +232,18 @@ class Species:
     def _patched(self, patch: Numbers, faults: FaultList) -> Species:
         numbers = dict(self.numbers)
         for path, number in patch.items():
-            numbers[path] = number if number.range else number._replace(range=numbers[path].range)
+            old = numbers.get(path)
+            numbers[path] = number if number.range else number._replace(range=old and old.range)
         if BODY not in patch and {WHOLE, WING} & patch.keys():
             derive_body(numbers, patch, faults)
         return self._rebuilt(numbers, patch, faults)
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
         """Return a copy with other numbers; records are checked, whole mass and warnings are made anew."""
+        complete_tail(numbers, faults)
         records = build_records(numbers, given, faults)
         faults.raise_if_any()
+        numbers = in_order(numbers)
         mass, whole = records["vehicle"].mass, numbers[WHOLE]
         if not math.isclose(mass, cast(float, whole.value), rel_tol=1e-12):
             numbers = numbers | {WHOLE: whole._replace(value=mass, source="body.mass and both wings")}
@@ -214,11 +253,13 @@ class Species:
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and texts, fit for JSON.
 
-        ``vehicle``, ``wingbeat`` and ``air`` are just as in an orbit record.
+        ``vehicle``, ``wingbeat`` and ``air`` are as in an orbit record, except that the wingbeat has every law.
         """
         plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for record in ("vehicle", "wingbeat", "air"):
             plain[record] = dataclasses.asdict(plain[record])
+        if self.vehicle.tail is None:
+            del plain["vehicle"]["tail"]
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         return _jsonable(plain)
 
@@ -250,6 +291,8 @@ def find_warnings(species: Species) -> tuple[str, ...]:
     if derived:
         found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
     found += _outside_data(species)
+    if species.vehicle.tail is None and (species.wingbeat.tail_tilt or "tail_tilt" in species.free):
+        found.append("wingbeat.tail_tilt has no effect: there is no tail; add the table [vehicle.tail]")
     if not species.free:
         found.append("free: no wingbeat parameter is free, so no orbit can be found; add the table [free]")
     return tuple(found)

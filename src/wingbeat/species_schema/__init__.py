@@ -2,7 +2,7 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken
-from wingbeat.species_schema.keys import KEYS, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import KEYS, PLAUSIBLE, TAIL, TAIL_PATHS, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
@@ -20,6 +20,8 @@ from wingbeat.species_schema.reading import (
 __all__ = [
     "KEYS",
     "PLAUSIBLE",
+    "TAIL",
+    "TAIL_PATHS",
     "Alternative",
     "Bound",
     "Key",

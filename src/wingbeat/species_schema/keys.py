@@ -46,6 +46,8 @@ KEYS = (
     _key("vehicle.wing.mass_exponent", False),
     _key("vehicle.wing.shoulder", False, "vector"),
     _key("vehicle.wing.stroke_plane_angle", False),
+    *(_key(f"vehicle.tail.{name}") for name in ("area", "arm", "lift_slope")),
+    *(_key(f"vehicle.tail.{name}", False) for name in ("drag_coefficient", "height", "incidence")),
     *(
         _key(f"wingbeat.{name}")
         for name in ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude")
@@ -54,12 +56,15 @@ KEYS = (
         _key(f"wingbeat.{name}", False)
         for name in (
             *("span_retraction", "twist_ratio", "fold_amplitude", "wrist", "pitch_phase", "downstroke_fraction"),
-            *("sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"),
+            *("sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"),
         )
     ),
     *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in ("flap", "pitch", "span")),
     *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
 )
+# The numbers of a vehicle with a tail; one without a tail has none of them.
+TAIL = tuple(key for key in KEYS if key.path.startswith("vehicle.tail."))
+TAIL_PATHS = (*(key.path for key in TAIL), "wingbeat.tail_tilt")
 # Limits along the whole path, not only at its start.
 PATH = (_key("path.body_pitch"), _key("path.flap"))
 # Strips are arm or hand as a whole, so an orbit changes in steps with the wrist: no derivative, no search.

@@ -97,23 +97,28 @@ def _bounded(_: Key) -> Any:
     return _bare_or_table(_Pair, BoundTable)
 
 
-def _section(prefix: str, complete: bool, inner: dict[str, Any] | None = None) -> Any:
-    """Return the field of one table; TOML has no null, so a table that is absent is simply not checked."""
+def _section(
+    prefix: str, complete: bool, inner: dict[str, Any] | None = None, optional: tuple[str, ...] = ()
+) -> Any:
+    """Return the field of one table; TOML has no null, so a table that is absent is simply not checked.
+
+    Of the tables in `inner`, a complete one must have those that are not `optional`.
+    """
     own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
     required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
     name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
     inner = inner or {}
+    required += [part for part in inner if part not in optional]
     return (
-        _table(
-            name, _leaves(own, lambda key: _sourced(key.shape)) | inner, [*required, *inner] if complete else []
-        ),
+        _table(name, _leaves(own, lambda key: _sourced(key.shape)) | inner, required if complete else []),
         None,
     )
 
 
 def _sections(complete: bool) -> dict[str, Any]:
     inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing")}
-    sections = {"vehicle": _section("vehicle", complete, inner)}
+    inner["tail"] = _section("vehicle.tail", complete)
+    sections = {"vehicle": _section("vehicle", complete, inner, ("tail",))}
     return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
 
 

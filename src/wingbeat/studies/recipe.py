@@ -108,7 +108,8 @@ class Recipe:
     def value(self, path: str) -> Any:
         """Return what stands at a path before anything is varied, None where nothing does."""
         if (key := _key(path)) is not None:
-            value = self.species.numbers[key.path].value
+            number = self.species.numbers.get(key.path)
+            value = None if number is None else number.value
             listed = list(value) if isinstance(value, tuple) else value
             return _degrees(listed) if path.endswith("_deg") and not key.path.endswith("_deg") else listed
         if path in MOTION:

@@ -14,7 +14,7 @@ from wingbeat.datasets import flown
 from wingbeat.files import writing
 from wingbeat.style import GREEN, drawing
 from wingbeat.vehicle import Body
-from wingbeat.viewer.scene import scene
+from wingbeat.viewer.scene import scene, tail_of
 from wingbeat.viewer.shape import body_axes
 
 if TYPE_CHECKING:
@@ -98,6 +98,7 @@ class _Panel:
         self.loads = Line3DCollection([], colors=GREEN, linewidths=1.3)
         body = json.loads(dataset.attrs["vehicle"])["body"]
         self.body = _ellipsoid(*body_axes(Body(**body)))
+        self.tail = tail_of(dataset)
         axes.add_collection3d(self.faces, autolim=False)
         axes.add_collection3d(self.loads, autolim=False)
         tip = self.roots[:, -1]
@@ -121,9 +122,12 @@ class _Panel:
         height = trunk.mean(axis=1)[:, 2] / np.abs(trunk[..., 2]).max()
         grey = np.repeat((0.62 + 0.22 * height)[:, None], 3, axis=1)
         wing = self.colours(self.norm(self.alpha[k]))[:, :3]
-        self.faces.set_verts([*self.corners[k], *(self.corners[k] * mirror), *trunk])
-        self.faces.set_facecolor(np.concatenate([wing, wing, grey]))
-        self.faces.set_edgecolor(np.concatenate([np.full((2 * len(wing), 3), 0.25), grey]))
+        tail = [] if self.tail is None else [self.tail @ turn.T]
+        self.faces.set_verts([*self.corners[k], *(self.corners[k] * mirror), *trunk, *tail])
+        self.faces.set_facecolor(np.concatenate([wing, wing, grey, np.full((len(tail), 3), 0.75)]))
+        self.faces.set_edgecolor(
+            np.concatenate([np.full((2 * len(wing), 3), 0.25), grey, np.full((len(tail), 3), 0.25)])
+        )
         ends = np.stack([self.roots[k], self.roots[k] + self.forces[k]], axis=1)
         self.loads.set_segments(list(np.concatenate([ends, ends * mirror])))
         self.text.set_text(f"phase {self.phase[k]:.2f} of the beat")

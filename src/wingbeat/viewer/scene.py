@@ -12,8 +12,8 @@ import numpy as np
 from wingbeat.datasets import KIND, at_station, climb_text, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.vehicle import Body
-from wingbeat.viewer.shape import body_axes
+from wingbeat.vehicle import Body, Tail
+from wingbeat.viewer.shape import body_axes, tail_corners
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,6 +85,7 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
     vehicle, air = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air"))
     body, wing = vehicle["body"], vehicle["wing"]
     beat = json.loads(dataset.attrs["wingbeat"])
+    tail = tail_of(dataset)
     weight = (body["mass"] + 2 * wing["mass"]) * air["gravity"]
     return {
         "label": label,
@@ -94,9 +95,18 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "frequency": beat["frequency"],
         "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
         "body_axes": body_axes(Body(**body)),
+        **({} if tail is None else {"tail": tail.ravel().tolist()}),
         "downstrokes": _downstrokes(dataset["phase"].values, dataset["flap_rate"].values),
         "arrays": {name: _packed(*array) for name, array in _arrays(dataset, weight).items()},
     }
+
+
+def tail_of(dataset: xr.Dataset) -> np.ndarray | None:
+    """Return the corners of the tail in body axes, shape (3, 3) [m]; None without a tail."""
+    tail = json.loads(dataset.attrs["vehicle"]).get("tail")
+    if tail is None:
+        return None
+    return tail_corners(Tail(**tail), json.loads(dataset.attrs["wingbeat"]).get("tail_tilt", 0.0))
 
 
 def _summary(dataset: xr.Dataset, frequency: float) -> str:

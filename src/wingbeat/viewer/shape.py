@@ -1,4 +1,4 @@
-"""What a vehicle looks like where the model knows no shape: the body as an ellipsoid."""
+"""What a vehicle looks like where the model knows no shape: the body as an ellipsoid, the tail as a triangle."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wingbeat.vehicle import Body
+from wingbeat.vehicle import Body, Tail
 
 _WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass and inertia
 
@@ -27,3 +27,26 @@ def body_axes(body: Body) -> tuple[float, float]:
     roots = np.roots([1.0, 0.0, -squares, volume])
     long = max((r.real for r in roots if abs(r.imag) < 1e-12 and r.real > 0), default=volume ** (1 / 3))
     return float(long), math.sqrt(volume / float(long))
+
+
+def tail_corners(tail: Tail, tilt: float = 0.0) -> np.ndarray:
+    """Return root, left and right corner of a tail in body axes (forward, left, up), shape (3, 3) [m].
+
+    The triangle has the tail's area, incidence and aerodynamic centre, and the aspect ratio that gives a slender
+    tail its lift slope: ``2/pi`` times the slope. Its centre of area is the aerodynamic centre.
+
+    Parameters
+    ----------
+    tail : gives the numbers.
+    tilt : added to the incidence [rad].
+
+    >>> corners = tail_corners(Tail(area=0.0064, arm=0.16, lift_slope=math.pi))
+    >>> [round(float(x), 3) for x in corners[:, 0]], round(float(corners[1, 1]), 3)
+    ([-0.085, -0.198, -0.198], 0.057)
+    """
+    half_width = 0.5 * math.sqrt(2.0 / math.pi * tail.lift_slope * tail.area)
+    length, lifted = tail.area / half_width, tail.incidence + tilt
+    chord = np.array([math.cos(lifted), 0.0, math.sin(lifted)])
+    centre, left = np.array([-tail.arm, 0.0, tail.height]), np.array([0.0, half_width, 0.0])
+    back = centre - length / 3.0 * chord
+    return np.stack([centre + 2.0 * length / 3.0 * chord, back + left, back - left])

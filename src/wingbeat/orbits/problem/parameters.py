@@ -118,13 +118,16 @@ def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter
 
 
 def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
-    body, wing = problem.vehicle.body, problem.vehicle.wing
-    area = wing.semi_span * wing.mean_chord
-    for part, record in (("body", body), ("wing", wing)):
+    wing, parts = problem.vehicle.wing, vars(problem.vehicle)
+    area, chord = wing.semi_span * wing.mean_chord, wing.mean_chord
+    sizes = {"drag_area": area, "arm": chord, "height": chord}
+    for part, record in parts.items():
+        if record is None:  # no tail
+            continue
         for name, value in vars(record).items():
             path, place = f"{part}.{name}", ("species", "vehicle", part, name)
             if not isinstance(value, tuple):
-                yield _made(path, value, place, size=area if name == "drag_area" else 1.0)
+                yield _made(path, value, place, size=sizes.get(name, 1.0))
                 continue
             for i, item in enumerate(value):
                 here = f"{path}.{_AXES[i]}" if name == "shoulder" else f"{path}[{i}]"

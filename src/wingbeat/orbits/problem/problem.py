@@ -20,7 +20,7 @@ from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_cons
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
-from wingbeat.orbits.problem.unknowns import Unknowns
+from wingbeat.orbits.problem.unknowns import Unknowns, check_tilts
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
 
@@ -29,7 +29,7 @@ PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])  # residuals that matter, in the units of CLOSURE
 # Free parameters that change when or how fast the wings move along the stroke, or turn the whole of it.
-_NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt")
+_NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt", "tail_tilt")
 FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
 SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
 CLIMB_LIMITS: dict[str, Any] = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB, "unit": "m/s"}
@@ -235,10 +235,7 @@ class OrbitProblem:
                 faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
             elif name not in bounds:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
-        ahead, _, above = self.vehicle.wing.shoulder
-        if "stroke_plane_tilt" in free and ahead == 0 and above == 0:
-            rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
-            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it fixed")
+        check_tilts(self.vehicle, free, faults)
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if self.minimise.parameter and self.minimise.parameter not in free:

@@ -1,10 +1,13 @@
-"""The unknowns that the solver varies."""
+"""The unknowns that the solver varies, and those that would change nothing."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
@@ -22,3 +25,21 @@ class Unknowns:
     lower: np.ndarray
     upper: np.ndarray
     scale: np.ndarray
+
+
+def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
+    """Note a fault for each free tilt that this vehicle flies the same with.
+
+    Parameters
+    ----------
+    vehicle : what flies.
+    free : names of the free parameters.
+    faults : takes the faults.
+    """
+    ahead, _, above = vehicle.wing.shoulder
+    if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
+        rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
+        faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it fixed")
+    if "tail_tilt" in free and vehicle.tail is None:
+        rule = "changes nothing: there is no tail"
+        faults.add("free", "tail_tilt", rule, "set tail.area, tail.arm and tail.lift_slope, or leave it fixed")

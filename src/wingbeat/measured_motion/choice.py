@@ -130,8 +130,9 @@ def significant(value: float) -> str:
     """
     if not math.isfinite(value) or value == 0:
         return f"{value:g}"
-    digits = 1 - math.floor(math.log10(abs(value)))
-    return f"{round(value, digits):.{max(digits, 0)}f}"
+    rounded = float(f"{value:.1e}")
+    digits = 1 - math.floor(math.log10(abs(rounded)))
+    return f"{rounded:.{max(digits, 0)}f}"
 
 
 def _distance(model: CoefficientModel, reynolds: float) -> float:

@@ -17,7 +17,7 @@ _FORCES = {"fx_n": "fx", "fz_n": "fz"}
 # "optionally `_se` columns": every way in which they may be named.
 _ERRORS = {f"{axis}{ending}": axis for axis in ("fx", "fz") for ending in ("_n_se", "_se_n", "_se")}
 # Share of a step by which the times of forces and strips may differ.
-_SAME_TIME = 0.02
+_SAME_TIME = 0.1
 
 
 def read_forces(
@@ -68,15 +68,15 @@ def _matched(
         if not len(given):
             faults.add(sheet.file, "0 rows", "holds no forces", "one row for each time of the strips")
         return None
-    bounds = [bound if isinstance(bound, int | float) else None for bound in window]
-    low, high = (times[0] if bounds[0] is None else bounds[0]), (times[-1] if bounds[1] is None else bounds[1])
+    low, high = (end if bound is None else bound for bound, end in zip(window, times[[0, -1]], strict=True))
     slack = _SAME_TIME * float(np.diff(times).min()) if len(times) > 1 else 0.0
     after = np.clip(np.searchsorted(given, times), 0, len(given) - 1)
     before_it = np.maximum(after - 1, 0)
     nearest = np.where(np.abs(given[before_it] - times) < np.abs(given[after] - times), before_it, after)
     found = np.abs(given[nearest] - times) <= slack
     judged = (times >= low - slack) & (times <= high + slack)
-    rows = int(((given >= low - slack) & (given <= high + slack)).sum())
+    # Without a window every row counts, also those before and after the strips.
+    rows = len(given) if window == (None, None) else int(((given >= low - slack) & (given <= high + slack)).sum())
     if rows != judged.sum() or not found[judged].all():
         lacking = times[judged & ~found]
         rule = f"must be the {judged.sum()} times of the strips"

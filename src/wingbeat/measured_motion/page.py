@@ -10,8 +10,9 @@ from wingbeat.measured_motion.scores import Score
 _HEAD = """# Air loads on measured motions
 
 `uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It moves
-strips of a wing as somebody measured them, and compares the computed forces with the measured ones. `uv run
-wingbeat validate CASE.toml` does the same for a case of your own.
+strips of a wing as somebody measured them, and compares the computed forces with the measured ones. For a case
+of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` and the docstring of
+`wb.read_strip_case` describe its files.
 
 ## What is compared
 
@@ -96,7 +97,9 @@ def _section(found: Validation, figure: str) -> str:
     for axis in ("fz", "fx"):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            text = f"The best sine for {axis} has an rms of {sine['rms']:.2f} weights."
+            text = f"The best sine for {axis} has an rms of {sine['rms']:.2f} weights"
+            about = sine["rms_about_mean"]
+            text += "." if about is None else f", {about:.2f} of the measured spread."
             text += "" if noise is None else f" The measurement's own standard error is {noise:.2f} weights."
             lines += [text, ""]
     lines += [f"Note: {note}." for note in found.notes]

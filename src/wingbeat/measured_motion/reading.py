@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -57,13 +56,14 @@ def read_strip_case(path: str | Path) -> StripCase:
     _check_keys(faults, given, path.name)
     strips = _table(faults, given, "strips", path, lambda sheet: read_strips(faults, sheet))
     times = None if strips is None else strips.arrays["times"]
+    window: tuple[Any, Any] = (None, None)
     if strips is not None and times is not None:
         before = len(faults.faults)
         check_arrays(faults, strips.arrays, _frequency(given), strips.where)
         if len(faults.faults) == before:
             start, end = given.get("from"), given.get("to")
             check_window(faults, times, start, end, lambda name: f"{path.name}, {_WINDOW[name]}")
-    window = given.get("from"), given.get("to")
+            window = (start, end) if len(faults.faults) == before else window
     measured = _table(faults, given, "forces", path, lambda sheet: read_forces(faults, sheet, times, window))
     faults.raise_if_any()
     assert strips is not None
@@ -87,9 +87,10 @@ def read_strip_case(path: str | Path) -> StripCase:
 
 def _frequency(given: dict[str, Any]) -> float:
     """Return the frequency that a case states, or one that no step of time is judged by."""
-    frequency = given.get("frequency")
-    known = is_number(frequency) and 0 < frequency < math.inf
-    return float(frequency) if known else _UNKNOWN_FREQUENCY
+    frequency, limits = given.get("frequency"), SCALAR_LIMITS["frequency"]
+    if is_number(frequency) and limits.least <= frequency <= limits.most:
+        return float(frequency)
+    return _UNKNOWN_FREQUENCY
 
 
 def shipped_cases() -> list[Path]:

@@ -94,11 +94,12 @@ def sine_score(case: StripCase, axis: str) -> dict[str, float | None]:
     axis : "fx" or "fz".
     """
     if axis not in case.forces:
-        return {"rms": None, "correlation": None, "amplitude": None}
+        return {"rms": None, "rms_about_mean": None, "correlation": None, "amplitude": None}
     sine = best_sine(case, axis)
     found = score(case, axis, sine)
     amplitude = float(np.ptp(sine)) / 2
-    return {"rms": found.rms, "correlation": found.correlation, "amplitude": amplitude}
+    scores = {"rms": found.rms, "rms_about_mean": found.rms_about_mean, "correlation": found.correlation}
+    return {**scores, "amplitude": amplitude}
 
 
 def best_sine(case: StripCase, axis: str) -> Array:

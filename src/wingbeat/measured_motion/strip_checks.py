@@ -16,7 +16,8 @@ Where = Callable[[str, tuple[int, ...]], str]
 FEWEST = 8
 # Widest step in beats: with fewer than five times a beat, neither speeds nor accelerations can be told.
 _WIDEST = 0.2
-_NARROWEST = 1e-7
+# Narrowest step over the widest: a spline through closer times would be all noise.
+_NARROWEST = 1e-3
 # Faults of one kind that are listed one by one.
 _LISTED = 5
 
@@ -112,8 +113,9 @@ def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float,
     wide = np.append(False, steps * frequency > _WIDEST)
     rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
     _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? else fill the gap")
-    close = np.append(False, steps * frequency < _NARROWEST)
-    _list(faults, close, times, "times", where, "comes too soon after the time before it [s]", "drop one")
+    close = np.append(False, steps < _NARROWEST * steps.max())
+    rule = f"comes after less than {_NARROWEST:g} of the widest step [s]"
+    _list(faults, close, times, "times", where, rule, "drop one of the two")
 
 
 def _list(

@@ -198,15 +198,20 @@ def _sections(case: StripCase, chord: Array, width: Array) -> _Sections:
 
 
 def wing_ranges(case: StripCase, ahead: Array, width: Array) -> list[tuple[int, int]]:
-    """Return the first strip of each wing and the one after its last: strips side by side that run one way."""
+    """Return the first strip of each wing and the one after its last.
+
+    Strips of a wing lie side by side, run one way, and are on one side of the body.
+    """
     steps = np.diff(case.position, axis=1)
     middle = 0.5 * (ahead[:, :-1] + ahead[:, 1:])
     steps = steps - _dot(steps, middle)[..., None] * middle
     apart = np.median(np.sqrt(_dot(steps, steps)) / (0.5 * (width[:, :-1] + width[:, 1:])), axis=0)
     back = np.append(False, np.median(_dot(steps[:, 1:], steps[:, :-1]), axis=0) < 0)
+    left = np.median(case.position[..., 1], axis=0) > 0
+    other_side = (left[1:] != left[:-1]) & (not case.mirrored)
     starts = [0]
     for i in range(len(apart)):
         # The step after one that begins a wing has no step of that wing before it to turn back from.
-        if apart[i] > _APART or (back[i] and i != starts[-1]):
+        if apart[i] > _APART or other_side[i] or (back[i] and i != starts[-1]):
             starts.append(i + 1)
     return list(zip(starts, [*starts[1:], case.area.shape[1]], strict=True))

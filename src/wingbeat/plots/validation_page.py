@@ -12,8 +12,8 @@ from wingbeat.measured_motion.scores import best_sine
 from wingbeat.measured_motion.strip_motion import moves_down
 from wingbeat.style import (
     BLUE,
+    COLUMN,
     FIRST,
-    GREY,
     ORANGE,
     PAGE,
     SECOND,
@@ -54,7 +54,8 @@ def validation_page(found: Validation) -> Figure:
     through_time = [axis for axis in ("fz", "fx") if axis in case.forces]
     axes_shown = through_time or ["fz"]
     rows = 3 if through_time else 2
-    figure = new_figure(PAGE if len(axes_shown) > 1 else 0.7 * PAGE, 20.0 + 48.0 * rows)
+    width = PAGE if len(axes_shown) > 1 else 0.7 * PAGE if through_time else COLUMN
+    figure = new_figure(width, 20.0 + 40.0 * rows)
     heights = (3, 2, 2) if through_time else (3, 2)
     grid = figure.subplots(rows, len(axes_shown), sharex=True, squeeze=False, height_ratios=heights)
     for panels, axis in zip(grid.T, axes_shown, strict=True):
@@ -84,7 +85,7 @@ def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]
     """Return each row with its label and look, those behind first."""
     best = found.recommended
     same = [row for row in found.rows if row is not best and row.aero.coefficients is best.aero.coefficients]
-    grey: dict[str, Any] = {"color": GREY, "linewidth": 0.4, "alpha": 0.7}
+    grey: dict[str, Any] = {"color": "0.65", "linewidth": 0.4}
     others = [row for row in found.rows if row is not best and row not in same]
     styled = [(row, "other models" if i == 0 else "_", grey) for i, row in enumerate(others)]
     styled += [(row, row_label(row), style) for row, style in zip(same, _LADDER, strict=False)]
@@ -114,7 +115,7 @@ def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
         panel.axhline(mean, label="measured mean", **_MEASURED)
         computed = found.case.mean(getattr(found.recommended.loads, axis)) / case.weight
         panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="its mean")
-    legend_above(panel, columns=3)
+    legend_above(panel, columns=3 if axis in case.forces else 2)
 
 
 def _draw_residual(panel: Axes, found: Validation, axis: str) -> None:
@@ -139,7 +140,7 @@ def _draw_alpha(panel: Axes, found: Validation) -> None:
         strip = int(np.abs(side - station * side.max()).argmin())
         line = alpha[:, strip]
         jumps = np.abs(np.diff(line, prepend=line[:1])) > 180.0
-        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} of the reach", **style)
+        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} reach", **style)
     panel.axhline(0.0, color="0.6", linewidth=0.6)
     legend_above(panel)
 

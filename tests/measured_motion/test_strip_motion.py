@@ -18,7 +18,9 @@ ARRAYS = ("position", "chord", "area", "velocity", "rear_velocity")
 
 
 def loads(case):
-    return strip_loads(case, strip_motion(case), ALL_TERMS)
+    motion = strip_motion(case)
+    moving = motion.in_moving_air(case, momentum_inflow(case, ALL_TERMS.induced_factor))
+    return strip_loads(case, motion, moving, ALL_TERMS)
 
 
 def same(found, wanted, share=1e-9):

@@ -43,9 +43,10 @@ def validate(
             "All models if left out.",
         ),
     ] = None,
-    extension: Annotated[str, Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}.")] = (
-        "mirrored"
-    ),
+    extension: Annotated[
+        str | None,
+        Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}."),
+    ] = None,
     unsteady: Annotated[
         str | None, Parameter(help="Unsteady terms: none or thin-aerofoil; rows with both if left out.")
     ] = None,
@@ -74,7 +75,8 @@ def validate(
         faults.add("--output", str(output), "is not a page", "end it in .md")
     if plot is not None and case is None:
         faults.add("--plot", str(plot), "draws one case", "name the case, or write the page with -o")
-    faults.choice("--extension", extension, EXTENSIONS)
+    if extension is not None:
+        faults.choice("--extension", extension, EXTENSIONS)
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
     paths = shipped_cases() if case is None else [case]

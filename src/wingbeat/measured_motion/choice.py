@@ -7,11 +7,13 @@ The rule never sees a measured force. It follows from what is known of the flow,
 2. Below a Reynolds number of 10 000 the vortex on the leading edge stays attached while a wing turns about its
    root, on wings of insects and hummingbirds alike (Usherwood and Ellington 2002, doi 10.1242/jeb.205.11.1565): the
    polar of a revolving wing, `dickinson`. It holds its own induced flow.
-3. Above, feathered and membrane wings have models of their names; a rigid wing has the plate, `su-fan`.
+3. Above, feathered and membrane wings have models of their names; a rigid wing has the plate, `su-fan`. In slow
+   flight, below twice the induced speed of hover, a wing moves as a revolving one, and a model named so for its
+   kind (`feathered-revolving`) comes first: a revolving wing stalls later and holds its own induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
    section 8.2, draws the line between 0.05 and 0.2): rotation and added mass.
-5. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight.
-   Slower than twice the induced speed of hover it is not: momentum inflow, where a model states its aspect ratio.
+5. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight. In
+   slow flight it is not: momentum inflow, where a model states its aspect ratio.
 """
 
 from __future__ import annotations
@@ -96,7 +98,8 @@ def wanted_model(regime: Regime, names: list[str]) -> str:
     """
     if regime.reynolds < _ATTACHED_BELOW:
         return _REVOLVING
-    return regime.wing if regime.wing in names else _PLATE
+    slow = [f"{regime.wing}-revolving"] if regime.slowness < _SLOW else []
+    return next((name for name in (*slow, regime.wing) if name in names), _PLATE)
 
 
 def preference(regime: Regime, aero: BladeElement, wanted: str) -> tuple[float, ...]:

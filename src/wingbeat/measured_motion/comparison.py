@@ -16,7 +16,7 @@ from wingbeat.measured_motion.choice import Regime, preference, reason, regime_o
 from wingbeat.measured_motion.reading import read_strip_case
 from wingbeat.measured_motion.scores import Score, floor, score, sine_score
 from wingbeat.measured_motion.strip_case import AXES, StripCase
-from wingbeat.measured_motion.strip_loads import StripLoads, strip_loads
+from wingbeat.measured_motion.strip_loads import StripLoads, momentum_inflow, strip_loads
 from wingbeat.measured_motion.strip_motion import StripMotion, strip_motion
 
 
@@ -146,12 +146,16 @@ def validate(
     regime = regime_of(measured, motion)
     wanted = wanted_model(regime, list(LIBRARY))
     best = min(loads, key=lambda one: preference(regime, one, wanted))
-    rows = tuple(_row(measured, motion, one, one is best) for one in loads)
+    moving = {"none": motion}
+    if any(one.inflow != "none" for one in loads):
+        moving["momentum"] = motion.in_moving_air(measured, momentum_inflow(measured, induced_factor))
+    rows = tuple(
+        _row(measured, one, one is best, strip_loads(measured, motion, moving[one.inflow], one)) for one in loads
+    )
     return Validation(measured, motion, regime, rows, reason(regime, best, wanted))
 
 
-def _row(case: StripCase, motion: StripMotion, aero: BladeElement, recommended: bool) -> ValidationRow:
-    loads = strip_loads(case, motion, aero)
+def _row(case: StripCase, aero: BladeElement, recommended: bool, loads: StripLoads) -> ValidationRow:
     fx, fz = score(case, "fx", loads.fx), score(case, "fz", loads.fz)
     return ValidationRow(aero, recommended, fx, fz, float(case.mean(loads.power)), loads)
 

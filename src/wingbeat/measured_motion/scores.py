@@ -14,9 +14,8 @@ Array = NDArray[np.float64]
 
 # Means and spreads below this share of the largest measured force are none.
 _NOTHING = 1e-3
-# Steps of the beat in which the lag is looked for, and the longest one either way, in beats.
-_STEPS = 720
-_LONGEST = 0.5
+# Steps of a beat in which the lag is looked for, up to half a beat either way.
+_STEPS = 360
 # Share of the judged frames that a shifted force must still meet.
 _OVERLAP = 0.6
 
@@ -141,28 +140,29 @@ def _finite(value: float) -> float | None:
 
 def _lag(case: StripCase, measured: Array, force: Array) -> float | None:
     """Return by which share of a beat the computed force must come earlier to agree best with the measured one."""
-    beat, here = 1.0 / case.frequency, case.inside
+    step, here = 1.0 / (case.frequency * _STEPS), case.inside
     first, last = case.times[here][0], case.times[here][-1]
     repeats = case.period if case.period is not None and here.all() else None
-    at = np.linspace(first, first + repeats if repeats else last, _STEPS, endpoint=repeats is None)
-    wanted = _at(case.times[here], measured[here], at, repeats)
-    shifts = np.arange(-_STEPS // 2, _STEPS // 2) / _STEPS
-    shifts = shifts[np.abs(shifts) <= _LONGEST]
-    found = []
-    for shift in shifts:
-        moved = at + shift * beat
-        there = np.full(len(at), True) if repeats else (moved >= case.times[0]) & (moved <= case.times[-1])
-        if there.mean() < _OVERLAP:
+    count = round(repeats / step) if repeats else int((last - first) / step) + 1
+    wanted = _at(case.times[here], measured[here], first + step * np.arange(count), repeats)
+    # On one grid of even steps a shift is a count of steps.
+    most = _STEPS // 2
+    at = first + step * np.arange(-most, count + most)
+    there = np.full(len(at), True) if repeats else (at >= case.times[0]) & (at <= case.times[-1])
+    moved, found = _at(case.times, force, at, repeats), []
+    for shift in range(2 * most + 1):
+        met = there[shift : shift + count]
+        if met.mean() < _OVERLAP:
             found.append(-math.inf)
             continue
-        one, other = wanted[there], _at(case.times, force, moved[there], repeats)
+        one, other = wanted[met], moved[shift : shift + count][met]
         one, other = one - one.mean(), other - other.mean()
         size = math.sqrt(float((one @ one) * (other @ other)))
         found.append(float(one @ other) / size if size > 0 else -math.inf)
     best = int(np.argmax(found))
     if not math.isfinite(found[best]):
         return None
-    return float(shifts[best] + _vertex(found, best) / _STEPS)
+    return (best - most + _vertex(found, best)) / _STEPS
 
 
 def _vertex(values: list[float], best: int) -> float:

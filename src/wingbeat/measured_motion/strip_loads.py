@@ -50,18 +50,16 @@ def momentum_inflow(case: StripCase, factor: float) -> tuple[float, float]:
     return float(forward), float(up)
 
 
-def strip_loads(case: StripCase, motion: StripMotion, aero: BladeElement) -> StripLoads:
+def strip_loads(case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement) -> StripLoads:
     """Return the air loads of the wings of a case.
 
     Parameters
     ----------
     case : the measured motion.
     motion : the same through still air, from `strip_motion`.
+    moving : the same through the air at the wings; where there is inflow, the motion `in_moving_air`.
     aero : coefficients and terms; its number of strips and point of force have no part in it.
     """
-    moving = motion
-    if aero.inflow != "none":
-        moving = motion.in_moving_air(case, momentum_inflow(case, aero.induced_factor))
     turns = aero.unsteady != "none"
     numbers = (motion.chord, motion.width, moving.chord_speed, moving.normal_speed, motion.turning)
     loads = (_turning if turns else _steady)(aero.kernel(), case.density, case.area, *numbers)

@@ -46,6 +46,13 @@ def test_larger_wings_get_the_model_of_their_kind_where_there_is_one(wing):
     assert wanted_model(found, ["su-fan"]) == "su-fan"
 
 
+def test_slow_wings_get_the_revolving_model_of_their_kind():
+    slow, fast = (regime(**BIRD, speed=speed, wing="feathered") for speed in (1.0, 12.0))
+    names = ["su-fan", "feathered", "feathered-revolving"]
+    assert (wanted_model(slow, names), wanted_model(fast, names)) == ("feathered-revolving", "feathered")
+    assert wanted_model(regime(**BIRD, speed=1.0, wing="membrane"), names) == "su-fan"
+
+
 def test_a_kind_that_is_not_said_is_guessed_and_said_so():
     insect, bird = regime(**INSECT), regime(**BIRD, speed=12.0)
     assert (insect.wing, insect.guessed, bird.wing, bird.guessed) == ("rigid", True, "feathered", True)

@@ -158,10 +158,10 @@ def reason(regime: Regime, aero: BladeElement, wanted: str) -> str:
     kind = f"{regime.wing} wing" + (" (guessed from mass and Reynolds number)" if regime.guessed else "")
     said = f"{kind}, Reynolds number {significant(regime.reynolds)}"
     said += f", reduced frequency {regime.reduced_frequency:.2g}"
-    why = (
-        "the model of its kind" if wanted == regime.wing else "above a Reynolds number of 10000, the plate's polar"
-    )
-    if regime.reynolds < _ATTACHED_BELOW:
+    why = "the model of its kind" + (" in slow flight" if wanted.endswith("-revolving") else "")
+    if wanted == _PLATE:
+        why = "above a Reynolds number of 10000, the plate's polar"
+    elif wanted == _REVOLVING:
         why = "below a Reynolds number of 10000, a revolving wing's polar"
     parts = [f"{said}: {wanted} ({why})"]
     if aero.coefficients.name != wanted:

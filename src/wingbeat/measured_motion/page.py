@@ -37,10 +37,11 @@ of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` 
    2002](https://doi.org/10.1242/jeb.205.11.1565)). The rule takes the polar of a revolving wing, `dickinson`,
    which holds its own induced flow.
 3. Above, it takes the model named after the kind of wing where there is one, and the plate, `su-fan`, otherwise.
+   In slow flight, below twice the induced speed of hover, a model of revolving wings of this kind comes first.
 4. Above a reduced frequency of 0.1 it adds rotation and added mass (Leishman 2006, Principles of Helicopter
    Aerodynamics, draws the line between 0.05 and 0.2).
-5. It adds momentum inflow slower than twice the induced speed of hover, where the polar of a finite wing holds
-   too little of it.
+5. It adds momentum inflow in slow flight, where the polar of a finite wing does not hold the right one, if the
+   model states its aspect ratio.
 
 """
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat.errors import FaultList, suggest
+from wingbeat.errors import WHOLE, FaultList, suggest
 from wingbeat.experiment.headings import Sheet, parse_numbers
 
 Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray
     odd = np.flatnonzero((strip != np.round(strip)) | (np.abs(strip) > 1e6))
     for i in odd[:LISTED]:
         where = f"{sheet.file} row {sheet.rows[i][0]}, column strip"
-        faults.add(where, float(strip[i]), "must be a whole number", "number the strips along the wing")
+        faults.add(where, float(strip[i]), WHOLE, "number the strips along the wing")
     if len(odd):
         return None
     order = np.argsort(strip, kind="stable")

@@ -24,6 +24,12 @@ if TYPE_CHECKING:
     from wingbeat.errors import WingbeatError as WingbeatError
     from wingbeat.errors import WorkerError as WorkerError
     from wingbeat.kinematics import Wingbeat as Wingbeat
+    from wingbeat.measured_motion.comparison import Validation as Validation
+    from wingbeat.measured_motion.comparison import ValidationRow as ValidationRow
+    from wingbeat.measured_motion.comparison import validate as validate
+    from wingbeat.measured_motion.reading import read_strip_case as read_strip_case
+    from wingbeat.measured_motion.reading import shipped_cases as shipped_cases
+    from wingbeat.measured_motion.strip_case import StripCase as StripCase
     from wingbeat.mechanics.equations_of_motion import air_forces as air_forces
     from wingbeat.mechanics.equations_of_motion import equations_of_motion as equations_of_motion
     from wingbeat.mechanics.equations_of_motion import generalised_torques as generalised_torques
@@ -124,10 +130,13 @@ _HOME = {
     "StartFamily": "orbits.options.start_families",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
+    "StripCase": "measured_motion.strip_case",
     "Study": "studies.study",
     "Tail": "vehicle",
     "TermTrace": "results.terms",
     "TorqueDrivenFlight": "results.flight",
+    "Validation": "measured_motion.comparison",
+    "ValidationRow": "measured_motion.comparison",
     "Vehicle": "vehicle",
     "Wing": "vehicle",
     "Wingbeat": "kinematics",
@@ -150,8 +159,10 @@ _HOME = {
     "orbit_spread": "results.spread",
     "plan_study": "studies.study",
     "power_account": "results.power",
+    "read_strip_case": "measured_motion.reading",
     "robot": "species",
     "sensitivities": "results.sensitivities",
+    "shipped_cases": "measured_motion.reading",
     "simulate": "results.flight",
     "simulate_torque_driven": "results.flight",
     "solve_curve": "results.curve",
@@ -160,6 +171,7 @@ _HOME = {
     "species_names": "species",
     "trace_terms": "results.terms",
     "uncertainty_by_samples": "results.sensitivities",
+    "validate": "measured_motion.comparison",
 }
 _MODULES = {
     "aero": "aero",

@@ -37,6 +37,7 @@ COMMANDS = {
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
     "reduce": "Turn load-cell records into lift, drag, moment and centre-of-pressure coefficients.",
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
+    "validate": "Compute the air loads on measured motions, and compare them with measured forces.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",

@@ -89,7 +89,7 @@ def read_sheet(path: str | Path) -> Sheet:
     if not table:
         faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
         faults.raise_if_any()
-    header = [cell.strip() for cell in next(csv.reader([table[0][1]]))]
+    header = _cells(table[0][1])
     faults.raise_if_any()
     return Sheet(path.name, constants, table[0][0], header, table[1:])
 
@@ -119,7 +119,7 @@ def parse_numbers(
                 sheet.file, f"{MAX_CELL_FAULTS} faults and more", "too many to list", "is it the right file?"
             )
             break
-        cells = [cell.strip() for cell in next(csv.reader([text]))]
+        cells = _cells(text)
         if len(cells) != len(names):
             rule = f"has {len(cells)} cells where {len(names)} columns are named"
             faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
@@ -128,6 +128,13 @@ def parse_numbers(
             if cell or name not in blank:
                 values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
     return values
+
+
+def _cells(text: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([text]))]
+    except csv.Error:  # a cell of more than 131072 characters
+        return [text]
 
 
 def _number(faults: FaultList, where: str, cell: str) -> float:

@@ -1,4 +1,4 @@
-"""Figures: pages of a wingbeat or a flight, of a power curve, of a fit, and how figures are saved."""
+"""Figures: pages of a wingbeat or a flight, of a curve, of a fit, of a measured motion, and how they are saved."""
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
@@ -12,6 +12,7 @@ from wingbeat.plots.saving import save_figure as save_figure
 from wingbeat.plots.study_page import study_page as study_page
 from wingbeat.plots.terms_page import terms_page as terms_page
 from wingbeat.plots.tornado_page import tornado_page as tornado_page
+from wingbeat.plots.validation_page import validation_page as validation_page
 from wingbeat.plots.wingbeat_page import wingbeat_page as wingbeat_page
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "study_page",
     "terms_page",
     "tornado_page",
+    "validation_page",
     "wingbeat_page",
 ]
 

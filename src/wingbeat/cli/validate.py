@@ -1,0 +1,150 @@
+"""``wingbeat validate``: air loads on measured motions against measured forces."""
+
+from __future__ import annotations
+
+import json as json_format
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.aero import EXTENSIONS
+from wingbeat.cli.options import check_files, check_outputs
+from wingbeat.cli.streams import plain_console
+from wingbeat.errors import FaultList
+from wingbeat.files import write_atomically
+from wingbeat.measured_motion import Validation, ValidationRow, read_strip_case, shipped_cases
+from wingbeat.measured_motion import validate as validated
+from wingbeat.measured_motion.page import validation_text
+from wingbeat.plots import save_figure, validation_page
+
+_NUMBERS = {
+    "mean": "mean_ratio",
+    "peak": "peak_ratio",
+    "rms": "rms",
+    "about\nmean": "rms_about_mean",
+    "corr.": "correlation",
+    "lag": "lag",
+}
+
+
+def validate(
+    case: Annotated[
+        Path | None, Parameter(help="A strip-motion case (.toml); those of the package if left out.")
+    ] = None,
+    /,
+    *,
+    aero: Annotated[
+        list[str] | None,
+        Parameter(
+            negative=(),
+            help="Coefficients: su-fan, dickinson, ..., a table (.csv) or a fit (.toml); repeat for several. "
+            "All models if left out.",
+        ),
+    ] = None,
+    extension: Annotated[
+        str | None,
+        Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}."),
+    ] = None,
+    unsteady: Annotated[
+        str | None, Parameter(help="Unsteady terms: none or thin-aerofoil; rows with both if left out.")
+    ] = None,
+    inflow: Annotated[
+        str | None, Parameter(help="Induced flow: none or momentum; rows with both if left out.")
+    ] = None,
+    induced_factor: Annotated[float, Parameter(help="Induced power of the inflow over that of an ideal disc.")] = (
+        1.2
+    ),
+    json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
+    ] = None,
+) -> None:
+    """Compute the air loads of every coefficient model on a measured motion, and compare them with the forces.
+
+    Each row adds one step of the ladder: no terms, rotation and added mass, momentum inflow, both. One row is
+    recommended, by a rule that never sees the measured force. A case is a TOML file with tables of strips and
+    forces (.csv) beside it. With `--json`, several cases are a list under `cases`.
+
+    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md
+    """
+    faults = FaultList()
+    if output is not None and output.suffix.lower() != ".md":
+        faults.add("--output", str(output), "is not a page", "end it in .md")
+    if plot is not None and case is None:
+        faults.add("--plot", str(plot), "draws one case", "name the case, or write the page with -o")
+    if extension is not None:
+        faults.choice("--extension", extension, EXTENSIONS)
+    check_files(faults, output, plot=plot)
+    faults.raise_if_any()
+    paths = shipped_cases() if case is None else [case]
+    cases = [read_strip_case(path) for path in paths]
+    pictures = [] if output is None else [output.with_name(f"{output.stem}_{_slug(one.name)}.png") for one in cases]
+    check_outputs(output, plot, *pictures)
+    found = [validated(one, aero, unsteady, inflow, induced_factor, extension) for one in cases]
+    if plot is not None:
+        save_figure(validation_page(found[0]), plot)
+    for picture, one in zip(pictures, found, strict=False):
+        save_figure(validation_page(one), picture)
+    if output is not None:
+        write_atomically(output, validation_text(found, [picture.name for picture in pictures]))
+    if json:
+        said = [one.to_dict() for one in found]
+        print(json_format.dumps(said[0] if case is not None else {"cases": said}, indent=2, allow_nan=False))
+    else:
+        for one in found:
+            _print(one)
+    for path in (plot, output, *pictures):
+        if path is not None:
+            print(f"wrote {path}", file=sys.stderr)
+
+
+def _slug(name: str) -> str:
+    """Return a name with letters and digits only, for that of a file."""
+    return "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:80]
+
+
+def _print(found: Validation) -> None:
+    from rich.table import Table
+    from rich.text import Text
+
+    console = plain_console()
+    console.print(Text(found.case.name, style="bold"))
+    for axis, label in (("fz", "upward force"), ("fx", "forward force")):
+        scores = [getattr(row, axis) for row in found.rows]
+        known = {h: key for h, key in _NUMBERS.items() if any(getattr(one, key) is not None for one in scores)}
+        if not known:
+            continue
+        table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
+        for head in (label, "terms"):
+            table.add_column(Text(head), no_wrap=True)
+        for head in (*known, "power\n[W]"):
+            table.add_column(Text(head), justify="right", no_wrap=True)
+        for row, one in zip(found.rows, scores, strict=True):
+            numbers = [getattr(one, key) for key in known.values()]
+            table.add_row(*_cells(row, numbers), style="bold green" if row.recommended else "")
+        console.print(table)
+    console.print(f"* recommended: {found.reason}")
+    said = found.to_dict()
+    for axis in ("fz", "fx"):
+        sine, noise = said["null_model"][axis], said["floor"][axis]
+        if sine["rms"] is not None:
+            console.print(f"best sine at the beat's frequency, {axis}: rms {sine['rms']:.3f}")
+        if noise is not None:
+            console.print(f"standard error of the measurement, {axis}: rms {noise:.3f}")
+    for note in found.notes:
+        console.print(f"- {note}", style="yellow")
+    console.print(
+        "mean, peak: computed over measured; rms: over the weight; about mean: over the measured spread; "
+        "lag: share of a beat, late is positive\n"
+    )
+
+
+def _cells(row: ValidationRow, numbers: list[float | None]) -> list[str]:
+    aero = row.aero
+    name = ("* " if row.recommended else "  ") + aero.coefficients.name
+    terms = [term for term in (aero.unsteady, aero.inflow) if term != "none"]
+    shown = ["-" if value is None else f"{value:z.2f}" for value in numbers]
+    return [name, ("-", *terms, "both")[len(terms) + (len(terms) > 1)], *shown, f"{row.aerodynamic_power:.3g}"]

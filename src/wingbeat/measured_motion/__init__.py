@@ -1,0 +1,26 @@
+"""Measured motions of wings: read strip by strip, and held against the air loads of every model and term."""
+
+from wingbeat.measured_motion.choice import Regime
+from wingbeat.measured_motion.comparison import Validation, ValidationRow, validate
+from wingbeat.measured_motion.reading import read_strip_case, shipped_cases
+from wingbeat.measured_motion.scores import Score
+from wingbeat.measured_motion.strip_case import StripCase
+from wingbeat.measured_motion.strip_loads import StripLoads
+from wingbeat.measured_motion.strip_motion import StripMotion
+
+__all__ = [
+    "Regime",
+    "Score",
+    "StripCase",
+    "StripLoads",
+    "StripMotion",
+    "Validation",
+    "ValidationRow",
+    "read_strip_case",
+    "shipped_cases",
+    "validate",
+]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

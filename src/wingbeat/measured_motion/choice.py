@@ -1,0 +1,182 @@
+"""Which coefficient model and terms suit a motion: a rule of size, Reynolds number, reduced frequency and wing.
+
+The rule never sees a measured force. It follows from what is known of the flow, not from scores:
+
+1. The kind of wing is what the case says. If it says nothing, a flyer below 2.5 g whose wings work at Reynolds
+   numbers below 7000 is taken for an insect, with rigid wings; any other for a bird, with feathered ones.
+2. Below a Reynolds number of 10 000 the vortex on the leading edge stays attached while a wing turns about its
+   root, on wings of insects and hummingbirds alike (Usherwood and Ellington 2002, doi 10.1242/jeb.205.11.1565): the
+   polar of a revolving wing, `dickinson`. It holds its own induced flow.
+3. Above, feathered and membrane wings have models of their names; a rigid wing has the plate, `su-fan`. In slow
+   flight, below twice the induced speed of hover, a wing moves as a revolving one, and a model named so for its
+   kind (`feathered-revolving`) comes first: a revolving wing stalls later and holds its own induced flow.
+4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
+   section 8.2, draws the line between 0.05 and 0.2): rotation and added mass.
+5. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight. In
+   slow flight it is not: momentum inflow, where a model states its aspect ratio.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from wingbeat.aero.blade_element import BladeElement
+from wingbeat.aero.coefficient_model import CoefficientModel
+from wingbeat.aero.inflow import disc_area
+from wingbeat.measured_motion.strip_case import StripCase
+from wingbeat.measured_motion.strip_motion import StripMotion, semi_span
+
+# Dynamic viscosity of air at 15 to 20 degrees Celsius [kg/(m s)].
+_VISCOSITY = 1.8e-5
+_INSECT_MASS, _INSECT_REYNOLDS = 2.5e-3, 7e3
+_ATTACHED_BELOW = 1e4
+_UNSTEADY_ABOVE = 0.1
+_SLOW = 2.0
+_REVOLVING, _PLATE = "dickinson", "su-fan"
+
+
+@dataclass(frozen=True)
+class Regime:
+    """What decides which loads suit a motion.
+
+    Attributes
+    ----------
+    wing : "feathered", "membrane" or "rigid".
+    guessed : whether the kind of wing was guessed.
+    speed : mean speed of the quarter chords through the air across the span, by area [m/s].
+    chord : mean chord, by area [m].
+    reynolds : Reynolds number of that chord at that speed.
+    reduced_frequency : ``pi f c / U`` with the same chord and speed.
+    slowness : speed of flight over the induced speed of an ideal disc in hover, a ratio.
+    """
+
+    wing: str
+    guessed: bool
+    speed: float
+    chord: float
+    reynolds: float
+    reduced_frequency: float
+    slowness: float
+
+
+def regime_of(case: StripCase, motion: StripMotion) -> Regime:
+    """Return what decides which loads suit a motion.
+
+    Parameters
+    ----------
+    case : the measured motion.
+    motion : the same through still air, from `strip_motion`.
+    """
+    areas = case.area / case.area.sum(axis=1, keepdims=True)
+    speed = float(case.mean((areas * np.hypot(motion.chord_speed, motion.normal_speed)).sum(axis=1)))
+    chord = float(case.mean((areas * motion.chord).sum(axis=1)))
+    reynolds = case.density * speed * chord / _VISCOSITY
+    insect = case.mass < _INSECT_MASS and reynolds < _INSECT_REYNOLDS
+    area = float(disc_area(semi_span(case)))
+    hover = math.sqrt(case.weight / (2 * case.density * area))
+    return Regime(
+        wing=case.wing or ("rigid" if insect else "feathered"),
+        guessed=case.wing is None,
+        speed=speed,
+        chord=chord,
+        reynolds=reynolds,
+        reduced_frequency=math.pi * case.frequency * chord / max(speed, 1e-12),
+        slowness=case.speed / hover,
+    )
+
+
+def wanted_model(regime: Regime, names: list[str]) -> str:
+    """Return the name of the coefficient model that suits a motion best, of those in the library.
+
+    Parameters
+    ----------
+    regime : what decides.
+    names : of the models in the library.
+    """
+    if regime.reynolds < _ATTACHED_BELOW:
+        return _REVOLVING
+    slow = [f"{regime.wing}-revolving"] if regime.slowness < _SLOW else []
+    return next((name for name in (*slow, regime.wing) if name in names), _PLATE)
+
+
+def preference(regime: Regime, aero: BladeElement, wanted: str) -> tuple[float, ...]:
+    """Return how far air loads are from those that suit a motion: tuples of numbers, the least is the best.
+
+    Models that are not the wanted one follow by the distance of their Reynolds numbers, in powers of ten; those
+    that state none come last.
+
+    Parameters
+    ----------
+    regime : what decides.
+    aero : the air loads.
+    wanted : name of the coefficient model that suits best.
+    """
+    model = aero.coefficients
+    unsteady = regime.reduced_frequency > _UNSTEADY_ABOVE
+    slow = regime.slowness < _SLOW and model.aspect_ratio is not None
+    return (
+        float(model.name != wanted),
+        _distance(model, regime.reynolds),
+        float((aero.unsteady != "none") != unsteady),
+        float((aero.inflow != "none") != slow),
+    )
+
+
+def significant(value: float) -> str:
+    """Return a number to two digits, without an exponent.
+
+    >>> significant(12345.6), significant(0.0234)
+    ('12000', '0.023')
+    """
+    if not math.isfinite(value) or value == 0:
+        return f"{value:g}"
+    rounded = float(f"{value:.1e}")
+    digits = 1 - math.floor(math.log10(abs(rounded)))
+    return f"{rounded:.{max(digits, 0)}f}"
+
+
+def _distance(model: CoefficientModel, reynolds: float) -> float:
+    """Return how many powers of ten a Reynolds number lies outside of a model's range."""
+    if model.reynolds_range is None:
+        return math.inf
+    low, high = model.reynolds_range
+    return max(math.log10(low / max(reynolds, 1e-12)), math.log10(max(reynolds, 1e-12) / high), 0.0)
+
+
+def reason(regime: Regime, aero: BladeElement, wanted: str) -> str:
+    """Return in a sentence or two why air loads are the recommended ones.
+
+    Parameters
+    ----------
+    regime : what decides.
+    aero : the recommended air loads.
+    wanted : name of the coefficient model that suits best.
+    """
+    kind = f"{regime.wing} wing" + (" (guessed from mass and Reynolds number)" if regime.guessed else "")
+    said = f"{kind}, Reynolds number {significant(regime.reynolds)}"
+    said += f", reduced frequency {regime.reduced_frequency:.2g}"
+    why = "the model of its kind" + (" in slow flight" if wanted.endswith("-revolving") else "")
+    if wanted == _PLATE:
+        why = "above a Reynolds number of 10000, the plate's polar"
+    elif wanted == _REVOLVING:
+        why = "below a Reynolds number of 10000, a revolving wing's polar"
+    parts = [f"{said}: {wanted} ({why})"]
+    if aero.coefficients.name != wanted:
+        parts.append(f"it is not among the rows, and {aero.coefficients.name} is nearest")
+    unsteady = regime.reduced_frequency > _UNSTEADY_ABOVE
+    side = "above" if unsteady else "at most"
+    terms = "rotation and added mass" if unsteady else "no unsteady terms"
+    parts.append(f"{terms} (reduced frequency {side} {_UNSTEADY_ABOVE:g})")
+    if (aero.unsteady != "none") != unsteady:
+        parts.append("which the chosen rows do not offer")
+    if aero.coefficients.aspect_ratio is None:
+        parts.append("no momentum inflow (the polar holds its own)")
+    elif aero.inflow != "none":
+        parts.append("momentum inflow" + (" (slow flight)" if regime.slowness < _SLOW else ""))
+    else:
+        fast = regime.slowness >= _SLOW
+        parts.append("no momentum inflow" + (" (fast flight: the polar holds it)" if fast else ""))
+    return "; ".join(parts)

@@ -1,0 +1,203 @@
+"""The measured motion of a wing as strips through time, with the forces that were measured beside it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+from wingbeat.measured_motion.strip_checks import (
+    check_arrays,
+    check_measured,
+    check_scalars,
+    check_window,
+)
+
+Array = NDArray[np.float64]
+
+WINGS = ("feathered", "membrane", "rigid")
+AXES = ("fx", "fz")
+# A beat that is said to be whole may lack this share of itself or of the widest step beyond that.
+_SLACK = 0.02
+
+
+def _no_arrays() -> Mapping[str, Array]:
+    return {}
+
+
+@dataclass(frozen=True)
+class StripCase:
+    """A flight whose wings were measured strip by strip, and the forces on the animal or robot.
+
+    Axes are those of still air: x forward, y left, z up.
+
+    Parameters
+    ----------
+    name : of the case.
+    mass : of the animal or robot [kg].
+    density : of the air [kg/m3].
+    gravity : [m/s2].
+    frequency : wingbeats per second [Hz].
+    speed : forward speed through the air [m/s].
+    mirrored : whether the strips are those of one wing, or pair of wings, and the others are its mirror image.
+    periodic : whether the motion repeats after the last time; the times then cover whole beats.
+    times : of the measurement, rising [s], shape (n,).
+    position : of the quarter chord of each strip [m], shape (n, strips, 3).
+    chord : from the trailing to the leading edge [m], shape (n, strips, 3).
+    area : of each strip [m2], shape (n, strips).
+    velocity : of the wing's material at the quarter chord through still air [m/s], shape (n, strips, 3); None takes
+        it from the positions.
+    rear_velocity : the same at the three-quarter chord [m/s]; None takes the turning from the chords.
+    forces : any of "fx" (forward) and "fz" (up), of the whole animal [N], shape (n,); NaN where not measured.
+    errors : the standard errors of these [N], shape (n,).
+    mean_force : mean forward and upward force [N], in place of `forces`.
+    start, end : the part of the times that is judged [s]; None for the first and the last time.
+    wing : "feathered", "membrane" or "rigid"; None if unknown.
+
+    Attributes
+    ----------
+    notes : notes for the reader.
+
+    Raises
+    ------
+    InvalidInputError : numbers that are missing, not finite or beyond reason, arrays of the wrong shape, times that
+        do not rise or leave gaps, chords of no length, both or neither of `forces` and `mean_force`.
+    """
+
+    name: str
+    mass: float
+    density: float
+    gravity: float
+    frequency: float
+    speed: float
+    mirrored: bool
+    periodic: bool
+    times: Array
+    position: Array
+    chord: Array
+    area: Array
+    velocity: Array | None = None
+    rear_velocity: Array | None = None
+    forces: Mapping[str, Array] = field(default_factory=_no_arrays)
+    errors: Mapping[str, Array] = field(default_factory=_no_arrays)
+    mean_force: tuple[float, float] | None = None
+    start: float | None = None
+    end: float | None = None
+    wing: str | None = None
+    notes: tuple[str, ...] = field(default=(), init=False)
+
+    def __post_init__(self) -> None:
+        for name in MOTION:
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, as_array(getattr(self, name)))
+        faults = FaultList()
+        check_scalars(faults, {name: getattr(self, name) for name in SCALARS}, lambda name: name)
+        if self.wing is not None:
+            faults.choice("wing", self.wing, WINGS)
+        faults.raise_if_any()
+        check_arrays(faults, self.arrays(), self.frequency, _place)
+        faults.raise_if_any()
+        check_window(faults, self.times, self.start, self.end, lambda name: name)
+        faults.raise_if_any()
+        check_measured(faults, self)
+        faults.raise_if_any()
+        object.__setattr__(self, "notes", tuple(self._notes()))
+
+    def arrays(self) -> dict[str, Array | None]:
+        """Return the arrays of the motion by name."""
+        return {name: getattr(self, name) for name in MOTION}
+
+    @property
+    def weight(self) -> float:
+        """Weight of the animal or robot [N]."""
+        return self.mass * self.gravity
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Which of the times are judged, shape (n,)."""
+        first = self.times[0] if self.start is None else self.start
+        last = self.times[-1] if self.end is None else self.end
+        slack = 1e-9 * (self.times[-1] - self.times[0])
+        return (self.times >= first - slack) & (self.times <= last + slack)
+
+    @property
+    def period(self) -> float | None:
+        """Time after which the motion repeats [s]; None where it does not, or does not cover whole beats."""
+        covered = self.times[-1] - self.times[0]
+        whole = max(round(covered * self.frequency), 1) / self.frequency
+        gap = whole - covered
+        widest = float(np.diff(self.times).max()) * (1 + _SLACK) + _SLACK / self.frequency
+        return whole if self.periodic and -_SLACK / self.frequency <= gap <= widest else None
+
+    def weights(self) -> Array:
+        """Return the share of the judged time that each time stands for, shape (n,): the trapezoidal rule."""
+        steps = np.diff(self.times)
+        here = self.inside
+        if self.period is not None and here.all():
+            wrap = max(self.period - (self.times[-1] - self.times[0]), 0.0)
+            steps = np.append(steps, wrap)
+            shares = 0.5 * (steps + np.roll(steps, 1))
+        else:
+            between = np.where(here[:-1] & here[1:], steps, 0.0)
+            shares = 0.5 * (np.append(between, 0.0) + np.append(0.0, between))
+        return shares / shares.sum()
+
+    def mean(self, values: Array) -> Array:
+        """Return the mean over the judged time of values along the first axis.
+
+        Parameters
+        ----------
+        values : shape (n, ...).
+        """
+        weights, here = self.weights(), self.inside
+        return np.tensordot(weights[here], values[here], axes=1)
+
+    def _notes(self) -> list[str]:
+        notes = []
+        covered = float(np.ptp(self.times[self.inside])) * self.frequency
+        if self.periodic and self.period is None:
+            beats = float(np.ptp(self.times)) * self.frequency
+            notes.append(f"the times cover {beats:.2f} beats, not whole ones: taken as not periodic")
+        whole = self.period is not None and bool(self.inside.all())
+        if not whole and self.mean_force is not None and abs(covered - round(covered)) > 0.1:
+            notes.append(f"{covered:.2f} beats are judged: a part of a beat has a mean of its own")
+        if self.density > 10:
+            notes.append("the fluid is no air: the Reynolds number takes the viscosity of air")
+        return notes
+
+
+SCALARS = ("mass", "density", "gravity", "frequency", "speed", "mirrored", "periodic", "name")
+MOTION = ("times", "position", "chord", "area", "velocity", "rear_velocity")
+
+
+def _place(name: str, index: tuple[int, ...]) -> str:
+    """Return the place of an array's element as Python would write it."""
+    return f"{name}[{', '.join(map(str, index))}]" if index else name
+
+
+def strip_widths(chord: Array, area: Array) -> tuple[Array, Array]:
+    """Return the length of the chords and the widths of strips of these areas [m].
+
+    Parameters
+    ----------
+    chord : vectors [m], shape (..., 3).
+    area : [m2], shape (...).
+
+    >>> [float(value) for value in strip_widths(np.array([0.0, 0.3, 0.4]), np.array(0.1))]
+    [0.5, 0.2]
+    """
+    length = np.sqrt((chord * chord).sum(-1))
+    return length, area / length
+
+
+def as_array(values: Any) -> Array:
+    """Return numbers as an array of 64 bits; NaN alone where they are none."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return np.array(math.nan)

@@ -1,0 +1,181 @@
+"""What the motion of strips must satisfy before loads are computed on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.errors import FaultList
+
+# Where an element of an array stands: in a file or in Python.
+Where = Callable[[str, tuple[int, ...]], str]
+
+FEWEST = 8
+# Widest step in beats: with fewer than five times a beat, neither speeds nor accelerations can be told.
+_WIDEST = 0.2
+# Narrowest step over the widest: a spline through closer times would be all noise.
+_NARROWEST = 1e-3
+# Faults of one kind that are listed one by one.
+_LISTED = 5
+
+
+class Limits(NamedTuple):
+    """The range of a number or of a component, with its unit, and how to mend what lies outside."""
+
+    least: float
+    most: float
+    unit: str
+    fix: str = ""
+
+
+# The lower ends of mass, density and the like are far below any flyer; 0 itself is refused.
+SCALAR_LIMITS = {
+    "mass": Limits(1e-9, 1e6, "kg", "in kilograms"),
+    "density": Limits(1e-3, 1e4, "kg/m3", "air at sea level has 1.2"),
+    "gravity": Limits(1e-3, 1e3, "m/s2", "9.81 on Earth"),
+    "frequency": Limits(1e-3, 1e5, "Hz", "wingbeats per second"),
+    "speed": Limits(0.0, 1e3, "m/s", "0 in hover"),
+}
+_POSITIONS = Limits(-1e5, 1e5, "m", "in metres")
+_SPEEDS = Limits(-1e3, 1e3, "m/s", "in metres per second")
+ARRAY_LIMITS = {
+    "times": Limits(-1e7, 1e7, "s", "in seconds"),
+    "position": _POSITIONS,
+    "chord": Limits(-1e3, 1e3, "m", "in metres"),
+    "area": Limits(1e-14, 1e4, "m2", "in square metres; leave out a strip that has no area at any time"),
+    "velocity": _SPEEDS,
+    "rear_velocity": _SPEEDS,
+}
+_SHORTEST_CHORD = 1e-7
+_LARGEST_FORCE = 1e7
+
+
+def check_scalars(faults: FaultList, values: Mapping[str, Any], where: Callable[[str], str]) -> None:
+    """Note the numbers, texts and switches of a case that will not do."""
+    for name, value in values.items():
+        if name in SCALAR_LIMITS:
+            limits = SCALAR_LIMITS[name]
+            number = {"at_least": limits.least, "at_most": limits.most, "unit": limits.unit, "fix": limits.fix}
+            faults.number(where(name), value, **number)
+        elif name == "name" and not (isinstance(value, str) and value.strip() and value.isprintable()):
+            faults.add(where(name), value, "must be a text of one line", 'for example name = "pigeon, slow"')
+        elif name in ("mirrored", "periodic") and not isinstance(value, bool):
+            faults.add(where(name), value, "must be true or false", "without quotes")
+
+
+def check_arrays(
+    faults: FaultList, arrays: Mapping[str, NDArray[np.float64] | None], frequency: float, where: Where
+) -> None:
+    """Note arrays of another shape, numbers that are not finite or beyond reason, and chords of no length."""
+    times, area = arrays["times"], arrays["area"]
+    if times is None or times.ndim != 1 or area is None or area.ndim != 2 or not area.size:
+        faults.add(where("area", ()), "", "must have a row for each time and a column for each strip")
+        return
+    before, shape = len(faults.faults), (len(times), area.shape[1])
+    for name, values in arrays.items():
+        wanted = shape[:1] if name == "times" else shape if name == "area" else (*shape, 3)
+        if values is None:
+            continue
+        if values.shape != wanted:
+            faults.add(where(name, ()), values.shape, f"must have the shape {wanted}")
+            continue
+        limits = ARRAY_LIMITS[name]
+        with np.errstate(invalid="ignore"):
+            bad = ~((values >= limits.least) & (values <= limits.most))
+        rule = f"must be finite and from {limits.least:g} to {limits.most:g} {limits.unit}"
+        _list(faults, bad, values, name, where, rule, limits.fix)
+    if len(faults.faults) > before:
+        return
+    if len(times) < FEWEST:
+        faults.add(where("times", ()), len(times), f"must hold at least {FEWEST} times", "measure more often")
+        return
+    check_steps(faults, times, frequency, where)
+    chord = arrays["chord"]
+    assert chord is not None
+    length = np.sqrt((chord * chord).sum(-1))
+    rule = f"is the length [m] of a chord, and must be at least {_SHORTEST_CHORD:g}"
+    fix = "leave out a strip that has no chord at any time"
+    _list(faults, length < _SHORTEST_CHORD, length, "chord", where, rule, fix)
+
+
+def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float, where: Where) -> None:
+    """Note times that do not rise, and steps in which a beat could hide."""
+    steps = np.diff(times)
+    falls = np.append(False, steps <= 0)
+    _list(
+        faults, falls, times, "times", where, "does not rise above the time before it [s]", "sort the rows by time"
+    )
+    if falls.any():
+        return
+    wide = np.append(False, steps * frequency > _WIDEST)
+    rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
+    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? else fill the gap")
+    close = np.append(False, steps < _NARROWEST * steps.max())
+    rule = f"comes after less than {_NARROWEST:g} of the widest step [s]"
+    _list(faults, close, times, "times", where, rule, "drop one of the two")
+
+
+def _list(
+    faults: FaultList, bad: NDArray[np.bool_], values: Any, name: str, where: Where, rule: str, fix: str
+) -> None:
+    """Note the first few of what is bad one by one, and how many there are in all."""
+    places = np.argwhere(bad)
+    for place in places[:_LISTED]:
+        index = tuple(int(i) for i in place)
+        faults.add(where(name, index), float(values[index]), rule, fix)
+    if len(places) > _LISTED:
+        faults.add(where(name, ()), f"{len(places)} values", "are all at fault in this way", fix)
+
+
+def check_window(
+    faults: FaultList,
+    times: NDArray[np.float64],
+    start: float | None,
+    end: float | None,
+    where: Callable[[str], str],
+) -> None:
+    """Note a window that is no pair of rising numbers or holds too few of the times."""
+    first, last = float(times[0]), float(times[-1])
+    given = {"start": first if start is None else start, "end": last if end is None else end}
+    if not all([faults.number(where(name), value, unit="s") for name, value in given.items()]):
+        return
+    if given["start"] >= given["end"]:
+        faults.add(where("start"), given["start"], f"must be below {given['end']:g} s, the end", "exchange them")
+        return
+    held = int(((times >= given["start"]) & (times <= given["end"])).sum())
+    if held < FEWEST:
+        rule = f"the window holds {held} of the times, and needs {FEWEST}"
+        faults.add(where("start"), given["start"], rule, f"the times run from {first:g} to {last:g} s")
+
+
+def check_measured(faults: FaultList, case: Any) -> None:
+    """Note forces of another length, forces that were not measured in the window, and both or neither kind."""
+    if bool(case.forces) == (case.mean_force is not None):
+        fix = "give the forces through time, or their mean"
+        faults.add("forces", sorted(case.forces), "must be given in one of forces and mean_force", fix)
+    if case.mean_force is not None:
+        check_mean_force(faults, "mean_force", case.mean_force)
+    for kind in ("forces", "errors"):
+        for name, values in getattr(case, kind).items():
+            place = f"{kind}[{name!r}]"
+            if name not in ("fx", "fz") or (kind == "errors" and name not in case.forces):
+                faults.add(place, name, "is not a force that was measured", "use fx (forward) and fz (up)")
+            elif np.shape(values) != case.times.shape:
+                faults.add(place, np.shape(values), f"must have the shape {case.times.shape}, as times")
+            elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():
+                faults.add(place, "not finite or beyond 1e7 N", "must be numbers [N] at all times that are judged")
+            elif kind == "errors" and (values[case.inside] < 0).any():
+                faults.add(place, "below 0", "must be standard errors", "give their size")
+
+
+def check_mean_force(faults: FaultList, where: str, given: Any) -> None:
+    """Note a mean force that is no pair of numbers."""
+    if not isinstance(given, list | tuple) or len(given) != 2:
+        faults.add(where, given, "must be two numbers, forward and up [N]", "for example [0.0, 0.0085]")
+        return
+    for i, value in enumerate(given):
+        limits = {"at_least": -_LARGEST_FORCE, "at_most": _LARGEST_FORCE, "unit": "N"}
+        faults.number(f"{where}[{i}]", value, **limits)

@@ -14,7 +14,14 @@ from wingbeat.errors import FaultList
 
 
 class Estimate(NamedTuple):
-    """A term of a coefficient model: its value, the ends of its interval, and what it rests on."""
+    """A term of a coefficient model, with its interval.
+
+    Attributes
+    ----------
+    value : in degrees where its name ends in _deg [deg], else without unit [-].
+    low, high : ends of its interval, in the unit of the value [-].
+    basis : what it rests on; a guess says that it is one.
+    """
 
     value: float
     low: float
@@ -187,7 +194,7 @@ def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Cambe
 
     >>> import numpy as np
     >>> round(float(Membrane().lift(np.deg2rad(0.0))), 2)
-    0.65
+    0.64
     """
     return CamberedCoefficients(
         "membrane",

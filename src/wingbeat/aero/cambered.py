@@ -80,10 +80,10 @@ class CamberedTerms:
     ----------
     zero_lift_deg : angle of attack at which the line of lift is zero [deg].
     lift_slope : slope of lift in attached flow [1/rad].
-    lift_lowest, lift_highest : C_L that the wing keeps beyond its two stalls, of either sign.
-    lift_rounding : how widely the line of lift bends at its ends, in C_L.
-    drag_least : C_D without lift or separated flow.
-    drag_induced : C_D over C_L squared; an ideal wing of aspect ratio A has 1 / (pi A).
+    lift_lowest, lift_highest : C_L that the wing keeps beyond its two stalls, of either sign [-].
+    lift_rounding : how widely the line of lift bends at its ends, in C_L [-].
+    drag_least : C_D without lift or separated flow [-].
+    drag_induced : C_D over C_L squared; an ideal wing of aspect ratio A has 1 / (pi A) [-].
     low_onset_deg, high_onset_deg : angles above zero lift where separated flow begins to add drag [deg].
     low_rise, high_rise : what it adds for each radian beyond its onset [1/rad].
     onset_rounding_deg : how widely drag bends at its onsets [deg].
@@ -214,7 +214,7 @@ class CamberedCoefficients(CoefficientModel):
         guess.
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
-    aspect_ratio : of the wing that has these coefficients, infinite for a section, None for a revolving wing.
+    aspect_ratio : of the wing that has these coefficients [-], infinite for a section, None for a revolving wing.
 
     Raises
     ------
@@ -224,7 +224,7 @@ class CamberedCoefficients(CoefficientModel):
     >>> terms = CamberedTerms(-4.0, 4.0, -0.3, 1.4, 0.15, 0.02, 0.05, 4.0, 0.5, 20.0, 2.0, 3.0)
     >>> wing = CamberedCoefficients("wing", terms, (-45.0, -20.0), (25.0, 45.0))
     >>> round(float(wing.lift(math.radians(10.0))), 2), round(float(wing.lift(math.radians(-10.0))), 2)
-    (0.97, -0.28)
+    (0.97, -0.27)
     """
 
     name: str

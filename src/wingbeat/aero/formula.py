@@ -217,7 +217,7 @@ class FormulaCoefficients(CoefficientModel):
     alpha_range_deg : angles of the fit [deg].
     extension : how the formulas reach every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
-    aspect_ratio : of the wing of the fit, infinite for a section, None if not stated.
+    aspect_ratio : of the wing of the fit [-], infinite for a section, None if not stated.
 
     Raises
     ------

@@ -88,7 +88,7 @@ class TableCoefficients(CoefficientModel):
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     extension : how the table reaches every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
-    aspect_ratio : of the wing that was measured, infinite for a section, None if not stated.
+    aspect_ratio : of the wing that was measured [-], infinite for a section, None if not stated.
 
     Raises
     ------

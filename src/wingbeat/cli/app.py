@@ -38,6 +38,7 @@ COMMANDS = {
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
+    "compare": "Compare the air loads of a saved orbit with those of a vortex lattice.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
     "app": "Open the explorer in a browser: choose a problem, move sliders, and see it fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",

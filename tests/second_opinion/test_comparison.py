@@ -7,6 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.given_motion import PIGEON, given_motion
+from tests.second_opinion.test_geometry import BEAT
 from wingbeat.second_opinion import LatticeOptions, comparison
 from wingbeat.second_opinion.comparison import compare_with_lattice, differences, lag, lattice_loads
 from wingbeat.second_opinion.own_loads import WingLoads
@@ -33,7 +34,7 @@ def standin(monkeypatch):
 
 def test_loads_are_extrapolated_to_steps_of_no_length(standin):
     told = []
-    motion = given_motion(wb.Wingbeat(frequency=8.0))
+    motion = given_motion(BEAT)
     found = lattice_loads(motion, SMALL, lambda *done: told.append(done))
     np.testing.assert_allclose(found.lift, np.full(8, 2 * 0.2), rtol=1e-12)
     assert told == [(32, 48), (48, 48)]

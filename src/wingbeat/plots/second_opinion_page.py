@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.second_opinion.comparison import ATTACHED, SecondOpinion
+from wingbeat.second_opinion.comparison import SecondOpinion
 from wingbeat.style import (
     FIRST,
     PAGE,
@@ -49,7 +49,7 @@ def second_opinion_page(opinion: SecondOpinion) -> Figure:
         parse_math=False,
     )
     panels = figure.subplots(2, 2, sharex=True, height_ratios=(4, 1))
-    share = np.mean(np.abs(opinion.own.alpha) > ATTACHED, axis=-1)
+    share = np.mean(opinion.beyond, axis=-1)
     for axes, below, force in zip(*panels, ("lift", "thrust"), strict=True):
         _draw_force(axes, opinion, force)
         shade_downstrokes(below, 0.0, 1.0)

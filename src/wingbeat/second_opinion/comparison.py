@@ -65,10 +65,15 @@ class SecondOpinion:
         assert found is not None  # the orbit was solved with them
         return found
 
+    @property
+    def beyond(self) -> np.ndarray:
+        """Whether our strips are beyond 15 degrees of angle of attack, shape (K, N)."""
+        alpha = self.own.alpha
+        assert alpha is not None  # our loads have strips
+        return np.abs(alpha) > ATTACHED
+
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units; lags are shares of a beat."""
-        alpha = self.own.alpha
-        assert alpha is not None
         return {
             "with": "uvlm",
             "code": self.code,
@@ -79,7 +84,7 @@ class SecondOpinion:
             "unsteady": self.terms[0],
             "inflow": self.terms[1],
             **differences(self.own, self.theirs, self.weight),
-            "beyond_15_deg": float(np.mean(np.abs(alpha) > ATTACHED)),
+            "beyond_15_deg": float(np.mean(self.beyond)),
             "terms": [
                 {"unsteady": terms[0], "inflow": terms[1]}
                 | (

@@ -71,7 +71,7 @@ def fly_lattice(
     FileError : PteraSoftware is not installed.
     """
     code_version()
-    import pterasoftware as ps
+    import pterasoftware as ps  # pyright: ignore[reportMissingImports]
 
     speed, fall = math.hypot(*velocity), math.atan2(-velocity[1], velocity[0])
     point = ps.operating_point.OperatingPoint(rho=density, vCg__E=speed, alpha=math.degrees(fall), beta=0.0)
@@ -120,7 +120,7 @@ def _airplane(ps: Any, corners: np.ndarray) -> Any:
 
 
 def _panels(corners: np.ndarray) -> np.ndarray:
-    from pterasoftware._panel import Panel
+    from pterasoftware._panel import Panel  # pyright: ignore[reportMissingImports]
 
     rows, columns = corners.shape[0] - 1, corners.shape[1] - 1
     panels = np.empty((rows, columns), dtype=object)

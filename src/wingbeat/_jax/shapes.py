@@ -54,6 +54,9 @@ FlapAngles = Float[Any, "2 *phases"]
 # Vectors (x, y, z) in the world: of strips, and of the corners of each.
 StripVectors = Float[Any, "*phases strips 3"]
 Corners = Float[Any, "*phases strips 4 3"]
+ChordFractions = Float[Any, "rows"]
+Stations = Float[Any, "stations"]
+SurfacePoints = Float[Any, "*phases rows stations 3"]
 # Points of a wing at one instant, and of the two mass points of each strip; their derivatives have axes more.
 StripPoints = Float[Any, "strips 3 ..."]
 MassPoints = Float[Any, "2 strips 3 ..."]

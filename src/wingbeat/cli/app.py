@@ -40,6 +40,7 @@ COMMANDS = {
     "validate": "Compute the air loads on measured motions, and compare them with measured forces.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
+    "compare": "Compare the air loads of a saved orbit with those of a vortex lattice.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
     "app": "Open the explorer in a browser: choose a problem, move sliders, and see it fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",

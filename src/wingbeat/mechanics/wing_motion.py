@@ -83,13 +83,17 @@ def strips_of(wing: Wing, count: int) -> Strips:
     count : number of strips, N.
     """
     span_fraction = (jnp.arange(count) + 0.5) / count
-    stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
-    if stations.size == 1:
-        chord = jnp.broadcast_to(stations, (count,))
-    else:
-        chord = jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
+    chord = chord_at(wing, span_fraction)
     share = (1.0 - span_fraction) ** wing.mass_exponent
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
+
+
+def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
+    """Return the chord [m] at span fractions, linear between the stations of the wing."""
+    stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
+    if stations.size == 1:
+        return jnp.broadcast_to(stations, span_fraction.shape)
+    return jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
 
 
 def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:

@@ -13,10 +13,13 @@ from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch, to_world
-from wingbeat.mechanics.wing_motion import mass_points, strips_of, stroke_plane, wing_shape
+from wingbeat.mechanics.wing_motion import chord_at, mass_points, strips_of, stroke_plane, wing_shape
+from wingbeat.mechanics.wing_shape import Strips
+from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import (
+        ChordFractions,
         Component,
         Coordinates,
         Corners,
@@ -24,7 +27,9 @@ if TYPE_CHECKING:
         PerStrip,
         Phases,
         Scalar,
+        Stations,
         StripPoints,
+        SurfacePoints,
         Triple,
         Vectors,
     )
@@ -111,6 +116,41 @@ def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: P
         q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(wingbeat, when), pitch_angle(wingbeat, when)])
         points = wing_points(model, wingbeat, q, when / wingbeat.frequency)
         return corners_of(points, chord, wing.semi_span * span_ratio(wingbeat, when) / model.strips)
+
+    return jax.vmap(at)(state, phase)
+
+
+@exported
+def surface_points(
+    vehicle: Vehicle,
+    wingbeat: Wingbeat,
+    state: State,
+    phase: Phases,
+    span_fraction: Stations,
+    chord_fraction: ChordFractions,
+) -> SurfacePoints:
+    """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3).
+
+    Parameters
+    ----------
+    vehicle, wingbeat : the wing and how it beats.
+    state : body state, fields of shape (K,) [m, rad].
+    phase : phases, shape (K,).
+    span_fraction : distances from the shoulder over the length of the wing, shape (S,).
+    chord_fraction : distances from the leading edge over the chord, shape (C,).
+    """
+    wing = vehicle.wing
+    chord = chord_at(wing, span_fraction)
+    stations = Strips(span_fraction, chord, jnp.zeros_like(chord))
+    behind = 0.25 - chord_fraction[:, None]
+
+    def at(body: State, when: Scalar) -> Any:
+        flap, pitch = flap_angle(wingbeat, when), pitch_angle(wingbeat, when)
+        shape = wing_shape(vehicle, wingbeat, stations, when, flap, pitch)
+        attitude = body.body_pitch + stroke_pitch(stroke_plane(wing, wingbeat))
+        quarter, fore = _in_world(attitude, shape.quarter_chord), _in_world(attitude, shape.chordwise)
+        place = jnp.stack([body.x, jnp.zeros_like(body.x), body.z])
+        return place + quarter + (behind * chord)[..., None] * fore
 
     return jax.vmap(at)(state, phase)
 

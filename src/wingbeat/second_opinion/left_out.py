@@ -1,0 +1,24 @@
+"""What each code leaves out, in words for a report."""
+
+from __future__ import annotations
+
+LATTICE = (
+    "profile drag and every other effect of viscosity",
+    "separation, stall and leading-edge vortices",
+    "the roll-up of the wake, which stays where it was shed",
+    "the body, the tail, and the thickness and camber of the wings",
+)
+
+
+def left_out(unsteady: str, inflow: str) -> dict[str, list[str]]:
+    """Return what our loads with these terms and the lattice leave out.
+
+    >>> left_out("thin-aerofoil", "momentum")["ours"]
+    ['the wake of earlier parts of the beat (its lag)', 'loads of one strip on its neighbours']
+    """
+    ours = ["the wake of earlier parts of the beat (its lag)", "loads of one strip on its neighbours"]
+    if inflow == "none":
+        ours.insert(0, "induced flow, but for what the measured coefficients hold")
+    if unsteady == "none":
+        ours.insert(0, "rotation and added mass")
+    return {"ours": ours, "theirs": list(LATTICE)}

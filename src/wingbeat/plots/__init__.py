@@ -1,4 +1,4 @@
-"""Figures: pages of wingbeats, flights, curves, fits, measured motions and second opinions, and how they are saved."""
+"""Figures: of wingbeats, flights, curves, fits, measured motions and second opinions, and how they are saved."""
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page

@@ -17,6 +17,7 @@ from wingbeat.vehicle import Air, Body, Tail, Vehicle, Wing
 DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
 _RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "vehicle.tail": Tail, "wingbeat": Wingbeat, "air": Air}
+_REQUIRED = {key.path for key in TAIL if key.required}
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
     for section, record in _RECORDS.items()
@@ -59,16 +60,19 @@ def has_tail(numbers: Mapping[str, Number]) -> bool:
     return any(key.path in numbers for key in TAIL)
 
 
-def complete_tail(numbers: dict[str, Number], faults: FaultList) -> None:
-    """Add to the numbers of a tail those that have a default, and note those that must be given."""
-    if not has_tail(numbers):
-        return
-    for key in TAIL:
+def complete_tail(numbers: dict[str, Number]) -> None:
+    """Add to the numbers of a tail those that are not given and have a default."""
+    for path in TAIL_PATHS if has_tail(numbers) else ():
+        if path not in _REQUIRED:
+            numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))
+
+
+def check_tail(numbers: Mapping[str, Number], faults: FaultList) -> None:
+    """Note the numbers that a tail must have and that are not given, nor refused already."""
+    for key in TAIL if has_tail(numbers) else ():
         refused = any(fault.where.endswith(f"tail.{key.name}") for fault in faults.faults)
-        if key.required and key.path not in numbers and not refused:
+        if key.path in _REQUIRED and key.path not in numbers and not refused:
             faults.add(key.path, NOTHING, "must be given for a tail", f"{key.meaning} [{key.unit}]")
-    for path in TAIL_PATHS:
-        numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))
 
 
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:

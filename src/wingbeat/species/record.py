@@ -16,6 +16,7 @@ from wingbeat.species.building import (
     WHOLE,
     WING,
     build_records,
+    check_tail,
     complete_tail,
     default_of,
     derive_body,
@@ -161,7 +162,7 @@ class Species:
                 numbers[key.path] = old
             elif value is not None and (old is not None or value != default_of(key.path)):  # None: of no tail
                 numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
-        complete_tail(numbers, FaultList())
+        complete_tail(numbers)
         changed = dataclasses.replace(self, **{section: record})
         if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
             numbers.pop("wingbeat.tail_tilt", None)
@@ -200,6 +201,10 @@ class Species:
         """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
 
         Its sources say ``derived``; see `wingbeat.species.tail_laws`. The mass does not change.
+
+        Raises
+        ------
+        InvalidInputError : the changed numbers make no vehicle.
 
         >>> from wingbeat.species import load_species
         >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
@@ -240,7 +245,8 @@ class Species:
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
         """Return a copy with other numbers; records are checked, whole mass and warnings are made anew."""
-        complete_tail(numbers, faults)
+        complete_tail(numbers)
+        check_tail(numbers, faults)
         records = build_records(numbers, given, faults)
         faults.raise_if_any()
         numbers = in_order(numbers)

@@ -154,8 +154,8 @@ def body_air(
     density: Scalar,
     velocity: Pair,
     pitch_rate: Phases,
-    axes: Phases = 0.0,
-    tilt: Phases | None = None,
+    axes: Phases | Scalar = 0.0,
+    tilt: Phases | Scalar | None = None,
 ) -> BodyAir:
     """Return the air loads on the body and its tail.
 

@@ -237,7 +237,13 @@ def _sums(motion: StripMotion, rows: list[Any]) -> Any:
     return mass_moments(2.0, [zero if row is None else row for row in rows])
 
 
-def _load(row: _Row, motion: StripMotion, tables: Any, chord: PerStripBroadcast, width: Phases) -> UnsteadyLoad:
+def _load(
+    row: _Row,
+    motion: StripMotion,
+    tables: tuple[ByBodyMotion, ByBodyMotion, Phases, ByBodyMotion, Phases],
+    chord: PerStripBroadcast,
+    width: Phases,
+) -> UnsteadyLoad:
     """Return the load of a motion from its tables A, B, C, D without the turning of the axes, and E."""
     by_acceleration, by_velocity, own, by_spin, own_spin = tables
     # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.spent_power import spends_what_it_says
 from wingbeat.cli import main
 from wingbeat.plots import power_page
 
@@ -35,28 +36,7 @@ def test_the_account_adds_up(orbit):
 
 
 def test_what_the_actuators_spend_adds_up(orbit):
-    """Against lift and drag of the strips, the drag of the body and the stream, each from the dataset alone."""
-    species = wb.load_species("pigeon").with_values({"body.drag_area": 5e-4})
-    aero = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil", inflow="momentum")
-    for flown in (orbit, wb.solve_orbit(wb.OrbitProblem(species, speed=10.0, aero=aero), starts=1)):
-        data, model = flown.dataset, flown.problem.model
-        account = wb.power_account(data)["spent"]
-        means = {name: part["mean"] for name, part in account.items()}
-        assert sum(means.values()) == pytest.approx(flown.record()["mean_actuator_power"], rel=1e-9)
-        assert abs(means["inertial"]) < 1e-3 * means["profile"]
-        drag = 2.0 * (data["drag"] * data["strip_speed"]).sum("station")
-        np.testing.assert_allclose(data["profile_power"], drag, rtol=0, atol=1e-10 * float(drag.max()))
-        speed = np.hypot(data["u"], data["w"])
-        parasite = 0.5 * model.air.density * model.vehicle.body.drag_area * speed**3
-        np.testing.assert_allclose(data["parasite_power"], parasite, rtol=1e-12, atol=0)
-        forward, up = model.induced_flow or (0.0, 0.0)
-        wings = 2.0 * data["strip_force"].sum("station")
-        induced = -(forward * wings.sel(axis="x") + up * wings.sel(axis="z"))
-        np.testing.assert_allclose(data["induced_power"], induced, rtol=0, atol=1e-10)
-        assert (means["unsteady"] != 0.0) == (flown.problem.aero.unsteady != "none")
-    weight, flow = model.vehicle.mass * model.air.gravity, np.hypot(forward, up)
-    assert means["induced"] == pytest.approx(weight * flow, rel=0.02)
-    assert means["parasite"] > 0.1
+    spends_what_it_says(orbit)
 
 
 def test_the_commands_tell_and_draw_it(orbit, tmp_path, capsys, monkeypatch):

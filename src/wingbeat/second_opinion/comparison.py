@@ -109,7 +109,7 @@ def compare_with_lattice(
     ----------
     orbit : a certified orbit.
     options : of the lattice.
-    progress : is told (steps done, steps in all).
+    progress : called with (steps done, steps in all).
 
     Raises
     ------

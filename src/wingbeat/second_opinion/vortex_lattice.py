@@ -1,8 +1,8 @@
 """PteraSoftware's unsteady ring vortex lattice, fed with the corners of panels at every step.
 
 Its own movements are sums of sines of angles of a wing's axes, which no wing here makes: flap, pitch, twist, fold,
-sweep, span and a body that heaves and pitches. So the lattice of each step is built here, and three of its classes
-are told so: a wing whose mesh is given, a movement that is a list of airplanes, and a solver that reports progress.
+sweep, span and a body that heaves and pitches. So the lattice of each step is built here, with subclasses of three of
+its classes: a wing whose mesh is given, a movement that is a list of airplanes, and a solver that reports progress.
 Its geometry axes are aft, right and up; these turn into ours by half a turn about the third.
 """
 
@@ -64,7 +64,7 @@ def fly_lattice(
     velocity : of these axes through still air, forward and up [m/s]; not zero.
     density : of the air [kg/m3].
     last : number of steps at the end whose loads are returned.
-    progress : is told (steps done, steps in all).
+    progress : called with (steps done, steps in all).
 
     Raises
     ------

@@ -1,9 +1,10 @@
 """PteraSoftware's unsteady ring vortex lattice, fed with the corners of panels at every step.
 
-Its own movements are sums of sines of angles of a wing's axes, which no wing here makes: flap, pitch, twist, fold,
-sweep, span and a body that heaves and pitches. So the lattice of each step is built here, with subclasses of three of
-its classes: a wing whose mesh is given, a movement that is a list of airplanes, and a solver that reports progress.
-Its geometry axes are aft, right and up; these turn into ours by half a turn about the third.
+Its own movements are sums of sines of the angles of a wing's axes, and no wing here moves like that: ours flap,
+pitch, twist, fold and sweep, change span, and ride on a body that heaves and pitches. So we build the lattice of
+each step here, with subclasses of three of its classes: a wing whose mesh is given, a movement that is a list of
+airplanes, and a solver that reports progress. Its geometry axes are aft, right and up; these turn into ours by
+half a turn about the third.
 """
 
 from __future__ import annotations

@@ -17,15 +17,28 @@ from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.aero.inflow import INFLOWS
 from wingbeat.aero.sectional import sectional_kernel
+from wingbeat.aero.span_parts import ArmHandKernel, UpstrokeKernel, count_arm_strips
 from wingbeat.aero.unsteady import UNSTEADY, damping_couple, rotation_force
 from wingbeat.errors import FaultList, InvalidInputError
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
+    from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 
-if TYPE_CHECKING:
-    from wingbeat.aero.coefficient_model import Kernel
+class SpanPart(NamedTuple):
+    """A part of the wing with coefficients of its own.
+
+    Attributes
+    ----------
+    name : "wing" for the whole of it, "arm" or "hand".
+    coefficients : its coefficient model.
+    strips : which strips it has.
+    """
+
+    name: str
+    coefficients: CoefficientModel
+    strips: slice
 
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
@@ -51,12 +64,20 @@ class BladeElement:
     induced_factor : induced power over that of an ideal disc; 1.2 after Pennycuick 2008.
     share : share of the unsteady terms and of the induced factor that acts, 0 to 1. No air has a share below 1, but
         orbits along it show what the terms do (`trace_terms`).
+    hand : coefficients of the strips outside `hand_from`, as for `coefficients`, which are then those of the arm
+        alone; None for one model from root to tip.
+    hand_from : span fraction where the hand begins; a strip whose centre lies at or inside it belongs to the arm.
+    upstroke_factor : what multiplies lift and drag of the coefficients where air meets the wing from above, 0 to 1:
+        below 1 where feathers separate and let air through. In slow flight, the wake of a pigeon shows vortices of
+        the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), which is near 0. No
+        source measured a number.
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
         negative induced factor, a share outside 0 to 1 or of no term, a centre of pressure with a model that has
-        none, or inflow with a model without an aspect ratio; what `coefficients_of` refuses.
+        none, inflow with a model without an aspect ratio, a hand that begins outside 0 to 1 or is given only where
+        it begins, an upstroke factor outside 0 to 1; what `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -72,13 +93,20 @@ class BladeElement:
     inflow: str = "none"
     induced_factor: float = 1.2
     share: float = 1.0
+    hand: Any = None
+    hand_from: float = 0.5
+    upstroke_factor: float = 1.0
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        try:
-            object.__setattr__(self, "coefficients", coefficients_of(self.coefficients))
-        except InvalidInputError as error:
-            faults.faults.extend(error.faults)
+        for name in ("coefficients", "hand"):
+            given = getattr(self, name)
+            if name == "hand" and given is None:
+                continue
+            try:
+                object.__setattr__(self, name, coefficients_of(given))
+            except InvalidInputError as error:
+                faults.faults.extend(error.faults)
         faults.whole("aero.strips", self.strips, 1, 1000, "Su et al. use 10")
         faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
         faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
@@ -88,21 +116,43 @@ class BladeElement:
         faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 is all of each term")
         if self.share != 1 and self.unsteady == self.inflow == "none":
             faults.add("aero.share", self.share, "is a share of no term", "set unsteady or inflow, or leave it out")
+        faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
+        if self.hand is None and self.hand_from != type(self).hand_from:
+            faults.add("aero.hand_from", self.hand_from, "begins no hand", "name its coefficients: hand")
+        faults.number("aero.upstroke_factor", self.upstroke_factor, at_least=0, at_most=1, fix="1 is off")
         faults.raise_if_any()
+        for part in self.parts:
+            self._check_part(part.coefficients, faults)
+        faults.raise_if_any()
+
+    def _check_part(self, coefficients: CoefficientModel, faults: FaultList) -> None:
         if self.inflow != "none":
-            sectional_kernel(self.coefficients)  # refuses a model that it cannot make sectional
-        if self.force_point == "centre-of-pressure" and not self.coefficients.has_centre_of_pressure:
+            sectional_kernel(coefficients)  # refuses a model that it cannot make sectional
+        if self.force_point == "centre-of-pressure" and not coefficients.has_centre_of_pressure:
             faults.add(
                 "aero.force_point",
                 self.force_point,
-                f"needs a centre of pressure, and {self.coefficients.name} has none",
+                f"needs a centre of pressure, and {coefficients.name} has none",
                 "use quarter-chord, or a model that has one",
             )
-        faults.raise_if_any()
+
+    @property
+    def parts(self) -> tuple[SpanPart, ...]:
+        """The parts of the wing from root to tip that have coefficients of their own."""
+        if self.hand is None:
+            return (SpanPart("wing", self.coefficients, slice(0, self.strips)),)
+        inner = count_arm_strips(self.strips, self.hand_from)
+        return (
+            SpanPart("arm", self.coefficients, slice(0, inner)),
+            SpanPart("hand", self.hand, slice(inner, self.strips)),
+        )
 
     def kernel(self) -> Kernel:
         """Return the kernel of the coefficients that the strips use: sectional ones where there is inflow."""
-        return self.coefficients.kernel() if self.inflow == "none" else sectional_kernel(self.coefficients)
+        own = sectional_kernel if self.inflow != "none" else lambda model: model.kernel()
+        arm, *hand = (own(part.coefficients) for part in self.parts)
+        whole = ArmHandKernel(arm, hand[0], self.parts[0].strips.stop) if hand else arm
+        return whole if self.upstroke_factor == 1 else UpstrokeKernel(whole, self.upstroke_factor)
 
 
 def blade_element_of(aero: Any) -> BladeElement:

@@ -16,7 +16,7 @@ from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficie
 from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
-from wingbeat.results.provenance import NotInFileError
+from wingbeat.results.aero_record import NotInFileError
 from wingbeat.results.saving import check_result_name
 from wingbeat.species import Species, load_species, parse_setting
 

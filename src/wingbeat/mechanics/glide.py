@@ -196,7 +196,8 @@ class GlideSolver:
     def _closed_form(self, alpha: float) -> tuple[float, float]:
         """Return speed and glide angle of the plain wing that this one nearly is."""
         vehicle, air = self.model.vehicle, self.model.air
-        lift, drag = (float(c) for c in self.model.kernel.lift_drag(jnp.asarray(alpha)))
+        # One strip, which stands for all: the balance only starts here.
+        lift, drag = (float(c[0]) for c in self.model.kernel.lift_drag(jnp.asarray([alpha])))
         area = 2.0 * vehicle.wing.semi_span * vehicle.wing.mean_chord
         drag += vehicle.body.drag_area / area
         if vehicle.tail is not None:

@@ -20,7 +20,8 @@ from wingbeat.orbits.many.branches import Branches
 from wingbeat.orbits.many.transitions import Mark, certified, families
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.results.record import aero_record, vehicle_record
+from wingbeat.results.aero_record import aero_record
+from wingbeat.results.record import vehicle_record
 from wingbeat.results.storage import inputs_hash
 
 if TYPE_CHECKING:

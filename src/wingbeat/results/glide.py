@@ -19,7 +19,8 @@ from wingbeat.errors import FaultList
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.nomenclature import NOMENCLATURE
-from wingbeat.results.record import aero_record, finite_or_none, vehicle_record
+from wingbeat.results.aero_record import aero_record
+from wingbeat.results.record import finite_or_none, vehicle_record
 from wingbeat.results.saving import Saveable
 from wingbeat.results.warnings import guessed
 from wingbeat.species import Species

@@ -9,7 +9,6 @@ import numpy as np
 
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
-from wingbeat.aero import BladeElement, FunctionCoefficients
 from wingbeat.datasets import at_station
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
@@ -17,6 +16,7 @@ from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
+from wingbeat.results.aero_record import aero_record
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Body, Tail, Vehicle, Wing
@@ -50,29 +50,6 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
         for name, value in vars(wingbeat).items()
         if name not in left_out
     }
-
-
-def aero_record(aero: BladeElement) -> dict[str, Any]:
-    """Return what makes the air loads; of a function of the user's, a digest of what it computes."""
-    own = isinstance(aero.coefficients, FunctionCoefficients)
-    return {
-        "coefficients": aero.coefficients.name,
-        "extension": aero.coefficients.extension,
-        "blend_width_deg": aero.coefficients.blend_width_deg,
-        "strips": aero.strips,
-        "force_point": aero.force_point,
-        "airspeed": aero.airspeed,
-        **further_terms(aero),
-        **({"function": f"the user's own, {aero.coefficients.program.digest[:16]}"} if own else {}),
-    }
-
-
-def further_terms(aero: BladeElement) -> dict[str, Any]:
-    """Return the terms that the air loads have beyond those of Su et al., by name; none of those that are off."""
-    terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
-    if aero.inflow != "none":
-        terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
-    return terms | {"share": aero.share} if terms and aero.share != 1 else terms
 
 
 def orbit_record(solution: Solution) -> dict[str, Any]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.results.provenance import aero_from
+from wingbeat.results.aero_record import aero_from
 from wingbeat.second_opinion.lattice import LatticeOptions, lattice_of, sum_of_panels
 from wingbeat.second_opinion.left_out import left_out
 from wingbeat.second_opinion.motion import Motion

@@ -15,7 +15,8 @@ from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts
-from wingbeat.results.provenance import aero_from, inputs_of, species_from
+from wingbeat.results.aero_record import aero_from
+from wingbeat.results.provenance import inputs_of, species_from
 from wingbeat.species import Species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken

@@ -1,0 +1,147 @@
+"""What makes the air loads, as a dictionary that a record shows, or from which the same loads are set up again."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wingbeat.aero import (
+    LIBRARY,
+    BladeElement,
+    CamberedCoefficients,
+    CamberedTerms,
+    CentreTerms,
+    CoefficientModel,
+    FormulaCoefficients,
+    FormulaTerms,
+    FunctionCoefficients,
+    TableCoefficients,
+    load_coefficients,
+)
+
+# Before the name of a function of the user's, and after what no file brings back.
+OWN = "the user's own"
+SET_ANEW = "is not in the file; set up the problem with it again"
+_FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
+_CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
+_TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
+
+
+class NotInFileError(ValueError):
+    """Inputs name a function of the user's, which no file holds."""
+
+
+def aero_record(aero: BladeElement) -> dict[str, Any]:
+    """Return what makes the air loads; of a function of the user's, a digest of what it computes."""
+    named = _named(aero.coefficients)
+    digest = {"function": named.pop("function")} if "function" in named else {}
+    return {
+        **named,
+        "strips": aero.strips,
+        "force_point": aero.force_point,
+        "airspeed": aero.airspeed,
+        **further_terms(aero),
+        **digest,
+    }
+
+
+def further_terms(aero: BladeElement) -> dict[str, Any]:
+    """Return what the air loads have beyond those of Su et al., by name; nothing that is off."""
+    terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
+    if aero.inflow != "none":
+        terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
+    if terms and aero.share != 1:
+        terms["share"] = aero.share
+    if aero.hand is not None:
+        terms |= {"hand": _named(aero.hand), "hand_from": aero.hand_from}
+    if aero.upstroke_factor != 1:
+        terms["upstroke_factor"] = aero.upstroke_factor
+    return terms
+
+
+def aero_inputs(aero: BladeElement) -> dict[str, Any]:
+    """Return the record of the air loads with the numbers of models that are not in the library."""
+    record = aero_record(aero) | _numbers(aero.coefficients)
+    return record if aero.hand is None else record | {"hand": record["hand"] | _numbers(aero.hand)}
+
+
+def aero_from(aero: dict[str, Any]) -> BladeElement:
+    """Set up the air loads from what `aero_inputs` returned.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary is not one of `aero_inputs`.
+    """
+    numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
+    terms = {name: aero[name] for name in numbers if name in aero}
+    hand = _coefficients(aero["hand"]) if "hand" in aero else None
+    elements = aero["strips"], aero["force_point"], aero["airspeed"]
+    return BladeElement(_coefficients(aero), *elements, hand=hand, **terms)
+
+
+def _named(coefficients: CoefficientModel) -> dict[str, Any]:
+    """Return how a coefficient model is called, and a digest of a function."""
+    named = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
+    named = {"coefficients": coefficients.name, **named}
+    if isinstance(coefficients, FunctionCoefficients):
+        named["function"] = f"{OWN}, {coefficients.program.digest[:16]}"
+    return named
+
+
+def _numbers(coefficients: Any) -> dict[str, Any]:
+    """Return the numbers that bring a coefficient model back; nothing if its name does."""
+    if isinstance(coefficients, TableCoefficients):
+        return {"table": {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)}
+    if isinstance(coefficients, FormulaCoefficients) and not _in_the_box(coefficients):
+        formula = {name: getattr(coefficients, name) for name in _FORMULA} | _aspect_ratio(coefficients)
+        for name in ("lift_terms", "drag_terms", "centre_terms"):
+            terms = getattr(coefficients, name)
+            formula[name] = None if terms is None else dict(vars(terms))
+        return {"formula": formula}
+    if isinstance(coefficients, CamberedCoefficients) and not _in_the_box(coefficients):
+        cambered = {name: getattr(coefficients, name) for name in _CAMBERED} | _aspect_ratio(coefficients)
+        return {"cambered": cambered | {"terms": dict(vars(coefficients.terms))}}
+    return {}
+
+
+def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
+    """Return the aspect ratio of a model that states one; JSON has no infinity."""
+    if coefficients.aspect_ratio is None:
+        return {}
+    return {"aspect_ratio": "inf" if math.isinf(coefficients.aspect_ratio) else coefficients.aspect_ratio}
+
+
+def _in_the_box(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
+    """Say whether the name alone brings back the formulas; a fit may carry a published model's name."""
+    if coefficients.name not in LIBRARY:
+        return False
+    return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients
+
+
+def _coefficients(given: dict[str, Any]) -> Any:
+    how = {"extension": given["extension"], "blend_width_deg": given["blend_width_deg"]}
+    if "function" in given:
+        raise NotInFileError(f"{OWN} function {given['coefficients']!r} {SET_ANEW}")
+    if "table" in given:
+        return TableCoefficients(**_tuples(given["table"]), **how)
+    if "cambered" in given:
+        cambered = _tuples(given["cambered"])
+        terms = CamberedTerms(**cambered.pop("terms"))
+        return CamberedCoefficients(**cambered, terms=terms, blend_width_deg=given["blend_width_deg"])
+    if "formula" not in given:
+        return load_coefficients(given["coefficients"], **how)
+    formula = _tuples(given["formula"])
+    centre = formula.pop("centre_terms")
+    lift, drag = (FormulaTerms(**formula.pop(name)) for name in ("lift_terms", "drag_terms"))
+    return FormulaCoefficients(
+        **formula,
+        lift_terms=lift,
+        drag_terms=drag,
+        centre_terms=None if centre is None else CentreTerms(**centre),
+        **how,
+    )
+
+
+def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
+    known = {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
+    return known | {"aspect_ratio": math.inf} if known.get("aspect_ratio") == "inf" else known

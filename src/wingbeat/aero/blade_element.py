@@ -62,15 +62,15 @@ class BladeElement:
     inflow : "momentum" adds the induced flow that holds the weight (`wingbeat.aero.inflow`) to sectional
         coefficients, made from those of a finite wing where they are not sectional; "none" leaves it out.
     induced_factor : induced power over that of an ideal disc; 1.2 after Pennycuick 2008.
-    share : share of the unsteady terms and of the induced factor that acts, 0 to 1. No air has a share below 1, but
-        orbits along it show what the terms do (`trace_terms`).
     hand : coefficients of the strips outside `hand_from`, as for `coefficients`, which are then those of the arm
-        alone; None for one model from root to tip.
+        alone; "none" for one model from root to tip.
     hand_from : span fraction where the hand begins; a strip whose centre lies at or inside it belongs to the arm.
     upstroke_factor : what multiplies lift and drag of the coefficients where air meets the wing from above, 0 to 1:
         below 1 where feathers separate and let air through. In slow flight, the wake of a pigeon shows vortices of
         the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), which is near 0. No
         source measured a number.
+    share : share of the unsteady terms and of the induced factor that acts, 0 to 1. No air has a share below 1, but
+        orbits along it show what the terms do (`trace_terms`).
 
     Raises
     ------
@@ -92,16 +92,16 @@ class BladeElement:
     unsteady: str = "none"
     inflow: str = "none"
     induced_factor: float = 1.2
-    share: float = 1.0
-    hand: Any = None
+    hand: Any = "none"
     hand_from: float = 0.5
     upstroke_factor: float = 1.0
+    share: float = 1.0
 
     def __post_init__(self) -> None:
         faults = FaultList()
         for name in ("coefficients", "hand"):
             given = getattr(self, name)
-            if name == "hand" and given is None:
+            if name == "hand" and self.hand == "none":
                 continue
             try:
                 object.__setattr__(self, name, coefficients_of(given))
@@ -117,7 +117,7 @@ class BladeElement:
         if self.share != 1 and self.unsteady == self.inflow == "none":
             faults.add("aero.share", self.share, "is a share of no term", "set unsteady or inflow, or leave it out")
         faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
-        if self.hand is None and self.hand_from != type(self).hand_from:
+        if self.hand == "none" and self.hand_from != type(self).hand_from:
             faults.add("aero.hand_from", self.hand_from, "begins no hand", "name its coefficients: hand")
         faults.number("aero.upstroke_factor", self.upstroke_factor, at_least=0, at_most=1, fix="1 is off")
         faults.raise_if_any()
@@ -139,7 +139,7 @@ class BladeElement:
     @property
     def parts(self) -> tuple[SpanPart, ...]:
         """The parts of the wing from root to tip that have coefficients of their own."""
-        if self.hand is None:
+        if self.hand == "none":
             return (SpanPart("wing", self.coefficients, slice(0, self.strips)),)
         inner = count_arm_strips(self.strips, self.hand_from)
         return (

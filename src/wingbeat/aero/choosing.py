@@ -78,3 +78,22 @@ def load_coefficients(
         faults.add("coefficients", name, "is not a known coefficient model", f"{guess} {known}".lstrip())
         faults.raise_if_any()
     return LIBRARY[name](extension, blend_width_deg)
+
+
+def load_hand(
+    name_or_path: str, extension: str = "mirrored", blend_width_deg: float = 1.0
+) -> CoefficientModel | str:
+    """Return the coefficient model of a hand as `load_coefficients` does; "none" stays as it is.
+
+    Parameters
+    ----------
+    name_or_path, extension, blend_width_deg : as for `load_coefficients`.
+
+    Raises
+    ------
+    FileError, InvalidInputError : as `load_coefficients`.
+
+    >>> load_hand("none"), load_hand("membrane").name
+    ('none', 'membrane')
+    """
+    return name_or_path if name_or_path == "none" else load_coefficients(name_or_path, extension, blend_width_deg)

@@ -72,6 +72,13 @@ class Controls:
             self._fields["induced_factor"] = number_field(
                 "Induced factor", f"{now.induced_factor:g}", self._number("induced_factor")
             )
+            hands = [("none", "none"), *models]
+            self._fields["hand"] = choice_field("Model of the hand", hands, now.hand, self._word("hand"))
+            for name, label in (
+                ("hand_from", "Hand begins at, of the span"),
+                ("upstroke_factor", "Upstroke factor"),
+            ):
+                self._fields[name] = number_field(label, f"{getattr(now, name):g}", self._number(name))
             width, strips = f"{now.blend_width_deg:g}", str(now.strips)
             self._fields["blend_width_deg"] = number_field(
                 "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
@@ -105,9 +112,9 @@ class Controls:
             self._build_numbers()
         elif scenario.values != before.values or scenario.bounds != before.bounds:
             self._numbers.show(scenario)
-        for name in ("speed", "climb", "blend_width_deg", "induced_factor"):
+        for name in ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor"):
             self._fields[name].show(f"{getattr(scenario, name):g}")
-        for name in ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "minimise"):
+        for name in ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise"):
             self._fields[name].show(getattr(scenario, name))
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)

@@ -20,9 +20,9 @@ from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError, is_n
 _LONGEST_QUERY = 24_000
 _VERSION = 1
 _PAIRS = "bounds"
-_NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor")
+_NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
 _WHOLE = ("strips", "starts", "seed")
-_WORDS = ("species", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "minimise")
+_WORDS = ("species", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
 _LONGEST_WORD = 200
 
 

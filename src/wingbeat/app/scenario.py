@@ -18,6 +18,7 @@ from wingbeat.aero import (
     BladeElement,
     load_coefficients,
 )
+from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -40,8 +41,8 @@ class Scenario:
     species : name of a built-in species, or of the one in `species_file`.
     species_file : TOML text of the visitor's own species, empty for a built-in one.
     speed, climb : mean velocity [m/s].
-    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor : the air
-        loads, as on the command line.
+    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
+        hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
     limits : limits on quantities, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own.
@@ -64,6 +65,9 @@ class Scenario:
     unsteady: str = "none"
     inflow: str = "none"
     induced_factor: float = 1.2
+    hand: str = "none"
+    hand_from: float = 0.5
+    upstroke_factor: float = 1.0
     minimise: str = "frequency"
     limits: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -89,6 +93,9 @@ class Scenario:
         faults.choice("unsteady", self.unsteady, UNSTEADY)
         faults.choice("inflow", self.inflow, INFLOWS)
         faults.number("induced_factor", self.induced_factor, at_least=0)
+        faults.choice("hand", self.hand, ("none", *LIBRARY))
+        faults.number("hand_from", self.hand_from, at_least=0, at_most=1)
+        faults.number("upstroke_factor", self.upstroke_factor, at_least=0, at_most=1)
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
         faults.whole("strips", self.strips, 1, MOST_STRIPS)
         faults.whole("seed", self.seed, 0, 100_000)
@@ -171,8 +178,10 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
     except FileError as error:
         faults.add("species_file", scenario.species, str(error))
     try:
-        coefficients = load_coefficients(scenario.aero, scenario.extension, scenario.blend_width_deg)
-        loads = BladeElement(coefficients, **{name: getattr(scenario, name) for name in OF_ELEMENTS})
+        reach = scenario.extension, scenario.blend_width_deg
+        elements = {name: getattr(scenario, name) for name in OF_ELEMENTS}
+        elements["hand"] = load_hand(scenario.hand, *reach)
+        loads = BladeElement(load_coefficients(scenario.aero, *reach), **elements)
     except InvalidInputError as error:
         faults.faults += error.faults
     faults.raise_if_any()

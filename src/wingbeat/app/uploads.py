@@ -179,6 +179,8 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
             dataclasses.replace(species, reasons=dict.fromkeys((*species.bounds, *species.path_bounds), ""))
         )
         name = clean_label(name)
+    elements: dict[str, Any] = {name: getattr(aero, name) for name in OF_ELEMENTS}
+    elements["hand"] = getattr(aero.hand, "name", "none")
     known = species_in(Scenario(species=name, species_file=text))
     bounds = known.bounds | known.path_bounds
     return Scenario(
@@ -189,7 +191,7 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         aero=aero.coefficients.name,
         extension=aero.coefficients.extension,
         blend_width_deg=aero.coefficients.blend_width_deg,
-        **{name: getattr(aero, name) for name in OF_ELEMENTS},
+        **elements,
         minimise=problem.minimise.name,
         limits=tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to),
         bounds={n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)},

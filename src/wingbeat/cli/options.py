@@ -13,6 +13,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter, Token
 
 from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
+from wingbeat.aero.choosing import load_hand
 from wingbeat.aero.model_file import FittedModel, read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
@@ -87,18 +88,29 @@ class AirLoadOptions:
     induced_factor: Annotated[float, Parameter(help="Induced power of the inflow over that of an ideal disc.")] = (
         1.2
     )
+    hand: Annotated[
+        str,
+        Parameter(help="Coefficients of the hand, as for --aero, which are then the arm's; none for one model."),
+    ] = "none"
+    hand_from: Annotated[float, Parameter(help="Span fraction where the hand of --hand begins.")] = 0.5
+    upstroke_factor: Annotated[
+        float, Parameter(help="Factor on the loads where air meets the wing from above: 1, or less, to 0.")
+    ] = 1.0
 
     def loads(self) -> BladeElement:
         """Return the air loads that the options ask for."""
-        coefficients = load_coefficients(self.aero, self.extension, self.blend_width_deg)
+        reach = self.extension, self.blend_width_deg
         return BladeElement(
-            coefficients,
+            load_coefficients(self.aero, *reach),
             self.strips,
             self.force_point,
             self.airspeed,
             self.unsteady,
             self.inflow,
             self.induced_factor,
+            load_hand(self.hand, *reach),
+            self.hand_from,
+            self.upstroke_factor,
         )
 
     def fit(self) -> FittedModel | None:

@@ -52,7 +52,7 @@ def further_terms(aero: BladeElement) -> dict[str, Any]:
         terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
     if terms and aero.share != 1:
         terms["share"] = aero.share
-    if aero.hand is not None:
+    if aero.hand != "none":
         terms |= {"hand": _named(aero.hand), "hand_from": aero.hand_from}
     if aero.upstroke_factor != 1:
         terms["upstroke_factor"] = aero.upstroke_factor
@@ -62,7 +62,7 @@ def further_terms(aero: BladeElement) -> dict[str, Any]:
 def aero_inputs(aero: BladeElement) -> dict[str, Any]:
     """Return the record of the air loads with the numbers of models that are not in the library."""
     record = aero_record(aero) | _numbers(aero.coefficients)
-    return record if aero.hand is None else record | {"hand": record["hand"] | _numbers(aero.hand)}
+    return record if aero.hand == "none" else record | {"hand": record["hand"] | _numbers(aero.hand)}
 
 
 def aero_from(aero: dict[str, Any]) -> BladeElement:
@@ -74,7 +74,7 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
     """
     numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
     terms = {name: aero[name] for name in numbers if name in aero}
-    hand = _coefficients(aero["hand"]) if "hand" in aero else None
+    hand = _coefficients(aero["hand"]) if "hand" in aero else "none"
     elements = aero["strips"], aero["force_point"], aero["airspeed"]
     return BladeElement(_coefficients(aero), *elements, hand=hand, **terms)
 

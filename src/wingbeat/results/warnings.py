@@ -161,24 +161,33 @@ def fitted_range(solution: Solution, beat: Beat) -> list[str]:
 
     Every phase and every strip counts equally; strips have equal width.
     """
-    problem = solution.problem
-    coefficients = problem.aero.coefficients
+    aero = solution.problem.aero
+    notes = []
+    for part in aero.parts:
+        where = "" if aero.hand == "none" else f" of the {part.name}"
+        of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
+        notes += _outside_fit(part.coefficients, *of_part, where) if of_part[0].size else []
+    if aero.upstroke_factor != 1:
+        notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
+    return notes
+
+
+def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np.ndarray, where: str) -> list[str]:
     notes = []
     if coefficients.reynolds_range is not None:
-        reynolds = beat.strip_reynolds
         low, high = coefficients.reynolds_range
         share = _outside(reynolds, low, high)
         if share > _MENTION:
             notes.append(
-                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of beat and strips "
+                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of beat and strips{where} "
                 f"(it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
     low, high = np.radians(coefficients.alpha_range_deg)
-    share = _outside(beat.alpha, low, high)
+    share = _outside(alpha, low, high)
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of beat and strips: there {_beyond(coefficients)} applies"
+            f"{share:.0%} of beat and strips{where}: there {_beyond(coefficients)} applies"
         )
     return notes + guessed(coefficients)
 

@@ -97,6 +97,9 @@ class StudyForm(BaseModel):
     unsteady: _Texts = Field(default=["none"])
     inflow: _Texts = Field(default=["none"])
     induced_factor: _Numbers = Field(default=[1.2])
+    hand: _Texts = Field(default=["none"])
+    hand_from: _Numbers = Field(default=[0.5])
+    upstroke_factor: _Numbers = Field(default=[1.0])
     speed: _Numbers | None = None
     climb: _Numbers = Field(default=[0.0])
     payload: _Numbers = Field(default=[0.0])
@@ -271,7 +274,7 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
             faults.add(name, shown(values), "names a value twice", "keep one of them")
     both = (
         *("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed"),
-        *("unsteady", "inflow", "induced_factor"),
+        *("unsteady", "inflow", "induced_factor", "hand", "hand_from", "upstroke_factor"),
     )
     for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:

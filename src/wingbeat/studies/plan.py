@@ -16,6 +16,7 @@ import numpy as np
 
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.aero import BladeElement, load_coefficients
+from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat.nomenclature import plain_unit
 from wingbeat.species import load_species
@@ -217,8 +218,10 @@ def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], C
     """Return how the parts of a base are made, of which keys of the top level; each of the same keys but once."""
 
     def loads(name: str, extension: str, blend_width_deg: float, *elements: Any) -> BladeElement:
-        named = _beside(name, folder, (".csv", ".toml"))
-        return BladeElement(load_coefficients(named, extension, blend_width_deg), *elements)
+        given = dict(zip(OF_ELEMENTS, elements, strict=True))
+        arm, hand = (_beside(one, folder, (".csv", ".toml")) for one in (name, given["hand"]))
+        given["hand"] = load_hand(hand, extension, blend_width_deg)
+        return BladeElement(load_coefficients(arm, extension, blend_width_deg), **given)
 
     makers = {
         "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),

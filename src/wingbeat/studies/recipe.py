@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat.aero import BladeElement
+from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import FaultList, suggest
 from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
@@ -26,7 +27,10 @@ from wingbeat.studies.objective import from_inputs
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
 # The numbers and words of the coefficients, and those of the air loads, in the order of their constructors.
 OF_COEFFICIENTS = ("extension", "blend_width_deg")
-OF_ELEMENTS = ("strips", "force_point", "airspeed", "unsteady", "inflow", "induced_factor")
+OF_ELEMENTS = (
+    *("strips", "force_point", "airspeed", "unsteady", "inflow", "induced_factor"),
+    *("hand", "hand_from", "upstroke_factor"),
+)
 _OF_COEFFICIENTS = tuple(f"aero.{name}" for name in OF_COEFFICIENTS)
 _OF_ELEMENTS = tuple(f"aero.{name}" for name in OF_ELEMENTS)
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)
@@ -91,10 +95,12 @@ class Recipe:
     def _aero(self, choices: Mapping[str, Any]) -> BladeElement:
         inner = {p.removeprefix("aero."): v for p, v in choices.items() if p in _OF_COEFFICIENTS}
         outer = {p.removeprefix("aero."): v for p, v in choices.items() if p in _OF_ELEMENTS}
-        coefficients = self.aero.coefficients
+        arm, hand = self.aero.coefficients, outer.pop("hand", self.aero.hand)
         if inner:
-            coefficients = dataclasses.replace(coefficients, **inner)
-        return dataclasses.replace(self.aero, coefficients=coefficients, **outer) if choices else self.aero
+            arm, hand = (one if isinstance(one, str) else dataclasses.replace(one, **inner) for one in (arm, hand))
+        if isinstance(hand, str):
+            hand = load_hand(hand, *(getattr(arm, name) for name in OF_COEFFICIENTS))
+        return dataclasses.replace(self.aero, coefficients=arm, hand=hand, **outer) if choices else self.aero
 
     @functools.cached_property
     def example(self) -> OrbitProblem:
@@ -117,6 +123,8 @@ class Recipe:
             return None
         if path in _OF_COEFFICIENTS:
             return getattr(self.aero.coefficients, path.removeprefix("aero."))
+        if path == "aero.hand":
+            return getattr(self.aero.hand, "name", "none")
         if path in _OF_ELEMENTS:
             return getattr(self.aero, path.removeprefix("aero."))
         found = _parameter(self.example, path)

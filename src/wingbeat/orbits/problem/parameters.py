@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from wingbeat.aero import CoefficientModel
 from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.nomenclature import plain_unit
@@ -148,6 +149,18 @@ def _air(problem: OrbitProblem) -> Iterator[Parameter]:
 
 def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
     coefficients, place = problem.aero.coefficients, ("aero", "coefficients")
+    yield from _curves(problem, "aero", coefficients, place)
+    if problem.aero.hand != "none":
+        yield from _curves(problem, "aero.hand", problem.aero.hand, ("aero", "hand"))
+    if getattr(coefficients, "blend_width_deg", None) is not None:  # a function has no blends
+        yield _made("aero.blend_width_deg", coefficients.blend_width_deg, (*place, "blend_width_deg"))
+    if problem.aero.inflow != "none":
+        yield _made("aero.induced_factor", problem.aero.induced_factor, ("aero", "induced_factor"))
+    if problem.aero.upstroke_factor != 1:
+        yield _made("aero.upstroke_factor", problem.aero.upstroke_factor, ("aero", "upstroke_factor"))
+
+
+def _curves(problem: OrbitProblem, path: str, coefficients: CoefficientModel, place: Place) -> Iterator[Parameter]:
     for curve, field in _CURVES.items():
         terms = getattr(coefficients, field, None)
         # With the force at the quarter chord, the centre of pressure has no effect.
@@ -155,11 +168,7 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
             continue
         for name, value in vars(terms).items():
             if value is not None:
-                yield _made(f"aero.{curve}.{name}", value, (*place, field, name))
-    if getattr(coefficients, "blend_width_deg", None) is not None:  # a function has no blends
-        yield _made("aero.blend_width_deg", coefficients.blend_width_deg, (*place, "blend_width_deg"))
-    if problem.aero.inflow != "none":
-        yield _made("aero.induced_factor", problem.aero.induced_factor, ("aero", "induced_factor"))
+                yield _made(f"{path}.{curve}.{name}", value, (*place, field, name))
 
 
 def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:

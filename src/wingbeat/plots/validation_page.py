@@ -14,8 +14,10 @@ from wingbeat.style import (
     BLUE,
     COLUMN,
     FIRST,
+    GREY,
     ORANGE,
     PAGE,
+    PURPLE,
     SECOND,
     SHADE,
     SKY,
@@ -34,7 +36,13 @@ if TYPE_CHECKING:
 _LABELS = {"fz": "upward force / weight [-]", "fx": "forward force / weight [-]"}
 _MEASURED: dict[str, Any] = {"color": "k", "linewidth": 1.4}
 _SINE: dict[str, Any] = {"color": ORANGE, "linestyle": ":"}
-_LADDER: tuple[dict[str, Any], ...] = (SECOND, THIRD, {"color": SKY, "linestyle": (0, (5, 1, 1, 1))})
+_LADDER: tuple[dict[str, Any], ...] = (
+    SECOND,
+    THIRD,
+    {"color": SKY, "linestyle": (0, (5, 1, 1, 1))},
+    {"color": PURPLE, "linestyle": (0, (6, 1, 1, 1, 1, 1))},
+    {"color": GREY, "linestyle": (0, (2, 2))},
+)
 _STATIONS = ((0.25, FIRST), (0.5, SECOND), (0.75, THIRD))
 
 
@@ -94,7 +102,7 @@ def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]
 
 def row_label(row: ValidationRow) -> str:
     """Return coefficients and terms of a row in a few words."""
-    names = [name for name in (row.aero.unsteady, row.aero.inflow) if name != "none"]
+    names = [name for name in (row.unsteady, row.aero.inflow) if name != "none"]
     return " + ".join([row.aero.coefficients.name, *names]) if names else f"{row.aero.coefficients.name} alone"
 
 

@@ -125,11 +125,11 @@ def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
 
 def _step_weights(way: Array) -> tuple[Array, Array, Array]:
     """Return how much of a state, of w at the end and of w at the start of a step its end holds; they sum to 1."""
-    fading = np.exp(-way)
+    fading, few = np.exp(-way), np.minimum(way, _SHORT)
     short = way < _SHORT
-    mean = np.where(short, 1 - way / 2 + way * way / 6, -np.expm1(-way) / np.where(short, 1.0, way))
-    ahead = np.where(short, way / 2 - way * way / 6, 1 - mean)
-    return fading, ahead, np.where(short, way / 2 - way * way / 3, mean - fading)
+    mean = np.where(short, 1 - few / 2 + few * few / 6, -np.expm1(-way) / np.maximum(way, _SHORT))
+    ahead = np.where(short, few / 2 - few * few / 6, 1 - mean)
+    return fading, ahead, np.where(short, few / 2 - few * few / 3, mean - fading)
 
 
 def _repeating(fading: Array, pushes: Array, at_rest: Array) -> Array:

@@ -13,7 +13,7 @@ The rule never sees a measured force. It follows from what is known of the flow,
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
    section 8.2, draws the line between 0.05 and 0.2): rotation and added mass.
 5. There too the wake that the changes of lift leave behind is near enough to slow them (Theodorsen 1935, NACA
-   Report 496: it takes 17 % of the lift at 0.1, 40 % at 0.5). His wake is a straight sheet that the flight
+   Report 496: it takes 15 % of the lift at 0.1, 38 % at 0.5). His wake is a straight sheet that the flight
    carries off, shed by a wing whose lift rises with its angle. So the lag needs a model with an aspect ratio,
    measured in straight flow; a speed of twice the induced speed of hover at least; and angles of attack of the
    motion below that of the polar's largest lift for nine tenths of the beat, by area. The theory has no upper

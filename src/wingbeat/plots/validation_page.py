@@ -63,7 +63,7 @@ def validation_page(found: Validation) -> Figure:
     axes_shown = through_time or ["fz"]
     rows = 3 if through_time else 2
     width = PAGE if len(axes_shown) > 1 else 0.7 * PAGE if through_time else COLUMN
-    figure = new_figure(width, 20.0 + 40.0 * rows)
+    figure = new_figure(width, 26.0 + 40.0 * rows)
     heights = (3, 2, 2) if through_time else (3, 2)
     grid = figure.subplots(rows, len(axes_shown), sharex=True, squeeze=False, height_ratios=heights)
     for panels, axis in zip(grid.T, axes_shown, strict=True):
@@ -123,7 +123,7 @@ def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
         panel.axhline(mean, label="measured mean", **_MEASURED)
         computed = found.case.mean(getattr(found.recommended.loads, axis)) / case.weight
         panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="its mean")
-    legend_above(panel, columns=3 if axis in case.forces else 2)
+    legend_above(panel, columns=2)
 
 
 def _draw_residual(panel: Axes, found: Validation, axis: str) -> None:

@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 
 from tests.helpers.strip_cases import flapping_case
-from wingbeat.aero import LIBRARY, BladeElement
+from wingbeat.aero import LIBRARY, BladeElement, Feathered, FeatheredRevolving, SuFan
 from wingbeat.errors import InvalidInputError
 from wingbeat.measured_motion import validate
-from wingbeat.measured_motion.choice import preference, regime_of, significant, wanted_model
+from wingbeat.measured_motion.choice import (
+    attached_share,
+    preference,
+    regime_of,
+    significant,
+    wanted_model,
+    wanted_unsteady,
+)
+from wingbeat.measured_motion.ladder import Rung
 from wingbeat.measured_motion.strip_motion import strip_motion
 
 INSECT = {"mass": 1e-3, "semi_span": 0.05, "chord": 0.012, "frequency": 30.0, "speed": 0.5}
@@ -23,7 +31,7 @@ def regime(**about):
 
 def chosen(found):
     aero = found.recommended.aero
-    return aero.coefficients.name, aero.unsteady, aero.inflow
+    return aero.coefficients.name, found.recommended.unsteady, aero.inflow
 
 
 def test_numbers_of_the_regime():
@@ -89,7 +97,40 @@ def test_the_nearest_row_by_reynolds_number_stands_in_for_the_one_that_is_not_th
 
 def test_a_model_of_no_known_reynolds_number_comes_last():
     found = regime(**BIRD, speed=12.0, wing="rigid")
-    assert preference(found, BladeElement("byl"), "su-fan") > preference(found, BladeElement("wang"), "su-fan")
+    byl, wang = (preference(found, Rung(BladeElement(name)), "su-fan", 1.0) for name in ("byl", "wang"))
+    assert byl > wang
+
+
+def test_the_lag_of_the_wake_needs_straight_attached_fast_unsteady_flow():
+    fast = regime(**BIRD, speed=14.0, wing="feathered")
+    wake, thin = "thin-aerofoil-wake", "thin-aerofoil"
+    feathered, revolving = Feathered(), FeatheredRevolving()
+    assert wanted_unsteady(fast, feathered, 0.9) == wake
+    assert wanted_unsteady(fast, feathered, 0.89) == thin
+    assert wanted_unsteady(fast, revolving, 1.0) == thin
+    assert wanted_unsteady(dataclasses.replace(fast, slowness=1.9), feathered, 1.0) == thin
+    assert wanted_unsteady(dataclasses.replace(fast, reduced_frequency=0.1), feathered, 1.0) == "none"
+
+
+def test_attached_is_the_share_of_the_motion_below_the_largest_lift():
+    """The beat's angles of attack are counted by a loop over times and strips."""
+    case = flapping_case(**BIRD, speed=5.0)
+    motion = strip_motion(case)
+    stall, within = np.radians(40.25), 0.0
+    for along, across in zip(motion.chord_speed, motion.normal_speed, strict=True):
+        within += np.mean([abs(np.arctan2(-n, c)) < stall for c, n in zip(along, across, strict=True)])
+    share = attached_share(case, motion, SuFan())
+    assert share == pytest.approx(within / len(case.times), abs=2e-3)
+    assert 0.1 < share < 0.95
+
+
+def test_a_stalled_beat_gets_no_lag_and_an_attached_one_says_so():
+    stalled = validate(flapping_case(**BIRD | {"frequency": 16.0}, speed=8.0, wing="rigid"), ["su-fan"])
+    attached = validate(flapping_case(**BIRD | {"frequency": 5.0}, speed=14.0, wing="rigid"), ["su-fan"])
+    assert chosen(attached) == ("su-fan", "thin-aerofoil-wake", "none")
+    assert (stalled.recommended.unsteady, stalled.regime.slowness > 2) == ("thin-aerofoil", True)
+    assert "lag" not in stalled.reason
+    assert "the lag of the wake (reduced frequency above 0.1, flow attached for" in attached.reason
 
 
 def test_the_recommended_row_does_not_see_the_force():
@@ -102,11 +143,11 @@ def test_the_recommended_row_does_not_see_the_force():
 
 
 def test_the_ladder_has_every_model_and_each_step_that_it_can_take():
-    rows = [row.aero for row in validate(flapping_case()).rows]
+    rows = validate(flapping_case()).rows
     for name in LIBRARY:
-        steps = {(row.unsteady, row.inflow) for row in rows if row.coefficients.name == name}
+        steps = {(row.unsteady, row.aero.inflow) for row in rows if row.aero.coefficients.name == name}
         holds_its_own = LIBRARY[name]().aspect_ratio is None
-        assert len(steps) == (2 if holds_its_own else 4)
+        assert len(steps) == (2 if holds_its_own else 6)
 
 
 def test_inflow_without_an_aspect_ratio_is_refused_where_it_was_asked_for():

@@ -50,7 +50,7 @@ def outcome(files):
             (Path(folder) / name).write_bytes(text if isinstance(text, bytes) else text.encode("utf-8", "replace"))
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            words = ["--aero", "dickinson", "--unsteady", "thin-aerofoil", "--json"]
+            words = ["--aero", "su-fan", "--unsteady", "thin-aerofoil-wake", "--inflow", "none", "--json"]
             code = main(["validate", str(Path(folder) / "case.toml"), *words])
     return code, out.getvalue(), err.getvalue()
 

@@ -60,7 +60,7 @@ def test_all_terms_are_theodorsens_and_none_are_not(case, polar, velocities):
     if not velocities:
         case = dataclasses.replace(case, velocity=None, rear_velocity=None)
     rows = validate(case, [polar], inflow="none").rows
-    error = {row.aero.unsteady: np.abs(row.loads.fz - case.forces["fz"]).max() for row in rows}
+    error = {row.unsteady: np.abs(row.loads.fz - case.forces["fz"]).max() for row in rows}
     peak = np.abs(case.forces["fz"]).max()
     assert error["thin-aerofoil"] < 2e-3 * peak
     assert error["none"] > 0.1 * peak

@@ -75,6 +75,17 @@ def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
     return jax.tree.map(lambda leaf: np.array(leaf)[: angles.size].reshape(angles.shape)[()], result)
 
 
+def kernel_lift(kernel: Kernel, alpha: ArrayLike) -> NDArray[np.float64]:
+    """Return C_L of a kernel at `alpha` [rad], any shape.
+
+    Parameters
+    ----------
+    kernel : of a coefficient model, or of its sections.
+    alpha : angle of attack [rad], any shape.
+    """
+    return at_angles(_lift_drag, kernel, wrapped(alpha))[0]
+
+
 class CoefficientModel:
     """Lift, drag and centre of pressure of a wing strip as functions of the angle of attack alone.
 
@@ -122,7 +133,7 @@ class CoefficientModel:
         ------
         InvalidInputError : no numbers.
         """
-        return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[0]
+        return kernel_lift(self.kernel(), alpha)
 
     def drag(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the drag coefficient C_D at `alpha` [rad].

@@ -48,7 +48,11 @@ def validate(
         Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}."),
     ] = None,
     unsteady: Annotated[
-        str | None, Parameter(help="Unsteady terms: none or thin-aerofoil; rows with both if left out.")
+        str | None,
+        Parameter(
+            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake; rows "
+            "with each if left out."
+        ),
     ] = None,
     inflow: Annotated[
         str | None, Parameter(help="Induced flow: none or momentum; rows with both if left out.")
@@ -64,9 +68,10 @@ def validate(
 ) -> None:
     """Compute the air loads of every coefficient model on a measured motion, and compare them with the forces.
 
-    Each row adds one step of the ladder: no terms, rotation and added mass, momentum inflow, both. One row is
-    recommended, by a rule that never sees the measured force. A case is a TOML file with tables of strips and
-    forces (.csv) beside it. With `--json`, several cases are a list under `cases`.
+    Each row adds one step of the ladder: no terms, rotation and added mass, the lag of the wake, each with and
+    without momentum inflow. One row is recommended, by a rule that never sees the measured force. A case is a
+    TOML file with tables of strips and forces (.csv) beside it. With `--json`, several cases are a list under
+    `cases`.
 
     Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md
     """
@@ -138,13 +143,14 @@ def _print(found: Validation) -> None:
         console.print(f"- {note}", style="yellow")
     console.print(
         "mean, peak: computed over measured; rms: over the weight; about mean: over the measured spread; "
-        "lag: share of a beat, late is positive\n"
+        "lag: share of a beat, late is positive; wake: thin-aerofoil with the lag of the wake\n"
     )
 
 
 def _cells(row: ValidationRow, numbers: list[float | None]) -> list[str]:
     aero = row.aero
     name = ("* " if row.recommended else "  ") + aero.coefficients.name
-    terms = [term for term in (aero.unsteady, aero.inflow) if term != "none"]
+    terms = [term for term in (row.unsteady.removeprefix("thin-aerofoil-"), aero.inflow) if term != "none"]
     shown = ["-" if value is None else f"{value:z.2f}" for value in numbers]
-    return [name, ("-", *terms, "both")[len(terms) + (len(terms) > 1)], *shown, f"{row.aerodynamic_power:.3g}"]
+    both = "both" if terms[:1] == ["thin-aerofoil"] else " + ".join(terms)
+    return [name, ("-", *terms, both)[len(terms) + (len(terms) > 1)], *shown, f"{row.aerodynamic_power:.3g}"]

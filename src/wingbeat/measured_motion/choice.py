@@ -12,7 +12,13 @@ The rule never sees a measured force. It follows from what is known of the flow,
    kind (`feathered-revolving`) comes first: a revolving wing stalls later and holds its own induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
    section 8.2, draws the line between 0.05 and 0.2): rotation and added mass.
-5. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight. In
+5. There too the wake that the changes of lift leave behind is near enough to slow them (Theodorsen 1935, NACA
+   Report 496: it takes 15 % of the lift at 0.1, 38 % at 0.5). His wake is a straight sheet that the flight
+   carries off, shed by a wing whose lift rises with its angle. So the lag needs a model with an aspect ratio,
+   measured in straight flow; a speed of twice the induced speed of hover at least; and angles of attack of the
+   motion below that of the polar's largest lift for nine tenths of the beat, by area. The theory has no upper
+   limit of the reduced frequency.
+6. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight. In
    slow flight it is not: momentum inflow, where a model states its aspect ratio.
 """
 
@@ -23,18 +29,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.inflow import disc_area
+from wingbeat.aero.wake import is_stalled
+from wingbeat.measured_motion.ladder import THIN_AEROFOIL_WAKE, UNSTEADY_STEPS, Rung
 from wingbeat.measured_motion.strip_case import StripCase
 from wingbeat.measured_motion.strip_motion import StripMotion, semi_span
 
 # Dynamic viscosity of air at 15 to 20 degrees Celsius [kg/(m s)].
 _VISCOSITY = 1.8e-5
 _INSECT_MASS, _INSECT_REYNOLDS = 2.5e-3, 7e3
-_ATTACHED_BELOW = 1e4
+_VORTEX_STAYS_BELOW = 1e4
 _UNSTEADY_ABOVE = 0.1
 _SLOW = 2.0
+_ATTACHED_SHARE = 0.9
 _REVOLVING, _PLATE = "dickinson", "su-fan"
 
 
@@ -96,14 +104,30 @@ def wanted_model(regime: Regime, names: list[str]) -> str:
     regime : what decides.
     names : of the models in the library.
     """
-    if regime.reynolds < _ATTACHED_BELOW:
+    if regime.reynolds < _VORTEX_STAYS_BELOW:
         return _REVOLVING
     slow = [f"{regime.wing}-revolving"] if regime.slowness < _SLOW else []
     return next((name for name in (*slow, regime.wing) if name in names), _PLATE)
 
 
-def preference(regime: Regime, aero: BladeElement, wanted: str) -> tuple[float, ...]:
-    """Return how far air loads are from those that suit a motion: tuples of numbers, the least is the best.
+def attached_share(case: StripCase, motion: StripMotion, model: CoefficientModel) -> float:
+    """Return for which share of the judged time, by area, the angle of attack is below that of largest lift.
+
+    The angle is that of the motion through still air; the force has no part in it.
+
+    Parameters
+    ----------
+    case : the measured motion.
+    motion : the same through still air, from `strip_motion`.
+    model : whose polar says where lift is largest, above and below.
+    """
+    alpha = np.arctan2(-motion.normal_speed, motion.chord_speed)
+    areas = case.area / case.area.sum(axis=1, keepdims=True)
+    return float(case.mean((areas * ~is_stalled(model.kernel(), alpha)).sum(axis=1)))
+
+
+def model_distance(regime: Regime, model: CoefficientModel, wanted: str) -> tuple[float, float]:
+    """Return how far a coefficient model is from the wanted one: by name, then by Reynolds number.
 
     Models that are not the wanted one follow by the distance of their Reynolds numbers, in powers of ten; those
     that state none come last.
@@ -111,17 +135,46 @@ def preference(regime: Regime, aero: BladeElement, wanted: str) -> tuple[float, 
     Parameters
     ----------
     regime : what decides.
-    aero : the air loads.
+    model : the coefficient model.
     wanted : name of the coefficient model that suits best.
     """
-    model = aero.coefficients
-    unsteady = regime.reduced_frequency > _UNSTEADY_ABOVE
+    return float(model.name != wanted), _distance(model, regime.reynolds)
+
+
+def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) -> str:
+    """Return the name of the unsteady terms that suit a motion.
+
+    Parameters
+    ----------
+    regime : what decides.
+    model : the coefficient model.
+    attached : share of the beat with attached flow, from `attached_share`.
+    """
+    if regime.reduced_frequency <= _UNSTEADY_ABOVE:
+        return "none"
+    straight = regime.slowness >= _SLOW and model.aspect_ratio is not None
+    return THIN_AEROFOIL_WAKE if straight and attached >= _ATTACHED_SHARE else "thin-aerofoil"
+
+
+def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tuple[float, ...]:
+    """Return how far air loads are from those that suit a motion: tuples of numbers, the least is the best.
+
+    The model comes first, then the unsteady terms, then the inflow.
+
+    Parameters
+    ----------
+    regime : what decides.
+    rung : the coefficient model and its terms.
+    wanted : name of the coefficient model that suits best.
+    attached : share of the beat with attached flow, from `attached_share`.
+    """
+    model = rung.aero.coefficients
+    step = UNSTEADY_STEPS.index(wanted_unsteady(regime, model, attached))
     slow = regime.slowness < _SLOW and model.aspect_ratio is not None
     return (
-        float(model.name != wanted),
-        _distance(model, regime.reynolds),
-        float((aero.unsteady != "none") != unsteady),
-        float((aero.inflow != "none") != slow),
+        *model_distance(regime, model, wanted),
+        float(abs(UNSTEADY_STEPS.index(rung.unsteady) - step)),
+        float((rung.aero.inflow != "none") != slow),
     )
 
 
@@ -146,15 +199,17 @@ def _distance(model: CoefficientModel, reynolds: float) -> float:
     return max(math.log10(low / max(reynolds, 1e-12)), math.log10(max(reynolds, 1e-12) / high), 0.0)
 
 
-def reason(regime: Regime, aero: BladeElement, wanted: str) -> str:
+def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
     """Return in a sentence or two why air loads are the recommended ones.
 
     Parameters
     ----------
     regime : what decides.
-    aero : the recommended air loads.
+    rung : the recommended coefficient model and terms.
     wanted : name of the coefficient model that suits best.
+    attached : share of the beat with attached flow, from `attached_share`.
     """
+    aero = rung.aero
     kind = f"{regime.wing} wing" + (" (guessed from mass and Reynolds number)" if regime.guessed else "")
     said = f"{kind}, Reynolds number {significant(regime.reynolds)}"
     said += f", reduced frequency {regime.reduced_frequency:.2g}"
@@ -166,11 +221,8 @@ def reason(regime: Regime, aero: BladeElement, wanted: str) -> str:
     parts = [f"{said}: {wanted} ({why})"]
     if aero.coefficients.name != wanted:
         parts.append(f"it is not among the rows, and {aero.coefficients.name} is nearest")
-    unsteady = regime.reduced_frequency > _UNSTEADY_ABOVE
-    side = "above" if unsteady else "at most"
-    terms = "rotation and added mass" if unsteady else "no unsteady terms"
-    parts.append(f"{terms} (reduced frequency {side} {_UNSTEADY_ABOVE:g})")
-    if (aero.unsteady != "none") != unsteady:
+    parts.append(_unsteady_reason(regime, aero.coefficients, attached))
+    if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
         parts.append("which the chosen rows do not offer")
     if aero.coefficients.aspect_ratio is None:
         parts.append("no momentum inflow (the polar holds its own)")
@@ -180,3 +232,13 @@ def reason(regime: Regime, aero: BladeElement, wanted: str) -> str:
         fast = regime.slowness >= _SLOW
         parts.append("no momentum inflow" + (" (fast flight: the polar holds it)" if fast else ""))
     return "; ".join(parts)
+
+
+def _unsteady_reason(regime: Regime, model: CoefficientModel, attached: float) -> str:
+    terms = wanted_unsteady(regime, model, attached)
+    if terms == "none":
+        return f"no unsteady terms (reduced frequency at most {_UNSTEADY_ABOVE:g})"
+    if terms == "thin-aerofoil":
+        return f"rotation and added mass (reduced frequency above {_UNSTEADY_ABOVE:g})"
+    share = f"flow attached for {math.floor(100 * attached)} % of the beat"
+    return f"rotation, added mass and the lag of the wake (reduced frequency above {_UNSTEADY_ABOVE:g}, {share})"

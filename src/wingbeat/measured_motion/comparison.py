@@ -9,10 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.aero import INFLOWS, LIBRARY, UNSTEADY, BladeElement, CoefficientModel, coefficients_of
-from wingbeat.aero.choosing import load_coefficients
-from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.measured_motion.choice import Regime, preference, reason, regime_of, wanted_model
+from wingbeat.aero import LIBRARY, BladeElement
+from wingbeat.measured_motion.choice import (
+    Regime,
+    attached_share,
+    model_distance,
+    preference,
+    reason,
+    regime_of,
+    wanted_model,
+)
+from wingbeat.measured_motion.ladder import THIN_AEROFOIL_WAKE, Rung, ladder
 from wingbeat.measured_motion.reading import read_strip_case
 from wingbeat.measured_motion.scores import Score, floor, score, sine_score
 from wingbeat.measured_motion.strip_case import AXES, StripCase
@@ -26,7 +33,8 @@ class ValidationRow:
 
     Attributes
     ----------
-    aero : the air loads.
+    aero : the air loads, but for the lag of the wake.
+    unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
     recommended : whether the rule prefers them to all other rows.
     fx, fz : how close the forward and the upward force come.
     aerodynamic_power : mean power that the wings give to the air [W].
@@ -34,6 +42,7 @@ class ValidationRow:
     """
 
     aero: BladeElement
+    unsteady: str
     recommended: bool
     fx: Score
     fz: Score
@@ -45,7 +54,7 @@ class ValidationRow:
         return {
             "aero": self.aero.coefficients.name,
             "extension": self.aero.coefficients.extension,
-            "unsteady": self.aero.unsteady,
+            "unsteady": self.unsteady,
             "inflow": self.aero.inflow,
             "recommended": self.recommended,
             "fz": self.fz.to_dict(),
@@ -81,7 +90,10 @@ class Validation:
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes for the reader."""
-        return (*self.case.notes, *self.motion.notes)
+        start = ()
+        if self.case.period is None and any(row.unsteady == THIN_AEROFOIL_WAKE for row in self.rows):
+            start = ("the motion does not repeat: the lag of the wake starts from steady flight at the first time",)
+        return (*self.case.notes, *self.motion.notes, *start)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the whole as JSON's types; None where nothing was measured or a number has no meaning."""
@@ -110,8 +122,9 @@ def validate(
 ) -> Validation:
     """Evaluate the air loads of coefficient models and terms on a measured motion, and compare the forces.
 
-    The rows are every model with every step of the ladder: no terms, the thin-aerofoil terms, momentum inflow,
-    both. Momentum inflow needs a model with an aspect ratio; rows of others are left out unless they are asked for.
+    The rows are every model with every step of the ladder: no unsteady terms, those of a thin aerofoil, the same
+    with the lag of the wake, each with and without momentum inflow. Inflow and lag need a model with an aspect
+    ratio; rows of others are left out unless they are asked for.
     Exactly one row is recommended, by a rule of Reynolds number, reduced frequency, kind of wing and speed that
     never sees the measured force (`wingbeat.measured_motion.choice`). If the rows hold no such loads, the nearest
     are recommended: first by the model, then by the unsteady terms, then by the inflow.
@@ -124,7 +137,7 @@ def validate(
     ----------
     case : a measured motion, or the path of its case.toml.
     aero : coefficient models, their names or files; all of the library if not given.
-    unsteady : "none" or "thin-aerofoil" keeps these rows alone.
+    unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake" keeps these rows alone.
     inflow : "none" or "momentum" keeps these rows alone.
     induced_factor : induced power of the inflow over that of an ideal disc.
     extension : how the library's models and those of files reach every angle; that of each model if not given.
@@ -132,73 +145,30 @@ def validate(
     Raises
     ------
     FileError : a file is missing or cannot be read.
-    InvalidInputError : what `read_strip_case` and `BladeElement` refuse; inflow for a model without an aspect ratio
-        that was asked for.
+    InvalidInputError : what `read_strip_case` and `BladeElement` refuse; inflow or the lag of the wake for a model
+        without an aspect ratio that was asked for.
 
     >>> from wingbeat.measured_motion import shipped_cases
     >>> found = validate(shipped_cases()[0], aero=["dickinson"])
     >>> found.recommended.aero.unsteady, 0.8 < found.recommended.fz.mean_ratio < 1.2
     ('thin-aerofoil', True)
     """
-    loads = _air_loads(aero, unsteady, inflow, induced_factor, extension)
+    rungs = ladder(aero, unsteady, inflow, induced_factor, extension)
     measured = case if isinstance(case, StripCase) else read_strip_case(case)
     motion = strip_motion(measured)
     regime = regime_of(measured, motion)
     wanted = wanted_model(regime, list(LIBRARY))
-    best = min(loads, key=lambda one: preference(regime, one, wanted))
+    nearest = min(rungs, key=lambda rung: model_distance(regime, rung.aero.coefficients, wanted)).aero
+    attached = attached_share(measured, motion, nearest.coefficients)
+    best = min(rungs, key=lambda rung: preference(regime, rung, wanted, attached))
     moving = {"none": motion}
-    if any(one.inflow != "none" for one in loads):
+    if any(rung.aero.inflow != "none" for rung in rungs):
         moving["momentum"] = motion.in_moving_air(measured, momentum_inflow(measured, induced_factor))
-    rows = tuple(
-        _row(measured, one, one is best, strip_loads(measured, motion, moving[one.inflow], one)) for one in loads
-    )
-    return Validation(measured, motion, regime, rows, reason(regime, best, wanted))
+    rows = tuple(_row(measured, motion, moving[rung.aero.inflow], rung, rung is best) for rung in rungs)
+    return Validation(measured, motion, regime, rows, reason(regime, best, wanted, attached))
 
 
-def _row(case: StripCase, aero: BladeElement, recommended: bool, loads: StripLoads) -> ValidationRow:
+def _row(case: StripCase, motion: StripMotion, moving: StripMotion, rung: Rung, best: bool) -> ValidationRow:
+    loads = strip_loads(case, motion, moving, rung.aero, rung.has_wake)
     fx, fz = score(case, "fx", loads.fx), score(case, "fz", loads.fz)
-    return ValidationRow(aero, recommended, fx, fz, float(case.mean(loads.power)), loads)
-
-
-def _air_loads(
-    aero: Sequence[Any] | None,
-    unsteady: str | None,
-    inflow: str | None,
-    induced_factor: float,
-    extension: str | None,
-) -> list[BladeElement]:
-    """Return the rows that were asked for, all faults of what was asked together."""
-    faults = FaultList()
-    if unsteady is not None:
-        faults.choice("unsteady", unsteady, UNSTEADY)
-    if inflow is not None:
-        faults.choice("inflow", inflow, INFLOWS)
-    faults.number("induced_factor", induced_factor, at_least=0, fix="1 is an ideal disc")
-    models = []
-    for given in LIBRARY if aero is None else aero:
-        try:
-            models.append(_model(given, extension))
-        except InvalidInputError as error:
-            faults.faults.extend(error.faults)
-    if not models and not faults.faults:
-        faults.add("aero", [], "names no coefficient model", f"the models are {', '.join(LIBRARY)}")
-    faults.raise_if_any()
-    rows = []
-    for model in models:
-        for term in UNSTEADY if unsteady is None else (unsteady,):
-            for flow in INFLOWS if inflow is None else (inflow,):
-                # Nobody asked for this row by its name and its inflow.
-                if flow != "none" and model.aspect_ratio is None and (aero is None or inflow is None):
-                    continue
-                try:
-                    rows.append(BladeElement(model, unsteady=term, inflow=flow, induced_factor=induced_factor))
-                except InvalidInputError as error:
-                    faults.faults.extend(fault for fault in error.faults if fault not in faults.faults)
-    faults.raise_if_any()
-    return rows
-
-
-def _model(given: Any, extension: str | None) -> CoefficientModel:
-    if extension is not None and isinstance(given, str | Path):
-        return load_coefficients(given, extension)
-    return coefficients_of(given)
+    return ValidationRow(rung.aero, rung.unsteady, best, fx, fz, float(case.mean(loads.power)), loads)

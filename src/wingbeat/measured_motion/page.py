@@ -16,9 +16,9 @@ of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` 
 
 ## What is compared
 
-- **Rows.** Each row is a coefficient model with a choice of terms: none, the thin-aerofoil terms (rotation,
-  added mass and their couples), momentum inflow, or both. Momentum inflow needs a model that states its aspect
-  ratio.
+- **Rows.** Each row is a coefficient model with a choice of terms. `thin-aerofoil` is rotation, added mass and
+  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each goes with or without momentum inflow.
+  Inflow and lag need a model that states its aspect ratio.
 - **Recommended.** A written rule chooses one row, from the Reynolds number, the reduced frequency, the kind of
   wing and the speed. It never sees the measured force, so the recommended row is not always the closest.
 - **Mean** is the computed mean force over the measured one, **peak** the same of the largest force. **rms** is
@@ -40,7 +40,11 @@ of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` 
    In slow flight, below twice the induced speed of hover, a model of revolving wings of this kind comes first.
 4. Above a reduced frequency of 0.1 it adds rotation and added mass (Leishman 2006, Principles of Helicopter
    Aerodynamics, draws the line between 0.05 and 0.2).
-5. It adds momentum inflow in slow flight, where the polar of a finite wing does not hold the right one, if the
+5. It adds the lag of the wake as well where the theory's picture holds: the flight carries off a straight wake
+   (Theodorsen 1935, NACA Report 496). So the model must be one of straight flow, which states an aspect ratio;
+   the speed at least twice the induced speed of hover; and the angle of attack of the motion below that of the
+   polar's largest lift for nine tenths of the beat, by area.
+6. It adds momentum inflow in slow flight, where the polar of a finite wing does not hold the right one, if the
    model states its aspect ratio.
 
 """
@@ -56,10 +60,20 @@ others, the first and last frames are less certain: leave them out with `from` a
 Velocities in a case are those of the wing's material through still air. Without them the positions are
 differentiated; positions that do not advance with the animal are those of a wind tunnel, and get the speed.
 
+## The lag of the wake
+
+Vorticity that a wing sheds when its lift changes slows the change. Each strip has the two states of Jones's
+form of Wagner's function (Jones 1940, NACA Report 681), driven by the downwash at three quarters of the chord.
+Past the polar's largest lift they are driven by its lift instead. The polar is read at the angle of the air
+that the wake moves. With lift `2 pi sin(alpha)` this is Theodorsen's lift with his C(k). In a motion that
+repeats, the states repeat too; in any other, the wake starts as that of steady flight.
+
+The lag is that of a section, as rotation and added mass are. A whole wing lags less than its sections: [air
+loads](air_loads.md) says what that means for the robot.
+
 ## What no row holds
 
-The wake of an oscillating wing reduces and delays its lift (Theodorsen's C(k)); no row has this lag. Strips do
-not influence each other, and neither do fore wing and hind wing.
+Stall that comes late in fast pitching. Strips do not influence each other, and neither do fore wing and hind wing.
 """
 
 
@@ -115,7 +129,7 @@ def _cells(row: ValidationRow, score: Score) -> list[str]:
 
 
 def _names(row: ValidationRow) -> list[str]:
-    return [row.aero.coefficients.name, row.aero.unsteady, row.aero.inflow]
+    return [row.aero.coefficients.name, row.unsteady, row.aero.inflow]
 
 
 def _shown(value: float | None) -> str:

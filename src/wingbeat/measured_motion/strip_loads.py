@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces,
 from wingbeat.aero.coefficient_model import Kernel
 from wingbeat.aero.inflow import disc_area, induced_flow
 from wingbeat.aero.unsteady import added_inertia, added_mass
+from wingbeat.aero.wake import shed_downwash, wake_downwash
 from wingbeat.measured_motion.strip_case import StripCase
 from wingbeat.measured_motion.strip_motion import StripMotion, semi_span
 
@@ -28,7 +29,7 @@ class StripLoads:
     fx, fz : forward and upward force of all wings [N], shape (n,).
     power : what the wings give to the air [W], shape (n,): less the work of the loads along the velocities of the
         wing through still air, and of the couples.
-    alpha : angle of attack of each strip [rad], shape (n, strips).
+    alpha : angle of attack of each strip, of the air with the wake's part [rad], shape (n, strips).
     """
 
     fx: Array
@@ -50,7 +51,9 @@ def momentum_inflow(case: StripCase, factor: float) -> tuple[float, float]:
     return float(forward), float(up)
 
 
-def strip_loads(case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement) -> StripLoads:
+def strip_loads(
+    case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement, has_wake: bool = False
+) -> StripLoads:
     """Return the air loads of the wings of a case.
 
     Parameters
@@ -59,10 +62,12 @@ def strip_loads(case: StripCase, motion: StripMotion, moving: StripMotion, aero:
     motion : the same through still air, from `strip_motion`.
     moving : the same through the air at the wings; where there is inflow, the motion `in_moving_air`.
     aero : coefficients and terms; its number of strips and point of force have no part in it.
+    has_wake : whether the loads of the circulation lag.
     """
-    turns = aero.unsteady != "none"
-    numbers = (motion.chord, motion.width, moving.chord_speed, moving.normal_speed, motion.turning)
-    loads = (_turning if turns else _steady)(aero.kernel(), case.density, case.area, *numbers)
+    turns, kernel = aero.unsteady != "none", aero.kernel()
+    met = _in_wake(case, moving, kernel) if has_wake else moving
+    numbers = (motion.chord, motion.width, met.chord_speed, met.normal_speed, motion.turning)
+    loads = (_turning if turns else _steady)(kernel, case.density, case.area, *numbers)
     chordwise, normal = np.asarray(loads.chordwise), np.asarray(loads.normal)
     given = chordwise * motion.chord_speed + normal * motion.normal_speed
     if loads.couple is not None:
@@ -78,6 +83,19 @@ def strip_loads(case: StripCase, motion: StripMotion, moving: StripMotion, aero:
     force = chordwise[..., None] * motion.ahead + normal[..., None] * motion.normal
     total = wings * force.sum(axis=1)
     return StripLoads(total[:, 0], total[:, 2], -wings * given.sum(axis=1), np.asarray(loads.alpha))
+
+
+def _in_wake(case: StripCase, moving: StripMotion, kernel: Kernel) -> StripMotion:
+    """Return the motion through air that the shed wake of each strip moves down across its chord."""
+    speed = np.hypot(moving.chord_speed, moving.normal_speed) / (0.5 * moving.chord)
+    following, steps = np.roll(speed, -1, axis=0), np.diff(case.times)
+    if case.period is not None:
+        steps = np.append(steps, max(case.period - (case.times[-1] - case.times[0]), 0.0))
+    travelled = 0.5 * (speed + following)[: len(steps)] * steps[:, None]
+    shed = shed_downwash(kernel, moving.chord, moving.chord_speed, moving.normal_speed, moving.turning)
+    wake = wake_downwash(shed, travelled, case.period is not None)
+    # A downwash of the air is a climb of the strip through it.
+    return replace(moving, normal_speed=moving.normal_speed + wake)
 
 
 @jax.jit

@@ -14,8 +14,10 @@ from wingbeat.style import (
     BLUE,
     COLUMN,
     FIRST,
+    GREY,
     ORANGE,
     PAGE,
+    PURPLE,
     SECOND,
     SHADE,
     SKY,
@@ -34,7 +36,13 @@ if TYPE_CHECKING:
 _LABELS = {"fz": "upward force / weight [-]", "fx": "forward force / weight [-]"}
 _MEASURED: dict[str, Any] = {"color": "k", "linewidth": 1.4}
 _SINE: dict[str, Any] = {"color": ORANGE, "linestyle": ":"}
-_LADDER: tuple[dict[str, Any], ...] = (SECOND, THIRD, {"color": SKY, "linestyle": (0, (5, 1, 1, 1))})
+_LADDER: tuple[dict[str, Any], ...] = (
+    SECOND,
+    THIRD,
+    {"color": SKY, "linestyle": (0, (5, 1, 1, 1))},
+    {"color": PURPLE, "linestyle": (0, (6, 1, 1, 1, 1, 1))},
+    {"color": GREY, "linestyle": (0, (2, 2))},
+)
 _STATIONS = ((0.25, FIRST), (0.5, SECOND), (0.75, THIRD))
 
 
@@ -55,7 +63,7 @@ def validation_page(found: Validation) -> Figure:
     axes_shown = through_time or ["fz"]
     rows = 3 if through_time else 2
     width = PAGE if len(axes_shown) > 1 else 0.7 * PAGE if through_time else COLUMN
-    figure = new_figure(width, 20.0 + 40.0 * rows)
+    figure = new_figure(width, 26.0 + 40.0 * rows)
     heights = (3, 2, 2) if through_time else (3, 2)
     grid = figure.subplots(rows, len(axes_shown), sharex=True, squeeze=False, height_ratios=heights)
     for panels, axis in zip(grid.T, axes_shown, strict=True):
@@ -94,7 +102,7 @@ def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]
 
 def row_label(row: ValidationRow) -> str:
     """Return coefficients and terms of a row in a few words."""
-    names = [name for name in (row.aero.unsteady, row.aero.inflow) if name != "none"]
+    names = [name for name in (row.unsteady, row.aero.inflow) if name != "none"]
     return " + ".join([row.aero.coefficients.name, *names]) if names else f"{row.aero.coefficients.name} alone"
 
 
@@ -115,7 +123,7 @@ def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
         panel.axhline(mean, label="measured mean", **_MEASURED)
         computed = found.case.mean(getattr(found.recommended.loads, axis)) / case.weight
         panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="its mean")
-    legend_above(panel, columns=3 if axis in case.forces else 2)
+    legend_above(panel, columns=2)
 
 
 def _draw_residual(panel: Axes, found: Validation, axis: str) -> None:

@@ -1,0 +1,143 @@
+"""The lag of the wake: what the vorticity that a strip has shed takes from the downwash of its chord.
+
+When the circulation of a strip changes, the opposite circulation leaves at the trailing edge, floats away with
+the air and slows the change. On a thin aerofoil the lift after a step of the downwash w at three quarters of the
+chord is that of ``w phi(s)``, s in semi-chords travelled, with Wagner's function in the form of Jones 1940 (NACA
+Report 681): ``phi = 1 - 0.165 exp(-0.0455 s) - 0.335 exp(-0.3 s)``. A history of steps adds up (Duhamel; Leishman
+2006, Principles of Helicopter Aerodynamics, chapter 8): the lift is that of ``w - X``, and the wake's own
+downwash is ``X = sum A_i (w - z_i)``, where z_i follows w with ``dz_i/ds = b_i (w - z_i)``. For a sine it is
+Theodorsen's ``C(k) = 1 - sum A_i i k / (b_i + i k)`` (1935, NACA Report 496), within 0.02 of his Bessel
+functions.
+
+The wake moves the air across the chord, so the strip meets it as it meets any other wind: its polar, attached or
+stalled, is read at the angle of the air with the wake's part, and its forces turn with that air. With ``C_L = 2
+pi sin(alpha)`` in plunge this is Theodorsen's lift and Garrick's thrust (1936, NACA Report 567). The model of
+dynamic stall of Leishman and Beddoes 1989 (doi 10.4050/JAHS.34.3.3) takes the same step before any other.
+
+The lag is that of a section, as rotation and added mass (`wingbeat.aero.unsteady`) are. A whole wing of a small
+aspect ratio lags less (Jones 1940).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.aero.coefficient_model import Kernel, kernel_lift
+
+Array = NDArray[np.float64]
+
+# A_i and b_i of Jones's form of Wagner's function.
+SHARES, RATES = (0.165, 0.335), (0.0455, 0.3)
+# Angles at which the largest lift is looked for, from 0 to 90 degrees.
+_ANGLES = 901
+# Semi-chords, times a rate, below which the weights of a step are taken from their series.
+_SHORT = 1e-3
+
+
+def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
+    """Return the angles of attack of least and of largest lift between -90 and 90 degrees [rad].
+
+    Beyond them the flow has stalled: lift no longer rises with the angle.
+
+    Parameters
+    ----------
+    kernel : of the polar.
+    """
+    angles = np.linspace(0.0, 0.5 * math.pi, _ANGLES)
+    below, above = kernel_lift(kernel, -angles), kernel_lift(kernel, angles)
+    return -float(angles[below.argmin()]), float(angles[above.argmax()])
+
+
+def shed_downwash(kernel: Kernel, chord: Array, chord_speed: Array, normal_speed: Array, turning: Array) -> Array:
+    """Return the downwash whose circulation a strip sheds as it changes [m/s], of the arrays' shape.
+
+    It is that of three quarters of the chord, ``-v_n + c omega/2``. Past the angle a_s of largest lift, circulation
+    follows lift and not the angle: there the first part is ``V sin(a_s) C_L(alpha)/C_L(a_s)``, which vanishes with
+    the lift of a plate that meets the air broadside.
+
+    Parameters
+    ----------
+    kernel : of the polar.
+    chord : c [m].
+    chord_speed, normal_speed : of the quarter chord through the air, v_c and v_n [m/s].
+    turning : omega, leading edge up [rad/s].
+    """
+    speed, alpha = np.hypot(chord_speed, normal_speed), np.arctan2(-normal_speed, chord_speed)
+    lift, downwash = kernel_lift(kernel, alpha), -normal_speed
+    for stall, stalled in zip(largest_lift_angles(kernel), _beyond(kernel, alpha), strict=True):
+        largest = float(kernel_lift(kernel, np.array(stall)))
+        # A polar without lift on a side sheds nothing there.
+        per_lift = math.sin(stall) / largest if largest * stall > 0 else 0.0
+        downwash = np.where(stalled, speed * per_lift * lift, downwash)
+    return downwash + 0.5 * chord * turning
+
+
+def is_stalled(kernel: Kernel, alpha: Array) -> NDArray[np.bool_]:
+    """Return whether angles of attack [rad] lie beyond those of largest lift, on either side.
+
+    Parameters
+    ----------
+    kernel : of the polar.
+    alpha : from -pi to pi [rad], any shape.
+    """
+    below, above = _beyond(kernel, alpha)
+    return below | above
+
+
+def _beyond(kernel: Kernel, alpha: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    below, above = largest_lift_angles(kernel)
+    return alpha < below, alpha > above
+
+
+def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
+    """Return the downwash of the shed wake X [m/s], shape (n, strips); ``w - X`` is what the polar meets.
+
+    Between two samples w is a straight line in s, along which the states are exact. A motion that repeats has the
+    states that repeat with it; any other starts with the wake of steady flight, X = 0.
+
+    Parameters
+    ----------
+    downwash : w of `shed_downwash` at each time [m/s], shape (n, strips).
+    travelled : semi-chords from each time to the next, shape (n - 1, strips); where the motion repeats, (n, strips)
+        with those from the last time to the first of the next beat.
+    repeats : whether the motion repeats.
+
+    >>> step = np.array([[0.0], [1.0], [1.0]])  # a step of w at once, then 5 semi-chords
+    >>> effective = step - wake_downwash(step, np.array([[0.0], [5.0]]), False)
+    >>> effective.ravel().round(4).tolist()  # Wagner's function, 0.5 at 0
+    [0.0, 0.5, 0.7939]
+    """
+    following = np.roll(downwash, -1, axis=0)[: len(travelled)]
+    wake = np.zeros_like(downwash)
+    for share, rate in zip(SHARES, RATES, strict=True):
+        fading, ahead, here = _step_weights(rate * travelled)
+        pushes = here * downwash[: len(travelled)] + ahead * following
+        states = np.empty_like(downwash)
+        states[0] = _repeating(fading, pushes, downwash[0]) if repeats else downwash[0]
+        for i in range(1, len(downwash)):
+            states[i] = fading[i - 1] * states[i - 1] + pushes[i - 1]
+        wake += share * (downwash - states)
+    return wake
+
+
+def _step_weights(way: Array) -> tuple[Array, Array, Array]:
+    """Return how much of a state, of w at the end and of w at the start of a step its end holds; they sum to 1."""
+    fading, few = np.exp(-way), np.minimum(way, _SHORT)
+    short = way < _SHORT
+    mean = np.where(short, 1 - few / 2 + few * few / 6, -np.expm1(-way) / np.maximum(way, _SHORT))
+    ahead = np.where(short, few / 2 - few * few / 6, 1 - mean)
+    return fading, ahead, np.where(short, few / 2 - few * few / 3, mean - fading)
+
+
+def _repeating(fading: Array, pushes: Array, at_rest: Array) -> Array:
+    """Return the states at the first time that a whole beat brings back; `at_rest` where no beat moves them."""
+    held, gained = np.ones_like(at_rest), np.zeros_like(at_rest)
+    for fade, push in zip(fading, pushes, strict=True):
+        held, gained = fade * held, fade * gained + push
+    lost = 1 - held
+    # A strip that travels nowhere has no wake. Below the rounding of 1 the sum of its steps says nothing.
+    moves = lost > 1e-9
+    return np.where(moves, gained / np.where(moves, lost, 1.0), at_rest)

@@ -41,7 +41,8 @@ NOTES = f"""
 - *Lift slope* is a least-squares fit between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
   with its 95 % interval. The lift of the plate of Su et al. is curved there, so its slope is a mean.
 - The drag of the jackdaw is that of a parabola, C_D = a + b (C_L - c)^2 with fitted a, b and c. We do not use its
-  single measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's largest C_L is that of steady gliding, not of stall.
+  single measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's
+  largest C_L is that of steady gliding, not of stall.
 - *Centre* is -dC_M/dC_N below stall. For gulls it is measured in mean aerodynamic chords behind the shoulder, for
   Su-Fan in chords behind the leading edge.
 - The two models are evaluated from 0 to 60 degrees. A dash means that a value was not measured.

@@ -234,9 +234,11 @@ def together(sets, holds):
         "the centre of pressure",
         f"Of the sets with all {WORDS[len(TRIPLE)]} claims",
         f"{WORDS[four.sum()]} of these also have four times the power",
-        f"{WORDS[free.sum()]} with both mean angles free",
-        f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}",
-        f"{WORDS[(found & ~four & ~both).sum()]} has neither the power ratio nor the peaks, and {WORDS[(four & both).sum()]} has both",
+        f"{WORDS[free.sum()]} have both mean angles free",
+        f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}. "
+        f"All {WORDS[both.sum()]} have only one mean angle free",
+        f"{WORDS[(found & ~four & ~both).sum()]} has neither the power ratio nor the peaks, and "
+        f"{WORDS[(four & both).sum()]} has both",
     ]
 
 

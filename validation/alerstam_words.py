@@ -34,11 +34,11 @@ the best found; better ones may exist. The tables behind this page are [alerstam
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
 
 A: predicted against measured speed. The dashed line marks equality, the band 20 % on either side. B: predicted
-speed divided by measured speed. C: frequency at the measured airspeed, divided by Pennycuick's law of 1996.
-Black squares: frequencies that other studies measured on other birds (see the table *Measured frequencies*).
-D: speeds divided by the speed at lift coefficient 1. Grey bands in B to D: Reynolds numbers 20 000 to 50 000,
-at which Su et al. measured the plate of the Su-Fan coefficients. The Reynolds number of a bird is that of its
-mean chord at its measured airspeed.
+speed divided by measured speed. C: frequency at the measured airspeed, divided by the frequency of Pennycuick's
+law (1996). Black squares are frequencies that other studies measured on other birds (see the table *Measured
+frequencies*). D: speeds divided by the speed at lift coefficient 1. The grey bands in B to D are the Reynolds
+numbers 20 000 to 50 000, at which Su et al. measured the plate of the Su-Fan coefficients. The Reynolds number of
+a bird is that of its mean chord at its measured airspeed.
 """
 
 SPEEDS_HEAD = """
@@ -53,8 +53,8 @@ The columns of the table are:
 - *slope in Re*: the slope of the ratio's logarithm against the logarithm of the Reynolds number, with its 95 %
   interval. The interval is too narrow, because species are not independent.
 
-The last three rows are no predictions; they are there for comparison. Alerstam et al. fitted the two laws to
-these birds. The speed in the last row is the median of the measured speeds.
+The last three rows are not predictions of the model; they are there for comparison. Alerstam et al. fitted the two
+laws to these birds. The last row predicts the same speed for all birds, the median of the measured speeds.
 
 | measured airspeed compared with | species | ratio | scatter | correlation | within 20 % | slope in Re |
 | --- | --- | --- | --- | --- | --- | --- |
@@ -113,7 +113,7 @@ def _speed_verdicts(found: list[Row]) -> list[str]:
     (ours, _), (theirs, error) = exponent(fast, loading), exponent(measured, loading)
     return [
         _verdict(
-            "the model orders the species by airspeed",
+            "the model ranks the species by airspeed",
             f"correlation {far.correlation:.2f} for the maximum-range speed, {alone:.2f} for wing loading alone",
             far.correlation > alone + 0.05,
             "better than wing loading alone",
@@ -177,7 +177,7 @@ def _power_verdicts(found: list[Row], points: list[Point]) -> list[str]:
     leaning, count = _at_frequency_bound(points)
     return [
         _verdict(
-            "the loaded pigeon at 4.46 m/s needs the 25.6 ± 3.8 W that the pressures on its wings gave",
+            "a loaded pigeon needs 25.6 ± 3.8 W at 4.46 m/s (from pressures on its wings)",
             f"the model needs {pigeon.power:.0f} W",
             abs(pigeon.power - 25.6) < 2 * 3.8,
         ),
@@ -188,8 +188,8 @@ def _power_verdicts(found: list[Row], points: list[Point]) -> list[str]:
             specific < 51,
         ),
         _verdict(
-            "minimum power occurs below the upper bound of frequency, which is four times Pennycuick's law",
-            f"{leaning} of {count} orbits of minimum power are at that guessed bound",
+            "at minimum power, frequency is below its bound (a guess: four times Pennycuick's law)",
+            f"{leaning} of {count} orbits of minimum power are at the bound",
             leaning == 0,
             "agrees",
             "not always",
@@ -283,8 +283,8 @@ TAIL = """
 - Nothing was fitted. The model puts the species in the right order, but no better than wing loading alone does.
   Both predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the
   coefficients do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low
-  wing loading fly far faster. The model predicts the airspeed of a species no better than one speed for all
-  birds does.
+  wing loading fly far faster than that. The model predicts the airspeed of a species no better than one speed
+  for all birds does.
 - Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight
   outside that range therefore does not explain the differences by itself.
 - We tested none of these possible explanations:
@@ -294,16 +294,16 @@ TAIL = """
   - Small birds fold their wings between bursts of flapping, which the model cannot do.
   - Migrating birds may not choose their speed for power or range.
 - The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
-  the law but shows little more, because the law's exponents come from dimensional reasoning that the model obeys
-  too.
+  the law but hardly confirms it: the law's exponents come from dimensional reasoning, which our model obeys too.
 - The model needs least power at about twice the frequency at which animals fly. In {leaning} of {count} orbits that
-  frequency is at its upper bound. With the flap amplitude that was measured on alcids (auks), the frequency of
-  least power is higher still: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
+  frequency is at its upper bound. With the measured flap amplitude of the alcids (auks), the frequency of
+  least power is even higher: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
   as such, but the energy that a muscle needs does.
 - The predicted power is several times the measured power. Do not take a power from this model for an animal's.
 - The uncertainty of the derived numbers does not explain the differences from measurement. In the table above,
-  the derived numbers change either speed by about a tenth and power by about a quarter. The guessed span
-  retraction changes the minimum-power speed most. The table changes one number at a time, for three birds.
+  most derived numbers change either speed by at most about a tenth and power by at most about a quarter. The
+  guessed span retraction changes the minimum-power speed most. The table changes one number at a time, for three
+  birds.
 """
 
 

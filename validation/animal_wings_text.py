@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 INTRODUCTION = """
-`python validation/animal_wings.py` writes this page and computes the numbers in it, but for those of the last
+`python validation/animal_wings.py` writes this page and computes all its numbers except those of the last
 table. It fits the coefficient model `feathered` to measurements by other people, which are not part of this
 project:
 """
 SOURCES = (
-    """- Nine printed half wings of a gull in a wind tunnel (github.com/charvey23/UMWTStaticStability). The units
+    """- Nine 3D-printed half wings of a gull in a wind tunnel (github.com/charvey23/UMWTStaticStability). The units
     of the source are ambiguous; [measured wings](measured_wings.md) says how we read them.""",
     """- The wings of a live gliding jackdaw: induced and profile drag from its wake (KleinHeerenbrink, Warfvinge
     and Hedenstrom 2016, doi 10.1242/jeb.132480), in the {frames} frames that show its span and wing area.""",
@@ -19,9 +19,9 @@ uv run wingbeat glide jackdaw --aero feathered
 uv run wingbeat orbit pigeon --speed 12 --aero feathered
 ```"""
 FIGURE = """
-Grey points: the gull wings at the faster tunnel speed. Triangles: the jackdaw. All are brought to aspect ratio
-{ratio:g}. Band: 95 % of the resampled fits of `feathered`. a: lift. b: drag. c: drag against lift. d: the whole
-turn of `feathered` (blue) and of the plate (`su-fan`).
+Grey points are the gull wings at the faster tunnel speed and triangles are the jackdaw, all converted to
+aspect ratio {ratio:g}. The band contains 95 % of the resampled fits of `feathered`. a: lift. b: drag. c: drag
+against lift. d: lift and drag of `feathered` (blue) and of the plate (`su-fan`) at all angles of attack.
 """
 FORM = """## The form
 
@@ -33,68 +33,77 @@ C_D = least + induced C_L^2 + low_rise ramp(low_onset - a, onset_rounding)
                             + high_rise ramp(a - high_onset, onset_rounding)
 ```"""
 SIDES = """
-Camber is the angle of zero lift. Lift is a line between two stalls that differ: with air from below the wing
-reaches {highest:.2f}, with air from above {lowest:.2f}. The formulas hold from -20 to 25 degrees, where wings
-were measured. From there to -45 and 45 degrees a quintic polynomial runs into the plate of `su-fan`, with equal
-value, slope and curvature at its ends. Where in this range a wing becomes a plate is a guess.
+Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is
+`lift_slope`). The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
+at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from above. The formulas
+hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a quintic polynomial
+leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its ends. It is a
+guess that a wing acts like a plate from 45 degrees on.
 """
 METHOD = """
-Prandtl's lifting line brings each gull wing to aspect ratio {ratio:g}; its downwash angle is `C_L / (pi A)`.
-`fit_curve` then fits lift and profile drag of each wing at the faster tunnel speed, and the shape is the median
-of the nine. The rigid prints have least drags of {lowest:.3f} to {highest:.3f}, the live wings {live:.4f}: the
-twist of a print is frozen, and its surface is not feathers. So least drag and induced part are the live bird's.
+We convert each gull wing to aspect ratio {ratio:g} with Prandtl's lifting line, whose downwash angle is
+`C_L / (pi A)` (A: aspect ratio). `fit_curve` then fits lift and profile drag of each wing at the faster
+tunnel speed. Each term is the median of the nine wings, except least drag and induced drag. The rigid prints
+have a least C_D of {lowest:.3f} to {highest:.3f}, the live wings {live:.4f}: a print cannot change its twist
+and has no feathers. We therefore take least drag and induced drag from the live bird.
 """
 INTERVALS = """
-The intervals are those of a bootstrap over wings, and for {live} over flights and wings. The angle of zero lift
-is that of a mount, and the prints are twisted: its spread is that of postures. `lift_rounding` (0.15) and
-`onset_rounding_deg` (2) are held fixed. `drag_induced` is below that of an ideal wing, 0.053: the wake of the
-jackdaw also holds the lift of its tail and body.
+The intervals come from a bootstrap over wings, and for {live} from a bootstrap over flights and wings. The
+angle of zero lift is measured at the wing's mount. The prints are twisted, so the spread of this angle comes
+from their postures. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are held fixed. `drag_induced` is
+below that of an ideal wing, 0.053, because the wake of the jackdaw also contains the lift of its tail and
+body.
 """
 LEFT_OUT = """
-Each gull wing against the median of the other eight, prints against prints, at its own aspect ratio. *Sink* is
-the least, in units of `sqrt(2 W / (rho S))`.
+For each gull wing, the median of the other eight wings predicts its glide at its own aspect ratio. The drag
+is that of the prints, not of the live bird. *Ratio* is the lift-to-drag ratio. *Sink* is the least sink speed
+in units of `sqrt(2 W / (rho S))`, with W the weight and S the wing area.
 """
 LEFT_OUT_VERDICT = """
-**The goal of {goal:.0%} does not hold for every gull wing.** It holds for the ratio of {ratios} and for the
-sink of {sinks} of {wings} wings; the root-mean-square errors are {of_ratio:.0%} and {of_sink:.0%}. The measured
-ratios themselves differ by {spread:.0%} from wing to wing (standard deviation): posture and twist differ, which
-one set of numbers cannot follow.
+Our goal was an error of at most {goal:.0%} for wings that the fit did not see. **Not every gull wing meets
+it.** The ratio of {ratios} and the sink of {sinks} of the {wings} wings do; the root-mean-square errors are
+{of_ratio:.0%} (ratio) and {of_sink:.0%} (sink). The measured ratios themselves differ by {spread:.0%} from
+wing to wing (standard deviation), because posture and twist differ. One set of numbers cannot reproduce these
+differences.
 """
 JACKDAW = """
-The whole jackdaw, by `glide_polar` of its species file, against two studies. The fit did not see the first
-(Rosen and Hedenstrom 2001, J. Exp. Biol. 204:1153, abstract). The second is the source of the wings' drag; its
-body and its tail, often spread, had a drag area of {wide:.5f} m2 on average, against {folded:.5f} m2 of
-`alternatives.body-drag`.
+The next table compares glides of the whole jackdaw, computed by `glide_polar` from its species file, with two
+studies. The fit did not use the first study (Rosen and Hedenstrom 2001, J. Exp. Biol. 204:1153, abstract).
+The second study is the source of the wings' drag. Its jackdaws often spread their tails; body and tail had a
+drag area of {wide:.5f} m2 on average. The species file has {folded:.5f} m2 (`alternatives.body-drag`).
 """
 JACKDAW_VERDICT = """
-Against the study that the fit did not see, the errors of `feathered` are {ratio:+.1%} for the ratio and
-{sink:+.1%} for the sink: **the goal of {goal:.0%} {holds}**. But the level of drag comes from the same species.
-The printed gull wings alone would give these wings a best ratio of {printed:.1f} at the jackdaw's aspect ratio;
-about 15 was measured on them.
+In comparison with the first study, the errors of `feathered` are {ratio:+.1%} for the ratio and {sink:+.1%}
+for the sink: **the goal of {goal:.0%} {holds}**. But the model takes its least drag from the same species.
+With the drag of the printed gull wings, the jackdaw's wings alone would have a best ratio of {printed:.1f};
+the measured ratio of its wings is about 15.
 """
 REYNOLDS = """
-The gull wings were measured at two speeds, Reynolds numbers of about 130 and 190 thousand. Between them drag
-from -4 to 12 degrees changes as Re to the power {mean:.2f} ± {error:.2f} (mean and standard error of nine
-wings, which run from {low:.2f} to {high:.2f}). That is not different from zero, so no model here has a least
-drag that depends on Reynolds number; each states its range instead.
+The gull wings were measured at two speeds, at Reynolds numbers of about 130 and 190 thousand. Between the
+two, drag from -4 to 12 degrees changes as Re to the power {mean:.2f} ± {error:.2f} (mean and standard error
+of nine wings, whose exponents range from {low:.2f} to {high:.2f}). This exponent does not differ from zero.
+In our models, least drag therefore does not depend on Reynolds number; each model states its range of
+Reynolds numbers instead.
 """
 STALL = """
-Lift from 14 to 20 degrees is higher at the faster speed by {mean:.2f} ± {error:.2f}: {stalled} of the nine
-prints stall early at the slower one. The jackdaw, at still lower Reynolds numbers, glides with C_L up to 1.3.
-We take the early stall to be a property of the smooth prints, and fit the faster speed.
+At angles from 14 to 20 degrees, C_L is higher at the faster speed by {mean:.2f} ± {error:.2f}: {stalled} of
+the nine prints stall early at the slower speed. At still lower Reynolds numbers, the jackdaw glides with C_L
+up to 1.3. We therefore think that the early stall is a property of the smooth prints, and we fit the faster
+speed.
 """
 GUESSES = (
-    """- `feathered` states an aspect ratio of 6 and holds its own induced drag. With `--inflow momentum` it is made
-    sectional first.""",
-    """- `feathered-revolving` has the delayed stall of revolving, dried pigeon wings: a C_L of 1.64 at 43 degrees
-    (Usherwood 2009, PMC3380271) and a largest lift-to-drag ratio of 6.3 (Crandell and Tobalske 2011, J. Exp. Biol.
-    214:1867). It states no aspect ratio, because a revolving wing holds its own induced flow. Its drag beyond stall
-    is midway between 0.49, from the ratio of 3.33 that Crandell and Tobalske give at 46 degrees, and 1.53, for a
-    force normal to the wing as on revolving plates: the sources differ by a factor of three. It is meant for hover
+    """- `feathered` is a wing of aspect ratio 6, and its drag includes induced drag. With `--inflow momentum`
+    wingbeat first converts it to a section, which has none.""",
+    """- `feathered-revolving` has the delayed stall of revolving, dried pigeon wings: a C_L of 1.64 at 43
+    degrees (Usherwood 2009, PMC3380271) and a largest lift-to-drag ratio of 6.3 (Crandell and Tobalske 2011,
+    J. Exp. Biol. 214:1867). It states no aspect ratio, because coefficients of a revolving wing already
+    include its induced flow. For its C_D beyond stall, the sources differ by a factor of three: 0.49 follows
+    from the lift-to-drag ratio of 3.33 that Crandell and Tobalske give at 46 degrees, and 1.53 from a force
+    normal to the wing, as on revolving plates. The model uses the middle of the two. Use this model for hover
     and slow flight.""",
-    """- `membrane` is in large part a guess, because we found no polar of a bat's wing that we could read. Measured
-    are the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie 2007, doi 10.1071/ZO07010), and the slope of thin
-    plates. A bat in slow flight reaches a C_L of 4.8 (Muijres et al. 2008, doi 10.1126/science.1153019); no model
-    here does.""",
-    "- Choose a model by what the wing is, not by the flight that it gives.",
+    """- `membrane` is largely a guess, because we found no polar of a bat's wing that we could read. Only two
+    of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie 2007, doi
+    10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8 (Muijres et
+    al. 2008, doi 10.1126/science.1153019); no model here does.""",
+    "- Choose a model by the kind of wing, not by the flight that it gives.",
 )

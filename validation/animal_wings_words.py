@@ -56,7 +56,7 @@ def page(
         *_jackdaw(jackdaw),
         "## Reynolds number",
         *_reynolds(exponents, gained),
-        "## What each model rests on, and which numbers are guesses",
+        "## Sources of the models, and which numbers are guesses",
         "\n".join(filled(guess) for guess in text.GUESSES),
         estimates(),
     ]
@@ -124,13 +124,13 @@ def gulls(out: list[LeftOut]) -> list[str]:
 
 def _jackdaw(jackdaw: JackdawGlides) -> list[str]:
     lines = [
-        "| | best ratio | at [m/s] | least sink [m/s] | at [m/s] |",
+        "| | best glide ratio | at speed [m/s] | least sink [m/s] | at speed [m/s] |",
         "|---|---|---|---|---|",
         f"| measured, first study | {ROSEN_RATIO} | {ROSEN_RATIO_SPEED} | {ROSEN_SINK} | {ROSEN_SINK_SPEED} |",
         jackdaw_row("`feathered`", jackdaw.feathered),
         jackdaw_row("`su-fan`", jackdaw.plate),
         jackdaw.measured_row,
-        jackdaw_row("`feathered`, that drag area", jackdaw.spread_tail),
+        jackdaw_row("`feathered`, with the drag area of the second study", jackdaw.spread_tail),
     ]
     ratio, sink = jackdaw_errors(jackdaw.feathered)
     holds = "holds" if max(abs(ratio), abs(sink)) <= GOAL else "does not hold"
@@ -167,7 +167,7 @@ def _reynolds(exponents: Array, gained: Array) -> list[str]:
 
 def estimates() -> str:
     """Return the table of all numbers of the models that differ from `feathered`, and what they rest on."""
-    lines = ["| model | term | value | interval | rests on |", "|---|---|---|---|---|"]
+    lines = ["| model | term | value | interval | source |", "|---|---|---|---|---|"]
     feathered = wb.aero.WING_ESTIMATES["feathered"]
     for model, terms in wb.aero.WING_ESTIMATES.items():
         for term, (value, low, high, basis) in terms.items():

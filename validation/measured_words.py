@@ -16,7 +16,7 @@ HEAD = """# Measured wings against the paper's plate
 compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. The data of the wings
 are from other people and not part of this project:
 
-- Printed half wings of a gull, in nine postures of elbow and wrist at two tunnel speeds each. The source's
+- 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds. The source's
   units are ambiguous; its numbers support our reading of them.
 - A live gliding jackdaw. The forces on its wings alone come from its wake (KleinHeerenbrink, Warfvinge and
   Hedenstrom 2016, doi 10.1242/jeb.132480).
@@ -26,8 +26,9 @@ are from other people and not part of this project:
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
 A: lift against the angle from zero lift (the gulls' wings are twisted, so their mount angles cannot be compared).
-B: drag against lift. C: lift-to-drag ratio against lift. B and C need no angle. D: moment about the shoulder
-(gulls) or about the leading edge (Su-Fan) against normal force; compare only the slopes.
+B: drag against lift. C: lift-to-drag ratio against lift. B and C do not depend on how the angle was measured.
+D: moment about the shoulder (gulls) or about the leading edge (Su-Fan) against normal force; compare only the
+slopes.
 """
 
 COLUMNS = (
@@ -37,10 +38,11 @@ COLUMNS = (
 
 NOTES = f"""
 - For the gulls and the thin plates, the table uses the mean of the measurements at each angle.
-- *Lift slope* is fitted by least squares between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
+- *Lift slope* is a least-squares fit between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
   with its 95 % interval. The lift of the plate of Su et al. is curved there, so its slope is a mean.
-- The drag of the jackdaw is that of a fitted parabola C_D = least + rise (C_L - at)^2, because the best of hundreds
-  of scattered ratios is an outlier. The jackdaw's largest C_L is that of steady gliding, not of stall.
+- The drag of the jackdaw is that of a parabola, C_D = a + b (C_L - c)^2 with fitted a, b and c. We do not use its
+  single measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's
+  largest C_L is that of steady gliding, not of stall.
 - *Centre* is -dC_M/dC_N below stall. For gulls it is measured in mean aerodynamic chords behind the shoulder, for
   Su-Fan in chords behind the leading edge.
 - The two models are evaluated from 0 to 60 degrees. A dash means that a value was not measured.
@@ -129,7 +131,8 @@ def _meaning(rows: list[Row]) -> list[str]:
         "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "
-        f"above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}), which are shorter. "
+        f"above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; these have a smaller "
+        "aspect ratio). "
         f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
         "gulls, because of twist and camber, and at 0 for the plate.",
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
@@ -151,8 +154,8 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No* means that the form is",
         "not identified: an interval is wider than its own parameter, a parameter is at the limit of its fit, or",
         "the fit is ill-conditioned. Do not use such a fit outside its range. Su-Fan's form is fitted only from 0",
-        "degrees up, where its exponential applies. The other two forms are fitted to the same rows; the better of",
-        "them, by AICc, is in bold.",
+        "degrees up, where its exponential applies. The other two forms are fitted to the same",
+        "measurements; of these two, the better by AICc (a corrected Akaike criterion) is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),

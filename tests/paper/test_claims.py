@@ -200,7 +200,7 @@ def test_what_changed_in_each_verdict_is_told_with_its_reason(claims, tmp_path):
     assert changes["less-pitching-bat"].before == next(r["verdict"] for r in before if r["id"] == "less-pitching")
     assert "separately" in changes["less-pitching-bat"].why
     assert changes["same-peak-as-bird-wing"].before == "-"
-    assert changes["smaller-vertical-force"].why.startswith("same test, other flights: ")
+    assert changes["smaller-vertical-force"].why.startswith("same test, new orbits: ")
     texts = {row["id"]: row["claim"] for row in before}
     reworded = {c.id for c in claims if texts.get(c.id) != c.claim.replace("|", "/")}
     assert reworded == set(ASKED_OTHERWISE)  # a reason for each, and none for a claim that is asked as before

@@ -99,7 +99,7 @@ def question(sets, holds):
         f"`wingbeat paper assumptions --sets {len(sets)} --piece {PIECE}` (numerical version {version}, {hours} "
         "core-hours)",
         f"the lowest of {WORDS[int(starts)]} starts, one of them from the previous speed",
-        f"at -40 degrees the plate then has {signed} instead of {mirrored}, and Dickinson's wing {other} instead "
+        f"the plate's C_D at -40 degrees is then {signed} instead of {mirrored}, and Dickinson's {other} instead "
         f"of {own}",
         f"where the surface explains under {100 * TRUSTED:.0f} % we make none",
         f"(bat, {SAMPLE_SPEED:g} m/s)",
@@ -144,7 +144,7 @@ def always_or_never(sets, holds):
     assert holds["measured-power-below"].dropna().all()
     return [
         f"in all but {WORDS[broken]} of the {spaced(told.sum())} sets that have both orbits",
-        f"The lowest peak is {sets['measured-power-below'].min():.0f} W",
+        f"The lowest peak power is {sets['measured-power-below'].min():.0f} W",
         f"under {BATS_NEED:g} W, is below that of both models: in all {spaced(told.sum())} sets",
         f"half of the sets have a ratio below {short(sets['lower-power'].median())}",
         *(phrase for name in named(holds, "pigeon-closer-at-speed") for phrase in _exceptions(sets, holds, name)),
@@ -203,7 +203,7 @@ def under_one_choice(sets, holds):
         f"in {constant['flap-mean']} % if only the mean flap angle is free, "
         f"and in {constant['pitch-mean']} % if only the mean pitch is free",
         f"only {percent(certified['none'] / ORBITS)} % of the orbits were found",
-        f"({one_free.min()} to {one_free.max()} of {ORBITS} if one is free",
+        f"({one_free.min()} to {one_free.max()} of the {ORBITS} orbits of a set if one is free",
     ]
 
 
@@ -234,9 +234,11 @@ def together(sets, holds):
         "the centre of pressure",
         f"Of the sets with all {WORDS[len(TRIPLE)]} claims",
         f"{WORDS[four.sum()]} of these also have four times the power",
-        f"{WORDS[free.sum()]} with both mean angles free",
-        f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}",
-        f"{WORDS[(found & ~four & ~both).sum()]} has neither, and {WORDS[(four & both).sum()]} has both",
+        f"{WORDS[free.sum()]} have both mean angles free",
+        f"Another {WORDS[both.sum()]} have both the plate's peak power of {plate} and Dickinson's of {fly}. "
+        f"All {WORDS[both.sum()]} have only one mean angle free",
+        f"{WORDS[(found & ~four & ~both).sum()]} has neither the power ratio nor the peaks, and "
+        f"{WORDS[(four & both).sum()]} has both",
     ]
 
 

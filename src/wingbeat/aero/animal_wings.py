@@ -50,7 +50,7 @@ _FEATHERED = {
 _REVOLVING = _FEATHERED | {
     "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of the only other revolving wing here, dickinson"),
     "lift_highest": Estimate(
-        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: the card of that study to a fly's wing"
+        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from that study's card wing to a fly's wing"
     ),
     "lift_rounding": Estimate(0.25, 0.15, 0.5, "guess"),
     "drag_least": Estimate(
@@ -72,7 +72,7 @@ _MEMBRANE = (
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
         "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, raised by camber times slope"),
         "drag_least": Estimate(0.039, 0.015, 0.10, "guess: midway between a thin plate and the plate of su-fan"),
-        "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 of an ideal wing of aspect ratio 6"),
+        "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 times an ideal wing's at aspect ratio 6"),
     }
     | {
         name: _FEATHERED[name]._replace(basis="guess: as feathered")

@@ -140,8 +140,8 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     judged, seconds = pieces.joined()
     heading = (
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}`{so_far} "
-        f"(numerical version {NUMERICAL_VERSION}): each animal and coefficient model under each choice of trims is "
-        f"a [study](studies.md) with {STARTS} starts per orbit, one of them from the orbit at the previous speed "
+        f"(numerical version {NUMERICAL_VERSION}) solved a [study](studies.md) for each animal, coefficient model "
+        f"and choice of trims, with {STARTS} starts per orbit, one of them from the orbit at the previous speed "
         f"if there is one ({SURENESS}). The orbits took {seconds / 3600:.1f} core-hours, "
         f"{seconds / len(judged.sets):.2f} s per set."
     )

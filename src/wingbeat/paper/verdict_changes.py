@@ -25,7 +25,7 @@ _SMALL = (
     "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for the drag "
     "of its plate"
 )
-_SEPARATELY = "each animal is now judged separately; before, the worse of the two hid the other"
+_SEPARATELY = "each animal is now judged separately; before, the worse of the two decided for both"
 _IN_LINE = (
     "'in line with' now compares the lift at the angle of the other peak; the curves are flat there, and a limit "
     "of 2 degrees was too strict"
@@ -113,7 +113,7 @@ ASKED_OTHERWISE = {
     "dickinson-lift-small": f"new: the paper says this of lift as well; {_SMALL}",
     "drag-penalty-small": f"new: this is the drag that the paper calls small; {_SMALL}",
     "arm-nose-up": "'a small nose-up pitch' now means positive and at most 13 degrees, no longer only positive",
-    "closer-power": "'much closer' now means at most half as far; before, it meant closer by any amount",
+    "closer-power": "'much closer' now means at most half the difference; before, it meant closer by any amount",
     "wing-shape": "judged also at equal second moment of area, no longer only at equal area",
 }
 
@@ -173,7 +173,7 @@ def _change(row: dict[str, Any] | None, claim: Claim) -> Change:
         why = ASKED_OTHERWISE.get(claim.id, "asked in other words")
     else:
         then, now = (_shown(number) for number in (row.get("ours"), claim.findings[0].number))
-        why = f"same test, other flights: {then} then, {now} now" if then != now else "asked as before"
+        why = f"same test, new orbits: our number was {then} and is now {now}" if then != now else "asked as before"
     return Change(claim.id, row["verdict"], claim.verdict, why)
 
 

@@ -7,24 +7,21 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from tests.helpers.unsteady_flights import CRUISE, PHASES, states_at, vehicle_and_beat
 from wingbeat._jax.config import jax
-from wingbeat.aero.blade_element import BladeElement
+from wingbeat.aero.blade_element import BladeElement, strip_forces
 from wingbeat.aero.span_parts import UpstrokeKernel, count_arm_strips
 from wingbeat.errors import InvalidInputError
-from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.results.provenance import inputs_of, problem_from
 
-VEHICLE, BEAT = vehicle_and_beat("pigeon", every_law=True)
+# Speeds along and across the chord [m/s]: six strips at five times, air from below and from above.
+ALONG = np.linspace(2.0, 9.0, 30).reshape(6, 5)
+ACROSS = np.linspace(-4.3, 5.1, 30).reshape(5, 6).T
 FLEXED = np.radians(np.array([-175.0, -90.0, -30.0, -6.0, 6.0, 30.0, 90.0, 175.0]))
 
 
-def model_of(coefficients, **terms):
-    return wb.FlightModel(VEHICLE, BladeElement(coefficients, **terms), velocity=CRUISE)
-
-
-def loads_by(model):
-    return jax.tree.map(np.asarray, wb.flight_loads(model, BEAT, states_at(PHASES), PHASES))
+def forces_of(kernel, shift=0.0):
+    """Return the loads of strips of 1 m2 in air of 2 kg/m3; `shift` adds to the speeds across the chord."""
+    return strip_forces(kernel, 2.0, 1.0, ALONG, ACROSS + shift, np.zeros_like(ALONG))
 
 
 @pytest.mark.parametrize(("count", "where", "arm"), [(10, 0.5, 5), (10, 0.25, 3), (10, 0.0, 0), (7, 1.0, 7)])
@@ -35,33 +32,26 @@ def test_a_strip_whose_centre_lies_at_or_inside_the_border_is_of_the_arm(count, 
 
 
 @pytest.mark.parametrize("inflow", ["none", "momentum"])
-def test_each_strip_has_the_loads_of_its_part(inflow):
-    whole = loads_by(model_of("su-fan", hand="feathered", hand_from=0.35, inflow=inflow))
-    arm, hand = (loads_by(model_of(name, inflow=inflow)) for name in ("su-fan", "feathered"))
-    for name in ("lift", "drag", "alpha"):
-        of_whole, of_arm, of_hand = (getattr(one, name) for one in (whole, arm, hand))
-        np.testing.assert_allclose(of_whole[:, :3], of_arm[:, :3], rtol=1e-12, atol=1e-15)
-        np.testing.assert_allclose(of_whole[:, 3:], of_hand[:, 3:], rtol=1e-12, atol=1e-15)
-    assert np.abs(arm.lift - hand.lift).max() > 1e-3
+def test_each_strip_has_the_coefficients_of_its_part(inflow):
+    names, terms = ("su-fan", "feathered"), {"strips": 6, "inflow": inflow}
+    whole = BladeElement(names[0], hand=names[1], hand_from=0.4, **terms)
+    arm, hand = (BladeElement(name, **terms) for name in names)
+    inner, outer = (part.strips for part in whole.parts)
+    assert (inner, outer) == (slice(0, 2), slice(2, 6))
+    found, of_arm, of_hand = (forces_of(one.kernel()) for one in (whole, arm, hand))
+    for name in ("lift", "drag", "normal"):
+        mixed, first, second = (getattr(one, name) for one in (found, of_arm, of_hand))
+        np.testing.assert_allclose(mixed[inner], first[inner], rtol=1e-12)
+        np.testing.assert_allclose(mixed[outer], second[outer], rtol=1e-12)
+    assert np.abs(of_arm.lift - of_hand.lift).max() > 1e-3
 
 
-def test_both_forms_of_the_equations_agree_and_their_derivatives_are_exact():
-    terms = {"hand": "feathered", "hand_from": 0.35, "upstroke_factor": 0.4, "unsteady": "thin-aerofoil"}
-    model, states = model_of("su-fan", **terms), states_at(PHASES)
-    now = loads_by(model)
-    state = np.stack(states[2:])
-    rates = body_rates(model, motion_table(model, BEAT, PHASES), state)
-    np.testing.assert_allclose(now.acceleration.T, rates[1:], rtol=1e-10, atol=1e-9)
-
-    def summed(given):
-        return body_rates(model, motion_table(model, BEAT, PHASES[:2]), given).sum()
-
-    slopes = np.asarray(jax.grad(summed)(state[:, :2]))
-    step, apart = 1e-6, np.eye(8).reshape(8, 4, 2)
-    numerical = [
-        (summed(state[:, :2] + step * one) - summed(state[:, :2] - step * one)) / (2 * step) for one in apart
-    ]
-    np.testing.assert_allclose(slopes.ravel(), numerical, rtol=1e-6, atol=1e-6)
+def test_derivatives_of_both_parts_are_exact():
+    kernel = BladeElement("su-fan", strips=6, hand="feathered", hand_from=0.4, upstroke_factor=0.4).kernel()
+    step = 1e-6
+    _, slope = jax.jvp(lambda shift: forces_of(kernel, shift).lift, (0.0,), (1.0,))
+    numerical = (forces_of(kernel, step).lift - forces_of(kernel, -step).lift) / (2 * step)
+    np.testing.assert_allclose(slope, numerical, rtol=1e-6, atol=1e-9)
 
 
 def test_air_from_above_meets_a_factor_and_air_from_below_does_not():
@@ -80,13 +70,12 @@ def test_air_from_above_meets_a_factor_and_air_from_below_does_not():
 
 
 def test_an_orbit_says_what_it_was_flown_with_and_its_inputs_bring_it_back():
-    aero = BladeElement(
-        "su-fan", hand=wb.aero.Dickinson(extension="signed-drag"), hand_from=0.4, upstroke_factor=0.7
-    )
+    hand = wb.aero.Dickinson(extension="signed-drag")
+    aero = BladeElement("su-fan", strips=4, hand=hand, hand_from=0.4, upstroke_factor=0.7)
     problem = wb.OrbitProblem(wb.load_species("pigeon"), 10.0, aero=aero)
     inputs = inputs_of(problem, 1, 0)
     assert inputs["aero"]["hand"]["coefficients"] == "dickinson"
-    assert problem_from(inputs) == problem
+    assert problem_from(inputs).aero == aero
     orbit = wb.solve_orbit(problem, starts=1)
     assert orbit.status is wb.Status.CONVERGED
     record = orbit.record()

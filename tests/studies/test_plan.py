@@ -112,6 +112,8 @@ def test_lists_go_row_by_row():
         ("aero.strips", 5, lambda p: p.aero.strips == 5),
         ("aero.force_point", "centre-of-pressure", lambda p: p.aero.force_point == "centre-of-pressure"),
         ("aero.airspeed", "full", lambda p: p.aero.airspeed == "full"),
+        ("aero.hand", "feathered", lambda p: p.aero.hand.name == "feathered"),
+        ("aero.upstroke_factor", 0.3, lambda p: p.aero.upstroke_factor == 0.3),
         ("aero.lift.amplitude", 1.3, lambda p: p.aero.coefficients.lift_terms.amplitude == 1.3),
         ("bounds.flap_amplitude.upper", 1.0, lambda p: p.bounds["flap_amplitude"][1] == 1.0),
         ("limit.peak_power", 70.0, lambda p: p.subject_to[0].limit == 70.0),

@@ -207,9 +207,8 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     faults.raise_if_any()
     plan = Plan(form, tuple(bases.values()))
     if len(plan) > MOST_POINTS:
-        faults.add(
-            "vary", len(plan), f"points are more than {MOST_POINTS}", "vary less, or split it into several studies"
-        )
+        rule = f"points are more than {MOST_POINTS}"
+        faults.add("vary", len(plan), rule, "vary less, or split it into several studies")
         faults.raise_if_any()
     return plan
 
@@ -218,10 +217,9 @@ def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], C
     """Return how the parts of a base are made, of which keys of the top level; each of the same keys but once."""
 
     def loads(name: str, extension: str, blend_width_deg: float, *elements: Any) -> BladeElement:
-        given = dict(zip(OF_ELEMENTS, elements, strict=True))
-        arm, hand = (_beside(one, folder, (".csv", ".toml")) for one in (name, given["hand"]))
-        given["hand"] = load_hand(hand, extension, blend_width_deg)
-        return BladeElement(load_coefficients(arm, extension, blend_width_deg), **given)
+        given, reach = dict(zip(OF_ELEMENTS, elements, strict=True)), (extension, blend_width_deg)
+        arm, hand = (_beside(one, folder, (".csv", ".toml")) for one in (name, given.pop("hand")))
+        return BladeElement(load_coefficients(arm, *reach), hand=load_hand(hand, *reach), **given)
 
     makers = {
         "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
@@ -349,5 +347,4 @@ def _may_vary(path: str, given: str, recipe: Recipe, names: dict[str, str], faul
 
 
 def _text(value: Any) -> Any:
-    value = shown(value)
-    return value if isinstance(value, str | int | float) else repr(value)
+    return value if isinstance(value := shown(value), str | int | float) else repr(value)

@@ -27,7 +27,7 @@ _LONGEST_WORD = 200
 
 
 def to_query(scenario: Scenario) -> str:
-    """Return the query of a permalink: what differs from an empty page, readable, the species file packed."""
+    """Return the query of a permalink: values that differ from the defaults, and the compressed species file."""
     empty, words = Scenario(), []
     for name in (*_WORDS, *_NUMBERS, *_WHOLE):
         value = getattr(scenario, name)

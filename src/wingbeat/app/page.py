@@ -54,7 +54,7 @@ class Page:
         self._client.on_connect(self._come)
 
     def _come(self) -> None:
-        """Solve what the address asks for once a browser has connected; fetching the page alone starts nothing."""
+        """Solve the scenario in the address once a browser has connected; fetching the page starts nothing."""
         if self._asked:  # the socket was lost, and is back
             return
         self._asked = True

@@ -49,7 +49,7 @@ def glide(
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
         str,
-        Parameter(help="What turns to trim the pitching moment: body-pitch, flap, or tail (nothing without a tail)."),
+        Parameter(help="What turns to trim the pitching moment: body-pitch, flap or tail (nothing without one)."),
     ] = "body-pitch",
     air: AirLoadOptions = DEFAULT_AIR_LOADS,
     set_: Settings = None,

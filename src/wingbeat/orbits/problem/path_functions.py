@@ -70,7 +70,7 @@ class OutputFunctions:
         self.limits = np.repeat(limits, self.constraint_counts)
 
     def values(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
-        """Return the values; of a series, the peaks of a smooth curve through it, or its highest samples.
+        """Return the values; for a series, the peaks of a smooth curve through it, or its highest samples.
 
         Raises
         ------

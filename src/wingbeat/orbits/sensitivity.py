@@ -193,7 +193,7 @@ class OptimumSlopes:
         return np.sum(values, axis=0) / step
 
     def _nodes(self, parameter: Parameter | None, step: float) -> list[tuple[int, float, Transcription]]:
-        """Return multiples of a step, their weights in a derivative, and the programme with each shifted parameter."""
+        """Return multiples of a step, their weights in a derivative, and the programmes at shifted parameters."""
         if parameter is None:
             return [(at, weight, self._here) for at, weight in _CENTRAL]
         for weights in (_CENTRAL, _UPWARDS, _DOWNWARDS):

@@ -59,7 +59,7 @@ class Outputs:
         return range(sum(counts[:index]), sum(counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
-        """Return the indices of constraints with an active value; `active` flags the inequalities after the path."""
+        """Return indices of constraints with an active value; `active` flags the inequalities after the path's."""
         return [i for i in range(len(self._problem.subject_to)) if active[self.values_of(i)].any()]
 
     def active_constraints(self, active: np.ndarray) -> list[str]:

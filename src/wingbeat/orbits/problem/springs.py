@@ -33,7 +33,7 @@ class SpringCost:
 
 
 class Spring(NamedTuple):
-    """Springs of both flap hinges: stiffness [N m/rad], rest angle [rad], remaining power of the actuators [W].
+    """Both flap springs together: stiffness [N m/rad], rest angle [rad], and the actuators' remaining power [W].
 
     Stiffness 0 means no spring; the rest angle is then None.
     """

@@ -135,7 +135,7 @@ def _named(hang: Importance | None) -> str:
 
 
 def _apart(study: Judged) -> list[str]:
-    """Return a line for each pair of claims that hold often but never together."""
+    """Return a line for each pair of claims that each hold often but never hold together."""
     lines = []
     often = [k for k in range(len(study.claims)) if np.nansum(study.holds[:, k]) >= _OFTEN]
     for i, k in enumerate(often):

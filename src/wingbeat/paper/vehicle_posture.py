@@ -65,7 +65,7 @@ class Flown(NamedTuple):
     states: np.ndarray
 
     def state(self, phase: float) -> np.ndarray:
-        """Return the state at a phase, shape (6,), its place at the origin."""
+        """Return the state at a phase, shape (6,), with the body at the origin."""
         found = [np.interp(phase, self.phase, column) for column in self.states.T]
         return np.array([0.0, 0.0, *found[2:]])
 

@@ -33,8 +33,8 @@ class Flight(Saveable):
     ----------
     model, wingbeat : what flew.
     phase : beats since the start, shape (K,).
-    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number from
-        where the integrator gave up.
+    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number after the
+        integrator gave up.
     """
 
     model: FlightModel

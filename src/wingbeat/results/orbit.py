@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Summary(NamedTuple):
-    """What is known of an orbit without evaluating its loads."""
+    """The results of an orbit that need no evaluation of its loads."""
 
     status: Status
     message: str
@@ -44,7 +44,7 @@ _Flown = tuple[OrbitProblem, Wingbeat, Certificate]
 
 
 def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[str, Any]) -> xr.Dataset:
-    """Return the time series of what was flown of a wingbeat, with record and inputs as attributes."""
+    """Return the time series of a wingbeat, as far as it was flown, with record and inputs as attributes."""
     problem, wingbeat, certificate = flown()
     flight = problem.model, wingbeat, certificate.phase, certificate.states
     return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
@@ -146,7 +146,7 @@ class Orbit(Saveable):
         return cls(summary, inputs, record, functools.partial(_series, flown, inputs), problem)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what is pickled: the record as it is here, and the time series if they were made."""
+        """Return the state to pickle: the record, and the time series if they have been computed."""
         return vars(self) | {"_record": self._record}
 
     @functools.cached_property

@@ -39,11 +39,11 @@ _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range
 
 
 class NotInFileError(ValueError):
-    """Inputs name a function of the user's, which no file holds."""
+    """The inputs name a function of the user's, which a file cannot hold."""
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
-    """Return all inputs of a problem and its search, and those options of the solvers that are not the defaults."""
+    """Return all inputs of a problem and its search, and the solver options that differ from their defaults."""
     species, coefficients = problem.species, problem.aero.coefficients
     aero = aero_record(problem.aero)
     if isinstance(coefficients, TableCoefficients):
@@ -123,14 +123,14 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
 
 
 def own_functions(inputs: dict[str, Any]) -> list[str]:
-    """Return the names of what no file can bring back: objective, quantities and coefficients of the user's own."""
+    """Return the names of objective, quantities and coefficients of the user's own, which a file cannot restore."""
     names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
     own = [name for name in names if name.startswith(_OWN)]
     return [*own, inputs["aero"]["coefficients"]] if "function" in inputs["aero"] else own
 
 
 def species_from(inputs: dict[str, Any]) -> Species:
-    """Set up the species of what `inputs_of` described; its reasons and alternatives are not in it.
+    """Set up the species that `inputs_of` described, without its reasons and alternatives, which are not stored.
 
     Raises
     ------
@@ -184,7 +184,7 @@ def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def _in_the_box(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
-    """Say whether the name alone brings back the formulas; a fit may carry a published model's name."""
+    """Return whether the name alone restores the formulas; a fit may have the name of a published model."""
     if coefficients.name not in LIBRARY:
         return False
     return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients
@@ -220,7 +220,7 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
 
 
 def _asked_for(quantity: Quantity) -> str:
-    """Return the name that brings a quantity back; a user's function is in no file and gets a name that cannot."""
+    """Return the name that restores a quantity; a user's function cannot be restored and gets a name that fails."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
     except InvalidInputError:

@@ -81,7 +81,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
 
 
 def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:
-    """Return how many of the orbits drawn have the largest flap amplitude allowed, and how many there are."""
+    """Return the number of drawn orbits at the largest flap amplitude allowed, and the number of all of them."""
     limits = [orbit.inputs["bounds"]["flap_amplitude"][1] for orbit in drawn]
     reached = [
         math.isclose(o.wingbeat.flap_amplitude, top, abs_tol=1e-4) for o, top in zip(drawn, limits, strict=True)

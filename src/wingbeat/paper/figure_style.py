@@ -25,7 +25,7 @@ Table = Sequence[Row]
 
 @dataclass(frozen=True)
 class Look:
-    """A coefficient model's name for readers, and its colour, dash and marker; each of them alone identifies it."""
+    """A coefficient model's name for readers, colour, dash and marker; each of these alone identifies the model."""
 
     name: str
     color: str

@@ -90,7 +90,7 @@ def _least(
 
 
 def _reach(speed: np.ndarray, value: np.ndarray, start: int, way: int, level: float) -> float:
-    """Return the first speed, going one way, at which a value that starts below a level reaches it, or the last."""
+    """Return the first speed in one direction at which a value below a level reaches it, else the last speed."""
     here = start
     while 0 <= here + way < len(value) and np.isfinite(value[here + way]):
         there = here + way

@@ -192,7 +192,7 @@ class Orbit(Saveable):
 
     @property
     def problem(self) -> OrbitProblem:
-        """The problem this orbit solves, set up again from its inputs unless they hold a user's function."""
+        """The problem that this orbit solves, set up again from its inputs unless these name a user's function."""
         if self._problem is not None and own_functions(self._inputs):
             return self._problem
         return problem_from(self._inputs)

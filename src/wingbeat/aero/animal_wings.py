@@ -50,7 +50,7 @@ _FEATHERED = {
 _REVOLVING = _FEATHERED | {
     "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of the only other revolving wing here, dickinson"),
     "lift_highest": Estimate(
-        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from that study's card to a fly's wing"
+        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from that study's card wing to a fly's wing"
     ),
     "lift_rounding": Estimate(0.25, 0.15, 0.5, "guess"),
     "drag_least": Estimate(
@@ -67,7 +67,7 @@ _REVOLVING = _FEATHERED | {
 _MEMBRANE = (
     _FEATHERED
     | {
-        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "camber of 6.5 to 9 % of bats, thin circular arc: -2 camber"),
+        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "bats' camber, 6.5 to 9 %; thin arc: zero lift at -2 camber"),
         "lift_slope": Estimate(4.1, 3.7, 4.7, "thin plate of aspect ratio 2, by lifting line; high end: theory"),
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
         "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, raised by camber times slope"),

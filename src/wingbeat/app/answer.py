@@ -60,7 +60,7 @@ def _message(answer: dict[str, Any]) -> str:
     # Of a certified orbit the two statements say it already.
     parts = [] if answer["record"]["status"] == "converged" else [str(answer["record"]["message"])]
     if answer.get("from_file"):
-        parts.append(f"As the file {answer['from_file']} says; not solved here.")
+        parts.append(f"From the file {answer['from_file']}; not solved here.")
     elif answer.get("continued"):
         parts.append("Continued from the previous result, with one start.")
     if answer.get("continued_better") is not None:

@@ -67,7 +67,7 @@ class OptimumSlopes:
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
-            rule = "is not determined by its conditions: its derivatives do not exist, or depend on the direction"
+            rule = "is no isolated optimum, so its derivatives do not exist or depend on the direction"
             fix = "try a neighbouring speed, or free more of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
         self._at, self._free, self._active = found, newton.free, newton.active

@@ -32,7 +32,7 @@ from wingbeat.vehicle import Air
 
 # Before the name of a function of the user's.
 _OWN = "the user's own"
-_ANEW = "is not in the file; set up the problem with it again"
+_ANEW = "is not in the file; set up the problem with this function again"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")

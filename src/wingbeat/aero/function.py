@@ -28,7 +28,7 @@ _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
 
 
 class Program:
-    """What a function computes, as JAX traced it. Two are equal if their compiled code is the same.
+    """A function's program, as JAX traced it. Two programs are equal if their compiled code is the same.
 
     Its `repr` names the traced program on disk, so two functions of one name have different programs.
     """

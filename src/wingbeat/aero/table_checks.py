@@ -80,5 +80,5 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
 
 
 def is_whole_turn(angles: Sequence[float]) -> bool:
-    """Say whether a table runs from -180 to 180 degrees."""
+    """Return whether a table runs from -180 to 180 degrees."""
     return angles[0] == -180 and angles[-1] == 180

@@ -24,7 +24,7 @@ class Controls:
 
     Parameters
     ----------
-    scenario : what they show at first.
+    scenario : the choices that the controls show at first.
     change : called with the choices that were changed.
     """
 

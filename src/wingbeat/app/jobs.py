@@ -51,7 +51,7 @@ def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Continue the previous answer if it is near; else search from every start, as the command line does."""
+    """Solve by continuation from the previous answer if it is near; else as the command line does."""
     begun = time.perf_counter()
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)

@@ -146,7 +146,7 @@ class Page:
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
 
     def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
-        """Say what the session is doing."""
+        """Show what the session is doing."""
         if self._state.text != text:
             self._state.set_text(text)
         self._stop.props.set_bool("disabled", not busy)
@@ -173,7 +173,7 @@ class Page:
             self.show_trouble(*homeless)
 
     def show_trouble(self, *lines: str) -> None:
-        """Say that something went wrong."""
+        """Show a message about an error."""
         self._trouble_lines.clear()
         with self._trouble_lines:
             for line in lines[:_MOST_LINES]:

@@ -59,7 +59,7 @@ class Session:
     Parameters
     ----------
     name : of the session, unlike any other's.
-    pool : where the work is done.
+    pool : the worker pool that does the work.
     scenario : the first scenario.
     """
 

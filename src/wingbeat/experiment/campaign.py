@@ -104,7 +104,7 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
 
     Parameters
     ----------
-    campaign : what is swept, and the errors.
+    campaign : the angles and Reynolds numbers to measure, and the errors.
     seed : of the random numbers.
 
     >>> small = Campaign(reynolds=(3e4,), alpha_deg=(10.0, 20.0), repeats=2, rate=10.0)

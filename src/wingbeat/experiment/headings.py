@@ -101,7 +101,7 @@ def parse_numbers(
 
     Parameters
     ----------
-    names : what the columns are called in messages.
+    names : the columns' names in messages.
     blank : the columns where a cell may be empty, which gives NaN.
     """
     if sheet.rows and not blank:

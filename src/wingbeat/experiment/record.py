@@ -30,7 +30,7 @@ class LoadCellRun:
 
     Parameters
     ----------
-    name : what the run is called in messages, such as its file.
+    name : the run's name in messages, such as its file.
     time : rising times of the samples [s], shape (n,).
     normal_force, tangential_force : along the plate's normal and towards its trailing edge [N], shape (n,).
     moment : about mid-chord, nose-up positive [N m], shape (n,).
@@ -219,7 +219,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
 
 
 def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
-    """Refuse a sweep of angles whose largest is no more than pi: it was written in radians.
+    """Refuse a sweep of angles that does not go beyond pi: such a sweep is in radians.
 
     Raises
     ------

@@ -240,7 +240,7 @@ def accelerations(
 
 
 def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Triple:
-    """Solve three equations whose symmetric matrix is given by the rows of its upper triangle.
+    """Solve three linear equations; the symmetric matrix is given by the rows of its upper triangle.
 
     Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions of
     a derivative. A flight then takes 1.58 times as long as one without unsteady terms; without barriers, 1.9 times.

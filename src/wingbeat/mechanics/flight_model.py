@@ -163,7 +163,7 @@ def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any 
 
     Parameters
     ----------
-    vehicle, air : what flies, in what.
+    vehicle, air : the vehicle, and the air in which it flies.
     factor : induced power divided by that of an ideal disc, a ratio.
     velocity : mean velocity, forward and up [m/s].
     xp : array module of the numbers.
@@ -188,7 +188,7 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: 
 
 
 def is_unsteady(model: FlightModel) -> bool:
-    """Say whether a model has unsteady terms."""
+    """Return whether a model has unsteady terms."""
     return not at_default(model, "unsteady")
 
 

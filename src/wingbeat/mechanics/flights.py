@@ -146,7 +146,7 @@ def fly_beats(
     ----------
     model, wingbeat, state : as in `fly_through`.
     beats : number of beats.
-    samples : in each beat.
+    samples : number of samples in each beat.
 
     Returns
     -------

@@ -93,7 +93,7 @@ _NO_POSTURE = Posture(*[math.nan] * 6)
 
 
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
-    """Return the wingbeat of wings held still: spread and straight, as at mid-downstroke, twist kept."""
+    """Return a wingbeat with wings held still: spread and straight, as at mid-downstroke, with the same twist."""
     still = {"flap_amplitude": 0.0, "pitch_amplitude": 0.0, "span_retraction": 0.0, "fold_amplitude": 0.0}
     return dataclasses.replace(wingbeat, **still)
 

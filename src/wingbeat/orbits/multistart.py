@@ -81,7 +81,7 @@ def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
 def search_from_starts(
     programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
-    """Yield where local searches from these starts end, in order, with so many threads.
+    """Yield the ends of local searches from these starts, in order, with a number of parallel threads.
 
     Every start but the first, the stock wingbeat, is brought close to closure before the objective is minimised. A
     local search from far away diverges. Where there is no orbit, 30 flights show this instead of 100.

@@ -91,7 +91,7 @@ def find_orbit(
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and the best that so many starts find, one after the other.
+    """Return the better of a certified orbit and the best orbit from a number of starts, run one after the other.
 
     Only optima that may be better, judged by the solver's coarse flights, are certified.
     """

@@ -35,7 +35,7 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
     ----------
     study : the study.
     folder : folder to write to.
-    heading : how the study was run: command and time.
+    heading : text on how the study was run: command and time.
 
     Raises
     ------

@@ -79,7 +79,7 @@ class Orbit(Saveable):
         orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
         orbit.view()                  the flight in motion, in a notebook
         orbit.problem                 the problem it solves, to change and solve again
-        orbit.relaxations             where there is no orbit: the changes that make one
+        orbit.relaxations if there is no orbit: changes with which there is one
 
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
@@ -90,11 +90,11 @@ class Orbit(Saveable):
     Attributes
     ----------
     status : how the solver ended.
-    message : what that means, in terms of flight.
+    message : what the status means, in terms of flight.
     wingbeat : the wingbeat found.
     initial_state : the body's state at phase 0.
     unknowns : pitch state at phase 0 and free parameters, as the initial guess of a start.
-    relaxations : where there is no orbit, single changes that make one, the smallest first.
+    relaxations : if there is no orbit, single changes with which there is one, the smallest first.
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.
@@ -169,7 +169,7 @@ class Orbit(Saveable):
 
     @property
     def relaxations(self) -> tuple[Relaxation, ...]:
-        """Where there is no orbit, single changes that make one, the smallest first.
+        """Single changes with which there is an orbit, the smallest first; empty if there is one already.
 
         `Relaxation.apply` returns the changed problem.
         """

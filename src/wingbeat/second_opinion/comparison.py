@@ -37,7 +37,7 @@ class SecondOpinion:
     Attributes
     ----------
     code : name and version of the other code.
-    species, speed : what flies, and its mean forward speed [m/s].
+    species, speed : name of the species, and its mean forward speed [m/s].
     weight : [N].
     options : of the lattice.
     phase : phases of the samples, shape (K,).

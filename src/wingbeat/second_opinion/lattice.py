@@ -69,7 +69,7 @@ def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np
     Parameters
     ----------
     motion : of the wings.
-    options : how many panels there are.
+    options : the numbers of panels.
     phase : phases of any beat, shape (K,).
     """
     along = np.linspace(0.0, 1.0, options.spanwise + 1)

@@ -74,13 +74,13 @@ def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
 
 @dataclass
 class Tally:
-    """How far a run is.
+    """The progress of a run.
 
     Parameters
     ----------
     total : points of the study.
-    counts : points by status.
-    here : points that this run has solved.
+    counts : number of points by status.
+    here : number of points that this run has solved.
     begun : when it began, in seconds of a monotonic clock.
     """
 
@@ -154,7 +154,7 @@ class _Queue:
             self._seconds = mean if self._seconds is None else 0.7 * self._seconds + 0.3 * mean
 
     def give_back(self, jobs: list[_Job]) -> None:
-        """Return jobs whose process was lost to the queue, to be sent one by one."""
+        """Put jobs whose process was lost back into the queue, to be sent one by one."""
         self._lost.extend(jobs)
 
     def take(self) -> list[_Job]:

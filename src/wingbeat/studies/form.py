@@ -196,10 +196,10 @@ def _known(loc: tuple[Any, ...]) -> list[str]:
 
 
 def _check_vary(form: StudyForm, faults: FaultList) -> None:
-    """Record faults in how the study form gives values.
+    """Note faults in the values of the study form.
 
-    These are: more than one way for a parameter, repeated values, lists of unequal length, ranges without a sample
-    (and the reverse), and a chain or advice that does not fit.
+    These are: a parameter given in more than one way, repeated values, lists of unequal length, ranges without a
+    sample or a sample without ranges, and a chain or advice that the other keys do not allow.
     """
     ranged, rows = [], {}
     for path, vary in form.vary.items():

@@ -21,7 +21,7 @@ def core_count() -> int:
 
 
 def cores_of(processes: int) -> list[int | None]:
-    """Return the core to which to pin each of so many processes; all None unless the processes use every core.
+    """Return the core to which to pin each process; all None unless there is one process for every core.
 
     Otherwise two programs that each use a few cores could be pinned to the same ones.
 

@@ -131,7 +131,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
 
     Parameters
     ----------
-    problem, change : what changes.
+    problem, change : the problem, and the number that changes.
     value : the least change that is needed leads to this value, SI.
     more : further steps of the last digit.
     """
@@ -283,7 +283,7 @@ def rounded_outward(change: Change, value: float, factor: float, more: int = 0) 
     ----------
     change : of which number.
     value : the least change that is needed leads to this value, SI.
-    factor : from SI to the unit in which it is printed.
+    factor : conversion factor from SI to the printed unit.
     more : further steps of the last digit.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor

@@ -233,7 +233,7 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
     ----------
     optimum : a certified orbit.
     problem : the same problem with another value of one number, such as the speed.
-    along : that number.
+    along : the number that differs.
 
     Returns
     -------

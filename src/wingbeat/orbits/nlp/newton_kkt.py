@@ -19,7 +19,7 @@ class ReducedHessian(NamedTuple):
 
     Parameters
     ----------
-    free : which unknowns are at no bound, shape (n,).
+    free : flags of the unknowns that are at no bound, shape (n,).
     active : which inequalities are active.
     basis : directions of the free unknowns that change no active condition, in columns.
     matrix : the Lagrangian's second derivative along them.

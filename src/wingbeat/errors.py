@@ -54,7 +54,7 @@ class ForkError(WingbeatError, RuntimeError):
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or died over its work twice; the message says how it ended."""
+    """A worker process cannot be started, or has died twice over the same work; the message says how it ended."""
 
 
 def install_extra(extra: str) -> str:

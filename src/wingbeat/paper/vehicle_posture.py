@@ -23,9 +23,9 @@ from wingbeat.viewer.shape import body_axes
 class Posture(NamedTuple):
     """A vehicle at one instant, its body's centre of mass at the origin; world axes, left wing, metres, radians.
 
-    ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3); ``quarter_chord`` and the
-    unit vectors ``chordwise`` and ``spanwise`` (N, 3); ``stroke`` is the nose-up pitch of the stroke axes;
-    ``body_axes`` are the half length and half depth of the body drawn as an ellipsoid.
+    ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3). ``quarter_chord`` and the
+    unit vectors ``chordwise`` and ``spanwise`` have shape (N, 3). ``stroke`` is the nose-up pitch of the stroke
+    axes. ``body_axes`` are the half length and half depth of the ellipsoid drawn as the body.
     """
 
     phase: float

@@ -18,8 +18,8 @@ _CLOSE = 0.02  # of the semi-span: roots nearer to the plane of symmetry leave n
 class LatticeOptions:
     """The resolution of the lattice, and the number of beats that it flies.
 
-    For extrapolation, a lattice with half as many panels and steps is flown too, so all these numbers are even. The
-    page `docs/second_opinion.md` has the convergence study behind the defaults.
+    For extrapolation, a lattice with half as many panels and steps is flown too, so numbers of panels and steps are
+    even. The page `docs/second_opinion.md` has the convergence study behind the defaults.
 
     Parameters
     ----------

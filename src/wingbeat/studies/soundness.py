@@ -106,7 +106,7 @@ def read_about(connection: sqlite3.Connection) -> dict[str, str]:
 
 
 def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse another program's database, and stores of another wingbeat."""
+    """Refuse databases of other programs, and stores of another version of wingbeat."""
     if connection.execute("PRAGMA application_id").fetchone()[0] != APPLICATION:
         if whole_answers(path):
             raise _Damaged("its header")

@@ -32,7 +32,7 @@ _SPEEDS = np.linspace(8.0, 14.0, 20)
 
 
 def median_seconds(run: Callable[[], Any], repeats: int) -> float:
-    """Return the median time of a call [s], after one that is not counted."""
+    """Return the median time of a call [s]; a first call is not counted."""
     run()
     times = []
     for _ in range(repeats):
@@ -43,7 +43,7 @@ def median_seconds(run: Callable[[], Any], repeats: int) -> float:
 
 
 def right_hand_side(lanes: int = LANES) -> float:
-    """Return the time of one right-hand side in a march of many flights together [s]."""
+    """Return the time of one right-hand side when many flights are integrated together [s]."""
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     random = np.random.default_rng(0)
     motion = motion_table(problem.model, problem.species.wingbeat, random.uniform(0.0, 1.0, lanes))
@@ -60,7 +60,7 @@ def right_hand_side(lanes: int = LANES) -> float:
 
 
 def jacobian() -> float:
-    """Return the time of one flight of the search with its derivatives [s]."""
+    """Return the time of one flight as the search needs it, with derivatives [s]."""
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     point = start_point(problem, 0, 0)
     fly = flier(problem.model, problem.species.wingbeat, problem.free)
@@ -68,7 +68,7 @@ def jacobian() -> float:
 
 
 def orbits(animal: str) -> list[Solution]:
-    """Return the orbits of an animal at 20 shuffled speeds, one start each, after one that is not counted."""
+    """Return the orbits of an animal at 20 shuffled speeds, one start each; a first orbit is not counted."""
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
@@ -93,7 +93,7 @@ def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
 
 
 def machine() -> dict[str, Any]:
-    """Return what ran: versions and device."""
+    """Return the versions of the software, and the device."""
     device = jax.devices()[0]
     return {
         "versions": {
@@ -116,10 +116,10 @@ def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, An
 
     Returns
     -------
-    ``rhs_ns`` of a right-hand side in a march of many, ``jacobian_ms`` of a flight with derivatives,
-    ``pigeon_ms`` and ``bat_ms`` of a warm orbit (medians over 20 speeds; certificate included), what of these goes
-    into search and correction (``solve_ms``) and into the certificate (``certify_ms``), ``batch_ms`` of an orbit in
-    a batch and ``batch_certified`` of its orbits, versions and device.
+    Times, versions and device. ``rhs_ns``: a right-hand side when many are evaluated together. ``jacobian_ms``: a
+    flight with derivatives. ``pigeon_ms`` and ``bat_ms``: a warm orbit with its certificate (medians over 20
+    speeds); of these, ``solve_ms`` goes into search and correction and ``certify_ms`` into the certificate.
+    ``batch_ms``: an orbit in a batch; ``batch_certified``: the number of its certified orbits.
     """
     with _one_core():
         return _measure(batch, progress)

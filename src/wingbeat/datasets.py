@@ -16,12 +16,12 @@ STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 
 
 def climb_text(climb: float) -> str:
-    """Return what a title says of a climb rate [m/s] behind the speed; nothing of level flight."""
+    """Return the words for a climb rate [m/s] in a title, after the speed; an empty text for level flight."""
     return f", climbing {climb:.4g} m/s" if climb else ""
 
 
 def flown(dataset: xr.Dataset) -> np.ndarray:
-    """Return which samples were reached before the vehicle tumbled, if it did."""
+    """Return a mask of the samples before the vehicle tumbled; all samples if it did not."""
     return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
 
 

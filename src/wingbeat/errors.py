@@ -12,7 +12,7 @@ from typing import Any, TypeGuard
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing wrong with an input: where it stands, what it is, which rule it breaks, how to mend it.
+    """One fault of an input: where it is, its value, the rule that it breaks, and how to fix it.
 
     >>> print(Fault("wing.mass", -1.0, "must be > 0 kg", "give the mass of one wing"))
     wing.mass = -1.0: must be > 0 kg; give the mass of one wing
@@ -30,11 +30,11 @@ class Fault:
 
 
 class WingbeatError(Exception):
-    """Anything wingbeat raises on purpose."""
+    """The base class of all errors that wingbeat raises on purpose."""
 
 
 class InvalidInputError(WingbeatError, ValueError):
-    """Input was refused; ``faults`` holds every reason found, the message one line for each."""
+    """Input was refused; ``faults`` holds every fault found, and the message has one line for each."""
 
     def __init__(self, faults: list[Fault]) -> None:
         self.faults = faults
@@ -42,11 +42,11 @@ class InvalidInputError(WingbeatError, ValueError):
 
 
 class FileError(WingbeatError):
-    """A file could not be read or written; the message names it, the reason and a way out."""
+    """A file could not be read or written; the message names the file, the reason and a fix."""
 
 
 class ClusterError(WingbeatError):
-    """Other machines cannot be reached or cannot do the work; the message says which, why and a way out."""
+    """Other machines cannot be reached or cannot do the work; the message says which, why, and how to fix it."""
 
 
 class ForkError(WingbeatError, RuntimeError):
@@ -54,11 +54,11 @@ class ForkError(WingbeatError, RuntimeError):
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or died over its work twice; the message says how it ended."""
+    """A worker process cannot be started, or has died twice over the same work; the message says how it ended."""
 
 
 def install_extra(extra: str) -> str:
-    """Say how to install an extra; wingbeat is installed from a clone.
+    """Return the command that installs an extra; wingbeat is installed from a clone.
 
     >>> install_extra("app")
     "in the clone run uv sync --inexact --extra app, or pip install '.[app]'"
@@ -67,9 +67,9 @@ def install_extra(extra: str) -> str:
 
 
 def suggest(word: str, known: Iterable[str], *, most: int = 3, otherwise: str | None = None) -> str:
-    """Return advice on a word that is not known: the nearest known ones, at most so many, or what to say otherwise.
+    """Return advice on an unknown word: at most so many of the known words nearest to it, or else `otherwise`.
 
-    Without `otherwise` all known words are named.
+    Without `otherwise`, the advice names all known words if none is near.
 
     >>> suggest("pigon", ["bat", "pigeon"]), suggest("x", ["bat", "pigeon"]), suggest("x", ["bat"], otherwise="no")
     ('did you mean pigeon?', 'use one of bat, pigeon', 'no')
@@ -91,7 +91,7 @@ def first_line(error: BaseException) -> str:
 
 
 def system_reason(error: Exception) -> str:
-    """Return the system's words for what failed, in lower case, without the path, which messages name themselves.
+    """Return the system's reason for a failure, in lower case and without the path, which our messages contain.
 
     >>> system_reason(FileNotFoundError(2, "No such file or directory", "bat.toml"))
     'no such file or directory'
@@ -100,7 +100,7 @@ def system_reason(error: Exception) -> str:
 
 
 def is_number(value: object) -> TypeGuard[int | float]:
-    """Say whether a value is a number as TOML and JSON write them; true and false are none."""
+    """Return whether a value is a number in the sense of TOML and JSON; true and false are not."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
@@ -109,7 +109,7 @@ WHOLE = "must be a whole number"
 
 
 class FaultList:
-    """Collects faults so that a door reports them all at once."""
+    """Collects faults so that a constructor or loader reports them all at once."""
 
     def __init__(self) -> None:
         self.faults: list[Fault] = []
@@ -130,7 +130,7 @@ class FaultList:
         unit: str = "",
         fix: str = "",
     ) -> bool:
-        """Note a fault unless `value` is a finite real number within the limits; say whether it is."""
+        """Note a fault unless `value` is a finite real number within the limits; return whether it is."""
         if isinstance(value, bool) or not isinstance(value, Real):
             self.add(where, value, "must be a number", fix)
             return False
@@ -152,7 +152,7 @@ class FaultList:
         return False
 
     def whole(self, where: str, value: Any, least: int, most: int, fix: str = "") -> bool:
-        """Note a fault unless `value` is a whole number from `least` to `most`; say whether it is."""
+        """Note a fault unless `value` is a whole number from `least` to `most`; return whether it is."""
         if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
             self.add(where, value, f"{WHOLE} from {least} to {most}", fix)
             return False

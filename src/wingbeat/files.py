@@ -70,7 +70,7 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:
-    """Make a folder, and those above it, where there is none.
+    """Make a folder and its parents if they are missing.
 
     Raises
     ------
@@ -84,10 +84,10 @@ def make_folder(path: str | os.PathLike[str]) -> None:
 
 @contextmanager
 def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Lend a path beside `path` to write to; it takes the name `path` only if the block ends well.
+    """Yield a temporary path beside `path` to write to; it is renamed to `path` only if the block succeeds.
 
-    The lent path has the same suffix, since writers choose their format by it. On an error or an interrupt
-    it is removed and what stood at `path` before is untouched.
+    The temporary path has the same suffix, because writers choose their format by it. After an error or an
+    interrupt the temporary file is deleted, and a file already at `path` is not changed.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None:
-    """Write text (as UTF-8) or bytes to `path`, whole or not at all.
+    """Write text (as UTF-8) or bytes to `path`, completely or not at all.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def _shown(path: Any) -> str:
 
 
 def _reason(error: OSError | ValueError) -> str:
-    """Return the system's own words, without the path, which the message already names."""
+    """Return the system's reason without the path, which the message already contains."""
     text = (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
     return text[:1].lower() + text[1:]
 

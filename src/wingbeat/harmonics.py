@@ -14,7 +14,7 @@ HARMONIC_NAMES = tuple(
 
 
 def harmonic_place(name: str) -> tuple[str, int] | None:
-    """Return the list that holds a harmonic, and its place there; None if the name is not one of a harmonic.
+    """Return the list that holds a harmonic, and its index in it; None if the name is not that of a harmonic.
 
     >>> harmonic_place("flap_sin_2"), harmonic_place("flap_mean")
     (('flap_harmonics', 1), None)

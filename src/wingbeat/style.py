@@ -43,7 +43,7 @@ _STYLE: dict[str, Any] = {
 
 @contextmanager
 def drawing(font: float = FONT) -> Iterator[None]:
-    """Draw in this style, in a block or, as a decorator, in a function; the user's own settings return after it.
+    """Apply this style inside a block, or a decorated function; afterwards the user's own settings are restored.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def dress(axes: Axes, xlabel: str, ylabel: str) -> None:
 
 
 def shade_downstrokes(axes: Axes, first: float, last: float) -> None:
-    """Shade every downstroke between two phases, and set the limits of the axis to these."""
+    """Shade every downstroke between two phases, and make these phases the limits of the axis."""
     from matplotlib.collections import PolyCollection
 
     axes.set_xlim(first, last)
@@ -91,7 +91,7 @@ def letter_panels(panels: Any, first: str = "a") -> None:
 
 
 def legend_above(axes: Axes, handles: Any = None, columns: int = 3, **options: Any) -> None:
-    """Put a legend in lines above the panel, where no curve can cross it."""
+    """Put a legend of one or more lines above the panel, where it cannot overlap a curve."""
     spacing = {"borderaxespad": 0, "handlelength": 1.5, "handletextpad": 0.4, "columnspacing": 0.8}
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.01), "ncols": columns}
     named = {} if handles is None else {"handles": handles}
@@ -99,7 +99,7 @@ def legend_above(axes: Axes, handles: Any = None, columns: int = 3, **options: A
 
 
 def legend_below(figure: Figure, panels: Any, columns: int = 4) -> None:
-    """Put one legend of all that panels show below them."""
+    """Put one legend for all panels below them."""
     handles: dict[str, Any] = {}
     for axes in np.ravel(panels):
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))

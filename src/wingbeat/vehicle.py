@@ -105,7 +105,7 @@ class Wing:
 @register_record
 @dataclass(frozen=True)
 class Tail:
-    """A tail: a flat surface that turns with the body; its mass counts to the body.
+    """A tail: a flat surface that turns with the body; the body's mass includes the tail's.
 
     Parameters
     ----------
@@ -115,7 +115,8 @@ class Tail:
     lift_slope : slope of its lift coefficient [1/rad].
     drag_coefficient : drag coefficient at no lift.
     height : of its aerodynamic centre above the body axis through the centre of mass [m].
-    incidence : of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` adds to it.
+    incidence : angle of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` is
+        added to it.
 
     Raises
     ------
@@ -163,7 +164,7 @@ class Vehicle:
 
     @property
     def mass(self) -> Any:
-        """Whole mass: body and both wings [kg]."""
+        """Total mass: body and both wings [kg]."""
         return self.body.mass + 2 * self.wing.mass
 
 

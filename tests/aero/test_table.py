@@ -177,7 +177,8 @@ FAULTS = [
     (HEADER + GOOD.replace("0,0,0.1", "2,0,0.1"), "row 2, column alpha_deg = 2.0: the table must begin at 0"),
     (
         HEADER + "0,0,0.1\n0.5,1,0.5\n1,0.9,1.5\n1.571,0,2\n",
-        "row 5, column alpha_deg = 1.571: is the largest of a column from 0 to 1.571 that looks like radians",
+        "row 5, column alpha_deg = 1.571: is the largest angle of a column from 0 to 1.571, "
+        "which looks like radians",
     ),
     (
         HEADER + "-20,-0.5,0.4\n" + GOOD,

@@ -73,7 +73,7 @@ def test_a_visit(visit, capsys, tmp_path):
     page = visit()
     solved(page, "pigeon")
     page.locator("input[type=file]").set_input_files(path)
-    page.wait_for_function("document.querySelector('.message').textContent.includes('As the file bat.nc says')")
+    page.wait_for_function("document.querySelector('.message').textContent.includes('From the file bat.nc')")
     fields = [page.get_by_label(label, exact=True).first for label in ("Animal", "Model", "Speed [m/s]")]
     assert [field.input_value() for field in fields] == ["bat", "dickinson", "8"]
     asks_for(page, "aero=dickinson")

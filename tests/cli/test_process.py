@@ -230,7 +230,7 @@ def test_a_fork_after_a_solve_is_refused_with_the_cure(tmp_path: Path) -> None:
     ended = subprocess.run(script(tmp_path, FORK.format(before=False)), capture_output=True, text=True, check=False)
     lines = ended.stdout.splitlines()
     assert lines[::2] == ["converged", "converged"], ended.stderr
-    assert "fork of one that has run JAX" in lines[1]
+    assert "forked from one that had run JAX" in lines[1]
     for cure in ("'spawn'", "'forkserver'", "wb.solve_orbits(problems, processes=N)"):
         assert cure in lines[1]
 

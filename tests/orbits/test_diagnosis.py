@@ -163,7 +163,7 @@ def test_a_search_that_ends_at_the_bound_uncertified_says_which_change_to_make()
     problem = wb.OrbitProblem(PIGEON, speed=12.0, climb=-7.2)
     found = find_orbit(problem, 2, most_starts=2)
     assert found.status is wb.Status.NOT_CONVERGED
-    assert "the problem ends at the lower bound of frequency" in found.message
+    assert "the optimum is at the lower bound of frequency" in found.message
     assert "try more starts" not in found.message
     (change,) = found.relaxations
     assert change.text in found.message

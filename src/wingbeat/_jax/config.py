@@ -35,22 +35,22 @@ def _configure() -> None:
 
 
 class _Checked:
-    """JAX's cache of compiled programs, by way of `program_cache`: JAX itself would run whatever stands there."""
+    """JAX's cache of compiled programs, checked by `program_cache`: JAX would run any file that it finds there."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder
 
     def get(self, key: str) -> bytes | None:
-        """Return what was compiled before, if it is whole and the user's own."""
+        """Return the compiled program of this key; None unless its file is intact and the user's own."""
         return kept_program(f"compiled-{key}")
 
     def put(self, key: str, value: bytes) -> None:
-        """Keep what was compiled."""
+        """Store a compiled program under this key."""
         keep_program(f"compiled-{key}", value)
 
 
 def _keep_compiled(folder: Path) -> None:
-    """Have JAX keep in the folder what it compiles, and read no file there that is not as it was written."""
+    """Have JAX keep compiled programs in the folder, and read only files that are unchanged since it wrote them."""
     theirs = compilation_cache.get_file_cache
 
     def opened(path: str) -> Any:
@@ -68,7 +68,7 @@ _configure()
 
 
 def unchecked(cls: type[T], fields: Mapping[str, Any]) -> T:
-    """Return a record of these fields without the checks of its constructor, which could not read tracers."""
+    """Return a record of these fields without its constructor's checks, which cannot evaluate JAX tracers."""
     record = object.__new__(cls)
     for name, value in fields.items():
         object.__setattr__(record, name, value)
@@ -76,7 +76,7 @@ def unchecked(cls: type[T], fields: Mapping[str, Any]) -> T:
 
 
 def at_default(record: Any, name: str) -> bool:
-    """Say whether an optional field holds the number that switches it off, and no array that might be any."""
+    """Say whether an optional field is the plain number that switches it off; an array never counts as off."""
     value = getattr(record, name)
     return isinstance(value, int | float) and value == getattr(type(record), name)
 
@@ -86,9 +86,10 @@ def register_record(
 ) -> Any:
     """Make a frozen dataclass a pytree whose inner copies skip the checks of its constructor.
 
-    The checks belong to the door; inside, JAX rebuilds records from tracers, which no check could read.
-    Fields named in `static` (names, counts) are part of the compiled function, all others are data. One named in
-    `optional` is data only where its number is not its default: what is off costs a program nothing.
+    The checks apply to user input. Inside compiled functions, JAX rebuilds the records from tracers, and a check
+    cannot evaluate a tracer. Fields named in `static` (names, counts) are part of the compiled function; all others
+    are data. A field named in `optional` is data only if it differs from its default, so a term that is off adds
+    nothing to the program.
     """
     if cls is None:
         return functools.partial(register_record, static=static, optional=optional)

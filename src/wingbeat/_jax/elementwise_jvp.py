@@ -25,10 +25,10 @@ def fusion_barrier(tree: T) -> T:
 
 @jax.custom_jvp
 def computed_once(tree: Any) -> Any:
-    """Return the arrays of `tree`, which XLA then computes once, and so their derivatives in each direction.
+    """Return the arrays of `tree` so that XLA computes them, and each directional derivative of them, only once.
 
-    The division of `fusion_barrier` does not hold back derivatives: XLA turns a division by what all directions
-    share into a product.
+    The division of `fusion_barrier` alone does not protect derivatives: all directions share the divisor, so XLA
+    turns the division into a product.
     """
     return fusion_barrier(tree)
 
@@ -39,9 +39,9 @@ def _computed_once_jvp(primals: Any, tangents: Any) -> tuple[Any, Any]:
 
 
 def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
-    """Give an elementwise function of (parameters, arrays of one shape...) a derivative by its slopes.
+    """Return an elementwise function of (parameters, arrays of one shape...) whose derivative uses its slopes.
 
-    The parameters may be a pytree, the result too.
+    Both the parameters and the result may be pytrees.
 
     >>> line = elementwise_jvp(lambda slope, x: slope * x)
     >>> float(jax.jvp(lambda x: line(3.0, x), (2.0,), (1.0,))[1])

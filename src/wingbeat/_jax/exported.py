@@ -64,12 +64,12 @@ class _Ready(NamedTuple):
 
 
 class StoredFunction:
-    """A function of float64 arrays, in pytrees, traced at most once on this machine for given shapes.
+    """A function of pytrees of float64 arrays that is traced at most once on this machine for given shapes.
 
-    The compiled program returns its results as one array, because each array handed over costs some microseconds.
+    The compiled program returns its results as one array, because each returned array costs some microseconds.
 
-    Called with tracers, inside another JAX transformation, it is the plain function. Arguments named in `static`
-    must be given by keyword and have a telling `repr`.
+    Inside another JAX transformation, where its arguments are tracers, it is the plain function. Arguments named in
+    `static` must be given by keyword, and different values must have different `repr`s.
     """
 
     def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False) -> None:
@@ -82,7 +82,7 @@ class StoredFunction:
 
     @property
     def loaded(self) -> bool:
-        """Whether any program of it is in memory."""
+        """Whether memory holds a compiled program of this function."""
         return bool(self._ready)
 
     def __call__(self, *args: Any, **static: Any) -> Any:
@@ -94,9 +94,9 @@ class StoredFunction:
         return self._run(self._program(tree, (), more, static), _NOTHING, more)
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
-        """Return the function of the arguments that follow these, which are taken apart but once.
+        """Return the function with its first arguments fixed; these are flattened only once.
 
-        The arguments that follow must be arrays of float64, or floats, and of the same shapes in every call.
+        The remaining arguments must be float64 arrays or floats, with the same shapes in every call.
         """
         leaves, tree = jax.tree_util.tree_flatten(first)
         arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
@@ -116,7 +116,7 @@ class StoredFunction:
     def _program(
         self, tree: Any, shapes: tuple[Any, ...], more: list[np.ndarray], static: dict[str, Any]
     ) -> _Ready:
-        """Return the program for arrays of these shapes and more, in that order."""
+        """Return the program for these arrays, followed by more arrays."""
         key = (tree, shapes, tuple(a.shape for a in more), *sorted(static.items()))
         if _cannot_run:
             _refuse_fork()
@@ -160,7 +160,7 @@ class StoredFunction:
         return _Ready(_compiled(exported, arguments, self._hot), *outcome[0])
 
     def _kept_name(self, tree: Any, shapes: Any, static: dict[str, Any]) -> str:
-        """Return the name under which the traced program is kept: a digest of all that could change it."""
+        """Return the name of the traced program's file: a digest of everything that could change the program."""
         what = (
             f"{self._function.__module__}.{self._function.__qualname__}",
             str(tree),
@@ -173,7 +173,7 @@ class StoredFunction:
 
 
 def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
-    """Compile a traced program, or read it from JAX's cache; ahead of a call, else JAX holds it in memory twice."""
+    """Compile a traced program before any call, or read it from JAX's cache; at a call JAX would hold it twice."""
     lowered = jax.jit(program.call).lower(*arguments)
     if jax.default_backend() == "cpu" and not hot:
         with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice
@@ -183,7 +183,7 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
 
 def _refuse_fork() -> None:
     raise ForkError(
-        "this process is a fork of one that has run JAX, whose threads are not copied: it would wait for them "
+        "this process was forked from one that had run JAX. It lacks JAX's threads and would wait for them "
         "forever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
         "wb.solve_orbits(problems, processes=N)"
     )
@@ -194,7 +194,7 @@ def _packed(arrays: list[np.ndarray]) -> np.ndarray:
 
 
 def _moved(arrays: list[np.ndarray]) -> Any:
-    """Return the arrays as one of JAX's own."""
+    """Return the arrays joined into one JAX array."""
     if _cannot_run:
         _refuse_fork()
     with jax.ensure_compile_time_eval():
@@ -219,7 +219,7 @@ def _source_digest() -> str:
 
 
 def exported(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
-    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a hot one may take longer to compile.
+    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a `hot` one may compile longer.
 
     >>> @exported
     ... def double(values):

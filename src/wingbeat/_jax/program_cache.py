@@ -38,7 +38,7 @@ def cache_folder() -> Path:
 
 
 def program_folder() -> Path | None:
-    """Return the folder of programs, which no other user can write to, or None where there can be none."""
+    """Return the folder of programs, which no other user can write to; None if it cannot be made."""
     try:
         return _private(cache_folder() / f"programs-{_user()}")
     except RuntimeError as error:
@@ -46,7 +46,7 @@ def program_folder() -> Path | None:
 
 
 def kept_program(name: str) -> bytes | None:
-    """Return what was kept under a name; None if it was never kept, is damaged, or was written by somebody else."""
+    """Return the program kept under a name; None if it is missing, damaged, or written by another user."""
     folder = program_folder()
     if folder is None:
         return None
@@ -65,7 +65,7 @@ def kept_program(name: str) -> bytes | None:
 
 
 def keep_program(name: str, program: bytes) -> None:
-    """Keep a program under a name. If it cannot be kept, only time is lost."""
+    """Keep a program under a name; if it cannot be written, it is compiled again next time."""
     folder = program_folder()
     if folder is not None:
         with suppress(FileError, OSError):
@@ -73,7 +73,7 @@ def keep_program(name: str, program: bytes) -> None:
 
 
 def _digest(name: str, program: bytes) -> bytes:
-    """Return a digest that also holds for no other name."""
+    """Return a digest of a program and its name, so that a renamed file does not match."""
     digest = hashlib.blake2b(name.encode() + b"\0", digest_size=_DIGEST)
     digest.update(program)
     return digest.digest()
@@ -89,7 +89,7 @@ def _is_own(found: os.stat_result) -> bool:
 
 @functools.cache
 def _private(folder: Path) -> Path | None:
-    """Return the folder, made where it is missing, if it is the user's own."""
+    """Return the folder, created if missing; None unless it is the user's own."""
     try:
         folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         _make(folder)
@@ -117,7 +117,7 @@ def _make(folder: Path) -> None:
 
 @functools.cache
 def _without(reason: str) -> None:
-    """Say once why programs are not kept. Python prints a logger's warning where nobody set up logging."""
+    """Log one warning that says why programs are not kept; Python prints it if no logging is set up."""
     logging.getLogger("wingbeat").warning(
         "warning: compiled programs are not kept, so every start takes longer: %s; set WINGBEAT_CACHE to a folder "
         "of your own",

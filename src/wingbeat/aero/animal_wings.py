@@ -18,9 +18,9 @@ class Estimate(NamedTuple):
 
     Attributes
     ----------
-    value : in degrees where its name ends in _deg [deg], else without unit [-].
+    value : in degrees if its name ends in _deg [deg], else without unit [-].
     low, high : ends of its interval, in the unit of the value [-].
-    basis : what it rests on; a guess says that it is one.
+    basis : the measurement behind it, or the word guess.
     """
 
     value: float
@@ -67,7 +67,7 @@ _REVOLVING = _FEATHERED | {
 _MEMBRANE = (
     _FEATHERED
     | {
-        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "camber of 6.5 to 9 % of bats, thin circular arc: -2 camber"),
+        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "bats' camber, 6.5 to 9 %; thin arc: zero lift at -2 camber"),
         "lift_slope": Estimate(4.1, 3.7, 4.7, "thin plate of aspect ratio 2, by lifting line; high end: theory"),
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
         "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, raised by camber times slope"),
@@ -104,8 +104,9 @@ def Feathered(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Camb
     """Return a bird's wing of aspect ratio 6: the shape of nine printed gull wings, the drag of a gliding jackdaw.
 
     Zero lift, slope, both stalls and the drag of separated flow are medians of nine half wings of a gull (wind
-    tunnel, -20 to 25 degrees), brought to aspect ratio 6 by Prandtl's lifting line. Least drag and induced part are
-    those of the wings of a live jackdaw. From 25 to 45 and from -20 to -45 degrees, where nothing was measured, the
+    tunnel, -20 to 25 degrees), brought to aspect ratio 6 by Prandtl's lifting line. The least drag and the induced
+    drag are those of a live jackdaw's wings. From 25 to 45 and from -20 to -45 degrees, where nothing was measured,
+    the
     curves run into those of a plate.
 
     Printed wings: wind-tunnel data of github.com/charvey23/UMWTStaticStability. Jackdaw: KleinHeerenbrink,
@@ -141,9 +142,10 @@ def Feathered(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Camb
 def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
     """Return a bird's wing with the delayed stall of revolving pigeon wings, for slow flight and hover.
 
-    Measured: the largest C_L, 1.64 at 43 degrees, and the largest lift-to-drag ratio, 6.3. Its drag beyond stall is
-    midway between two sources that disagree by a factor of three. Zero lift and the lower side are those of
-    `Feathered`, the rest is a guess. A revolving wing holds its own induced flow, so no aspect ratio is stated.
+    Measured: the largest C_L, 1.64 at 43 degrees, and the largest lift-to-drag ratio, 6.3. The drag beyond stall is
+    midway between two sources that disagree by a factor of three. The angle of zero lift and the lower side are
+    taken from `Feathered`; the rest is a guess. The coefficients of a revolving wing already contain its induced
+    flow, so the model states no aspect ratio.
 
     Usherwood 2009 (PMC3380271) and Crandell and Tobalske 2011 (J. Exp. Biol. 214:1867) for dried pigeon wings;
     Usherwood and Ellington 2002 for the direction of the force on a revolving plate.
@@ -176,9 +178,9 @@ def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0
 def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
     """Return a bat's wing of aspect ratio 6: a thin plate with the measured camber of bats; the rest is a guess.
 
-    We found no polar of a bat's wing that we could read. Measured: the camber of 12 species, 6.5 to 9 % of the
-    chord, which gives the angle of zero lift; and the lift slope of thin plates. `WING_ESTIMATES` says of every
-    other number that it is a guess, with a wide interval. That a compliant wing stalls later is left out.
+    We found no readable polar of a bat's wing. Two things are measured: the camber of 12 species, 6.5 to 9 % of the
+    chord, which gives the angle of zero lift, and the lift slope of thin plates. `WING_ESTIMATES` marks every other
+    number as a guess, with a wide interval. The model leaves out that a compliant wing stalls later.
 
     Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J. Aircraft
     37:825, read off a figure.

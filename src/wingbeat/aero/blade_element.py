@@ -55,22 +55,23 @@ class BladeElement:
         of attack [rad] that returns (C_L, C_D); see `coefficients_of`.
     strips : number of equal strips of one wing.
     force_point : "quarter-chord", as in Su et al., or "centre-of-pressure".
-    airspeed : the speed V whose square determines lift and drag: "planar", the speed across the span, or
-        "full", the speed of the strip's whole velocity, as Su et al. word it. Reynolds numbers use the same speed.
+    airspeed : the speed V whose square determines lift and drag. "planar" is the speed across the span; "full" is
+        the magnitude of the strip's whole velocity, as in the words of Su et al. Reynolds numbers use the same
+        speed.
     unsteady : "thin-aerofoil" adds rotation, added mass and the couples of a thin aerofoil
         (`wingbeat.aero.unsteady`); "none", as in Su et al., leaves them out.
-    inflow : "momentum" adds the induced flow that holds the weight (`wingbeat.aero.inflow`) to sectional
-        coefficients, made from those of a finite wing where they are not sectional; "none" leaves it out.
-    induced_factor : induced power over that of an ideal disc; 1.2 after Pennycuick 2008.
-    hand : coefficients of the strips outside `hand_from`, as for `coefficients`, which are then those of the arm
-        alone; "none" for one model from root to tip.
-    hand_from : span fraction where the hand begins; a strip whose centre lies at or inside it belongs to the arm.
-    upstroke_factor : what multiplies lift and drag of the coefficients where air meets the wing from above, 0 to 1:
-        below 1 where feathers separate and let air through. In slow flight, the wake of a pigeon shows vortices of
-        the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), which is near 0. No
-        source measured a number.
-    share : share of the unsteady terms and of the induced factor that acts, 0 to 1. No air has a share below 1, but
-        orbits along it show what the terms do (`trace_terms`).
+    inflow : "momentum" adds the induced flow of wings that carry the weight (`wingbeat.aero.inflow`) and uses
+        sectional coefficients. Coefficients of a finite wing are converted to sectional ones. "none" leaves it out.
+    induced_factor : induced power divided by that of an ideal disc, a ratio; 1.2 after Pennycuick 2008.
+    hand : coefficients of the strips outside `hand_from`, given like `coefficients`. Then `coefficients` are those
+        of the arm. "none" uses `coefficients` from root to tip.
+    hand_from : span fraction where the hand begins. A strip whose centre lies at or inside it belongs to the arm.
+    upstroke_factor : factor from 0 to 1 on lift and drag of the coefficients where air meets the wing from above.
+        It is below 1 if feathers separate and let air through. The wake of a pigeon in slow flight shows vortices
+        of the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), as with a factor
+        near 0. No source measured a value.
+    share : factor from 0 to 1 by which the unsteady terms and the induced factor are multiplied. Real air has a
+        share of 1; orbits at smaller shares show what the terms do (`trace_terms`).
 
     Raises
     ------
@@ -148,7 +149,7 @@ class BladeElement:
         )
 
     def kernel(self) -> Kernel:
-        """Return the kernel of the coefficients that the strips use: sectional ones where there is inflow."""
+        """Return the kernel of the strips' coefficients; with inflow, these are sectional coefficients."""
         own = sectional_kernel if self.inflow != "none" else lambda model: model.kernel()
         arm, *hand = (own(part.coefficients) for part in self.parts)
         whole = ArmHandKernel(arm, hand[0], self.parts[0].strips.stop) if hand else arm
@@ -156,7 +157,7 @@ class BladeElement:
 
 
 def blade_element_of(aero: Any) -> BladeElement:
-    """Return the air loads that are meant by ``aero``: a `BladeElement`, or what `coefficients_of` takes.
+    """Return the air loads for any value that ``aero`` accepts: a `BladeElement`, or what `coefficients_of` takes.
 
     >>> blade_element_of("dickinson").strips
     10
@@ -165,11 +166,12 @@ def blade_element_of(aero: Any) -> BladeElement:
 
 
 class StripForces(NamedTuple):
-    """Air load of each strip of one wing, arrays of the strips' shape: forces [N] and what made them.
+    """Air load of each strip of one wing: the forces [N], and the speed and angle behind them, one array each.
 
-    `chordwise` and `normal` are the two axes in which the speeds were given: those of the chord, or those that the
-    strip has without pitch. `speed` is the V of the loads, `lift` and `drag` are those of the coefficients.
-    `couple` [N m], leading edge up, is None unless the strips turn in unsteady air.
+    `chordwise` and `normal` are the force components along the two axes in which the speeds were given. These axes
+    are those of the pitched or of the unpitched chord. `speed` is the airspeed V that determines the loads. `lift`
+    and `drag` come from the coefficients alone. `couple` [N m], leading edge up, is None unless unsteady loads of
+    turning strips are included.
     """
 
     chordwise: PerStrip
@@ -192,11 +194,11 @@ def strip_forces(
 ) -> StripForces:
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
-    The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` with
-    ``gamma = atan2(v_n, v_c)`` the direction of the motion; the loads are ``F_c = -L sin(gamma) - D cos(gamma)``
-    and ``F_n = L cos(gamma) - D sin(gamma)``, written with the speeds in place of that angle's sine and cosine.
-    Given a speed along the span [m/s], V is that of all three; a strip that moves along its span alone has no
-    angle of attack, and no load.
+    The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` where
+    ``gamma = atan2(v_n, v_c)`` is the direction of the motion. The loads are ``F_c = -L sin(gamma) - D cos(gamma)``
+    and ``F_n = L cos(gamma) - D sin(gamma)``; the code replaces sine and cosine of gamma by the speeds. If a speed
+    along the span [m/s] is given, V is the magnitude of all three components. A strip that moves only along its
+    span has no angle of attack and no load.
     """
     along_span = () if span_speed is None else (span_speed,)
     unit = _unit_forces(kernel, chord_speed, normal_speed, pitch, *along_span)
@@ -220,11 +222,11 @@ def with_turning(
     chord_speed: PerStrip,
     normal_speed: PerStrip,
 ) -> StripForces:
-    """Return the loads with those that arise because the chord turns: rotation, and the couple against it.
+    """Return the loads plus those of a turning chord: the rotational force and the couple that resists it.
 
     Parameters
     ----------
-    forces : of the coefficients.
+    forces : the loads that come from the coefficients.
     density : of the air [kg/m3].
     chord, width : of the strips [m].
     turning : of the chord about the span, leading edge up [rad/s].
@@ -247,7 +249,7 @@ def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
 def _unit_forces(
     kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
 ) -> StripForces:
-    """Return the loads of strips where half the density times the area is one."""
+    """Return the loads of strips for which ``density * area / 2`` is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
     # The square root has no derivative at rest; there the loads vanish with the speed.
     moving = squared > 0.0
@@ -271,5 +273,5 @@ def _unit_forces(
 
 
 def _wrapped(angle: Angles) -> Angles:
-    """Return an angle less whole turns, between -pi and pi."""
+    """Return an angle brought into [-pi, pi] by whole turns."""
     return angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))

@@ -23,7 +23,7 @@ class Jet(NamedTuple):
     curvature: Scalar
 
     def mirrored(self) -> Jet:
-        """Return the jet of the same curve with its axis reversed."""
+        """Return the jet of the curve with its argument's sign reversed."""
         return Jet(self.value, -self.slope, self.curvature)
 
     def negated(self) -> Jet:
@@ -43,13 +43,13 @@ def jet_of(function: Function, at: Scalar) -> Jet:
 
 
 def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the even polynomial, in powers of the squared distance, that has `jet` at distance `width`."""
+    """Return coefficients, in powers of the squared distance, of the even polynomial that has `jet` at `width`."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the odd polynomial over the distance, in powers of its square, that has `jet` at `width`."""
+    """Return the same for the odd polynomial that has `jet` at `width`, divided by the distance."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
         (15 * f - 7 * s + k) / (8 * width),
@@ -59,7 +59,7 @@ def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
 
 
 class Blend(NamedTuple):
-    """A quintic blend between two pieces that share no symmetry: its even and its odd part."""
+    """The even and the odd part of a quintic blend between two pieces that need no symmetry."""
 
     even: tuple[Scalar, ...]
     odd: tuple[Scalar, ...]
@@ -73,7 +73,7 @@ class Blend(NamedTuple):
         return cls(even_blend(even, width), odd_blend(odd, width))
 
     def over(self, value: Angles, distance: Angles, width: Scalar) -> Angles:
-        """Return `value`, replaced by the blend where the distance is below the width."""
+        """Return `value`, or the blend's value if the distance is below the width."""
         squared = distance * distance
         blend = horner(self.even, squared) + distance * horner(self.odd, squared)
         return jnp.where(jnp.abs(distance) < width, blend, value)

@@ -33,12 +33,12 @@ if TYPE_CHECKING:
 
 
 def _ramp(x: Angles, width: Scalar) -> Angles:
-    """Return `x` where it is positive, else 0, rounded over about `width`."""
+    """Return ``max(x, 0)`` with the corner rounded over about `width`."""
     return 0.5 * (x + jnp.sqrt(x * x + width * width))
 
 
 class CamberedCurves(NamedTuple):
-    """The formulas in radians, good between the joins; a JAX pytree. The onsets are angles of attack."""
+    """The formulas in radians, valid between the joins; a JAX pytree. The onsets are angles of attack."""
 
     zero_lift: Scalar
     slope: Scalar
@@ -80,12 +80,12 @@ class CamberedTerms:
     ----------
     zero_lift_deg : angle of attack at which the line of lift is zero [deg].
     lift_slope : slope of lift in attached flow [1/rad].
-    lift_lowest, lift_highest : C_L that the wing keeps beyond its two stalls, of either sign [-].
+    lift_lowest, lift_highest : constant C_L beyond the stall at negative and at positive lift [-].
     lift_rounding : how widely the line of lift bends at its ends, in C_L [-].
     drag_least : C_D without lift or separated flow [-].
     drag_induced : C_D over C_L squared; an ideal wing of aspect ratio A has 1 / (pi A) [-].
     low_onset_deg, high_onset_deg : angles above zero lift where separated flow begins to add drag [deg].
-    low_rise, high_rise : what it adds for each radian beyond its onset [1/rad].
+    low_rise, high_rise : C_D that separated flow adds for each radian beyond its onset [1/rad].
     onset_rounding_deg : how widely drag bends at its onsets [deg].
 
     Raises
@@ -143,7 +143,7 @@ class CamberedTerms:
 
 
 class Join(NamedTuple):
-    """The blend of both coefficients from the curves of a wing to those of the plate, or back."""
+    """The blends of C_L and C_D between the curves of a wing and those of a plate, in either direction."""
 
     centre: Scalar
     width: Scalar
@@ -198,7 +198,7 @@ def _joined(curves: CamberedCurves, plate: Kernel, joins: tuple[Any, ...]) -> Ca
 @register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "blend_width_deg", "aspect_ratio"))
 @dataclass(frozen=True)
 class CamberedCoefficients(CoefficientModel):
-    """Quasi-steady coefficients of a cambered wing at every angle, joined to a plate beyond its stalls.
+    """Quasi-steady coefficients of a cambered wing at every angle; beyond its stalls they become those of a plate.
 
     The two sides of the wing differ, so no extension is needed: `extension` is "signed". There is no centre of
     pressure.
@@ -207,8 +207,8 @@ class CamberedCoefficients(CoefficientModel):
     ----------
     name : name of the model.
     terms : the terms of its formulas.
-    low_join_deg, high_join_deg : ends of the two joins, each (lower, upper) [deg]. The formulas hold alone from the
-        upper end of the first to the lower end of the second.
+    low_join_deg, high_join_deg : ends of the two joins, each (lower, upper) [deg]. Only the wing's formulas apply
+        between the upper end of the first join and the lower end of the second.
     citation, doi : where the terms come from; no DOI is None.
     grade : "A" if read in the source's own words or fitted to its data, "B" if cited second-hand, "C" if in part a
         guess.
@@ -262,7 +262,7 @@ class CamberedCoefficients(CoefficientModel):
 
     @property
     def alpha_range_deg(self) -> tuple[float, float]:  # type: ignore[override]
-        """Lowest and highest angle at which the formulas hold alone [deg]."""
+        """Lowest and highest angle at which only the wing's formulas apply [deg]."""
         return self.low_join_deg[1], self.high_join_deg[0]
 
     @property

@@ -25,7 +25,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : an unknown name, a function that will not do, or anything else.
+    InvalidInputError : an unknown name, a function that `FunctionCoefficients` refuses, a value of another type.
 
     >>> coefficients_of("dickinson").name, coefficients_of(LIBRARY["su-fan"]()).name
     ('dickinson', 'su-fan')

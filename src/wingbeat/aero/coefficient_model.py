@@ -44,7 +44,7 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
 
 
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return angles [rad] brought to [-pi, pi], exactly odd in `alpha`; what is not finite becomes NaN.
+    """Return angles [rad] brought to [-pi, pi], as an exactly odd function of `alpha`; infinite angles become NaN.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
 
 
 def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
-    """Return what a compiled function of numbers and angles gives, for angles of any shape, as NumPy arrays.
+    """Evaluate a compiled function of numbers and angles at angles of any shape; return NumPy arrays.
 
     A scalar gives a scalar, as in NumPy.
     """
@@ -101,8 +101,9 @@ class CoefficientModel:
     blend_width_deg : half width of the blends where pieces meet [deg].
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     alpha_range_deg : lowest and highest angle of the measurements [deg].
-    aspect_ratio : span over mean chord of the wing whose coefficients these are; infinite for those of a section.
-        None where no source states it, and for a revolving wing, whose own induced flow has another form.
+    aspect_ratio : span over mean chord of the measured wing; infinite for coefficients of a section. None if no
+        source states it. None also for a revolving wing, whose induced flow differs from that of a wing in
+        translation.
     """
 
     name: str

@@ -40,9 +40,9 @@ RIGHT_ANGLE = 0.5 * math.pi
 
 
 class Pieces(Protocol):
-    """What is extended: coefficients on [0, 90] degrees, as functions of the angle [rad]; a JAX pytree.
+    """The coefficients to extend: functions of the angle [rad], given on [0, 90] degrees; a JAX pytree.
 
-    Without a centre of pressure `centre` gives NaN, so that models with and without are the same pytree.
+    Without a centre of pressure `centre` gives NaN, so that models with and without one are the same pytree.
     """
 
     def lift(self, alpha: Angles) -> Angles:
@@ -72,19 +72,19 @@ def check_extension(faults: FaultList, extension: Any, blend_width_deg: Any) -> 
 
 
 class SignedPatch(NamedTuple):
-    """The formula at the signed angle, laid over the mirrored coefficient for -90 < a < 0."""
+    """The formula at the signed angle, which replaces the mirrored coefficient for -90 < a < 0."""
 
     at_minus_right: Blend
 
     def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
-        """Return the patched coefficient; no blend at 0, where one formula runs through."""
+        """Return the patched coefficient; it needs no blend at 0, because one formula holds on both sides."""
         inside = (alpha > -RIGHT_ANGLE) & (alpha < width)
         value = jnp.where(inside, piece(jnp.where(inside, alpha, 0.0)), value)
         return self.at_minus_right.over(value, alpha + RIGHT_ANGLE, width)
 
 
 class ClippedPatch(NamedTuple):
-    """A constant, laid over the mirrored coefficient for a < 0."""
+    """A constant, which replaces the mirrored coefficient for a < 0."""
 
     level: Scalar
     at_zero: Blend
@@ -97,7 +97,7 @@ class ClippedPatch(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """The blends of one mirrored coefficient at 0 and at 90 degrees, and what is laid over it, or None."""
+    """The blends of one mirrored coefficient at 0 and 90 degrees, and its patch for a < 0, or None."""
 
     at_zero: tuple[Any, ...]
     at_right: tuple[Any, ...]
@@ -105,7 +105,7 @@ class Ends(NamedTuple):
 
 
 def _fold(alpha: Angles) -> tuple[Angles, Angles]:
-    """Return the angle less whole half turns, in [-90, 90] degrees, and how many were taken off."""
+    """Return the angle minus whole half turns, in [-90, 90] degrees, and the number of half turns."""
     turns = jnp.round(alpha * (1 / math.pi))
     return alpha - turns * math.pi, turns
 
@@ -113,7 +113,7 @@ def _fold(alpha: Angles) -> tuple[Angles, Angles]:
 class ExtendedKernel(NamedTuple):
     """Coefficients at every angle in [-pi, pi], for use under JAX's jit, vmap and derivatives.
 
-    A pytree whose leaves are all its numbers, so that models of one form share one compiled function.
+    All its numbers are leaves of the pytree, so models of one form share one compiled function.
     """
 
     pieces: Pieces
@@ -160,7 +160,7 @@ class ExtendedKernel(NamedTuple):
 
 
 def _patch(piece: Function, behind: Jet, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Any:
-    """Return what `extension` lays over one mirrored coefficient; `behind` is its jet beyond -90 degrees."""
+    """Return the patch of `extension` for a mirrored coefficient; its jet beyond -90 degrees is `behind`."""
     if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
         return SignedPatch(Blend.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))
     if extension == "clipped-drag" and name == "drag":
@@ -199,7 +199,7 @@ def extend(pieces: Pieces, blend_width_deg: Scalar, extension: str, signed: tupl
     pieces : coefficients on [0, 90] degrees (see `Pieces`); its leaves may be traced.
     blend_width_deg : half width of the blends [deg], in (0, 3]; may be traced.
     extension : one of `EXTENSIONS`.
-    signed : which of "lift", "drag", "centre" are also good for -90 to 0 degrees.
+    signed : which of "lift", "drag", "centre" are also valid from -90 to 0 degrees.
     """
     width = blend_width_deg * (math.pi / 180)
     return _extended(pieces, width, extension=extension, signed=signed)

@@ -32,7 +32,7 @@ class Wave(NamedTuple):
     decay_rate: Scalar | None
 
     def __call__(self, alpha: Angles) -> Angles:
-        """Return the coefficient at `alpha` [rad]; without an exponential term any angle will do."""
+        """Return the coefficient at `alpha` [rad]; without an exponential term it is valid at any angle."""
         value = self.constant + self.amplitude * sin(self.rate * alpha + self.phase)
         if self.decay_amplitude is None or self.decay_rate is None:
             return value
@@ -214,10 +214,10 @@ class FormulaCoefficients(CoefficientModel):
     citation, doi : where the formulas come from; no DOI is None.
     grade : "A" if read in the source's own words, "B" if cited second-hand, "C" if in part a guess.
     reynolds_range : chord Reynolds numbers of the fit, or None.
-    alpha_range_deg : angles of the fit [deg].
+    alpha_range_deg : lowest and highest angle of the fit [deg].
     extension : how the formulas reach every angle (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
-    aspect_ratio : of the wing of the fit [-], infinite for a section, None if not stated.
+    aspect_ratio : of the wing that was fitted [-], infinite for a section, None if not stated.
 
     Raises
     ------

@@ -28,9 +28,9 @@ _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
 
 
 class Program:
-    """What a function computes, as JAX traced it. Two are equal if their compiled code is the same.
+    """A function's program, as JAX traced it. Two programs are equal if their compiled code is the same.
 
-    A traced program on disk is found by `repr`, so that of functions of one name each has its own.
+    Its `repr` names the traced program on disk, so two functions of one name have different programs.
     """
 
     def __init__(self, function: Callable[[Any], Any], name: str, traced: Any) -> None:
@@ -70,7 +70,7 @@ class Program:
 
 
 def _unpickled(function: Callable[[Any], Any], name: str, digest: str) -> Program:
-    """Return the program of a pickle, whose function pickle knows by its name alone."""
+    """Return the program of an unpickled function; pickle stores only the function's name."""
     again = _checked(function, name)
     if again.digest != digest:
         rule = "differs from the function that was pickled under this name"
@@ -100,8 +100,8 @@ class FunctionKernel:
 class FunctionCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a function of the angle of attack.
 
-    The function is traced once, now; later changes of what it reads have no effect. It is used directly at
-    every angle from -pi to pi, without extension or blend.
+    JAX traces the function once, in the constructor. Later changes of variables that it reads have no effect. It is
+    used as it is at every angle from -pi to pi, without extension or blend.
 
     Parameters
     ----------
@@ -114,8 +114,8 @@ class FunctionCoefficients(CoefficientModel):
 
     Raises
     ------
-    InvalidInputError : a function that JAX cannot trace, that returns no two numbers, or whose values or slopes are
-        not finite at some angle.
+    InvalidInputError : a function that JAX cannot trace, that does not return two numbers, or whose values or
+        slopes are not finite at some angle.
 
     >>> import jax.numpy as jnp
     >>> plate = FunctionCoefficients(lambda a: (1.2 * jnp.sin(2 * a), 1.4 - jnp.cos(2 * a)), "plate")
@@ -161,7 +161,7 @@ def _of_program(program: Program) -> FunctionCoefficients:
 
 
 def _checked(function: Callable[[Any], Any], name: str) -> Program:
-    """Return the traced function, or raise `InvalidInputError` with what is wrong with it."""
+    """Return the traced function, or raise `InvalidInputError` that says why it cannot be used."""
     faults = FaultList()
     try:
         traced, shapes = jax.make_jaxpr(function, return_shape=True)(jax.ShapeDtypeStruct((), jnp.float64))

@@ -38,13 +38,13 @@ def disc_area(semi_span: Scalar) -> Scalar:
 def induced_flow(
     density: Scalar, area: Scalar, factor: Scalar, force: Pair, velocity: Pair, xp: Any = np
 ) -> tuple[Any, Any]:
-    """Return the velocity of the air at the wings, forward and up [m/s].
+    """Return the induced velocity of the air at the wings, forward and up [m/s].
 
     Parameters
     ----------
     density : of the air [kg/m3].
     area : of the disc [m2].
-    factor : k, times the momentum of an ideal disc; 0 is no induced flow.
+    factor : k, which multiplies the induced momentum of an ideal disc; 0 means no induced flow.
     force : mean force of both wings, forward and up [N].
     velocity : mean velocity of the animal, forward and up [m/s].
     xp : array module of the numbers.
@@ -69,11 +69,12 @@ def induced_flow(
 def check_descent(
     faults: FaultList, density: float, area: float, factor: float, weight: float, velocity: tuple[float, float]
 ) -> None:
-    """Note a fault if a descent meets its own wake as a vortex ring, where momentum theory does not hold.
+    """Note a fault if the animal descends into its own wake (vortex ring), where momentum theory does not hold.
 
-    Straight down the range is that between hover and twice the induced speed of hover (Leishman 2006, Principles of
-    Helicopter Aerodynamics, section 2.13). With forward speed it narrows and ends at about the induced speed of
-    hover (Johnson 2005, NASA TP-2005-213477); here it is the circle through these points.
+    In vertical descent, the vortex ring exists at speeds from 0 to twice the induced speed of hover (Leishman 2006,
+    Principles of Helicopter Aerodynamics, section 2.13). With forward speed this range narrows; it ends at a
+    forward speed of about the induced speed of hover (Johnson 2005, NASA TP-2005-213477). Here the range is the
+    inside of the circle through these points.
 
     Parameters
     ----------

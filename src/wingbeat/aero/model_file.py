@@ -37,7 +37,7 @@ _FIT = ("free", "covariance", "r_squared", "aicc", "points")
 
 
 class FittedCurve(NamedTuple):
-    """Terms of one coefficient; `covariance`, shape (k, k), is that of the k terms named in `free`."""
+    """Terms of one coefficient, and the covariance, shape (k, k), of the k fitted terms that `free` names."""
 
     terms: FormulaTerms | CentreTerms
     free: tuple[str, ...]
@@ -45,7 +45,7 @@ class FittedCurve(NamedTuple):
 
 
 class FittedModel(NamedTuple):
-    """What a model file says; `centre` is None where no centre of pressure was measured."""
+    """The content of a model file; `centre` is None if no centre of pressure was measured."""
 
     name: str
     citation: str
@@ -59,7 +59,7 @@ class FittedModel(NamedTuple):
     def coefficients(
         self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
     ) -> FormulaCoefficients:
-        """Return the coefficient model, some of its formulas (lift_terms, ...) replaced if given.
+        """Return the coefficient model; formulas that are given (lift_terms, ...) replace those of the file.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class FittedModel(NamedTuple):
 
 
 def read_model(path: str | Path) -> FittedModel:
-    """Read a model file with the covariance of its terms, which is empty where none is given.
+    """Read a model file with the covariance of its terms; a curve without one has an empty covariance.
 
     Raises
     ------
@@ -125,7 +125,8 @@ def load_model(path: str | Path, extension: str = "mirrored", blend_width_deg: f
 
     Raises
     ------
-    FileError, InvalidInputError : as in `read_model`; a signed extension of drag that decays.
+    FileError, InvalidInputError : as in `read_model`; a signed extension of a drag formula with an exponential
+        term.
     """
     faults = FaultList()
     check_extension(faults, extension, blend_width_deg)
@@ -196,7 +197,7 @@ def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> Fitte
 def _covariance(
     faults: FaultList, where: str, fit: Any, names: tuple[str, ...]
 ) -> tuple[tuple[str, ...], NDArray[np.float64]]:
-    """Return the names of the fitted terms and their covariance, checked to be one."""
+    """Return the names of the fitted terms and their covariance; note a fault unless it is a valid covariance."""
     nothing = (), np.zeros((0, 0))
     if not isinstance(fit, dict):
         faults.add(where, fit, "must be a table", "with free = [...] and covariance = [[...], ...]")
@@ -210,7 +211,7 @@ def _covariance(
         return nothing
     size = len(free)
     if not isinstance(rows, list) or [len(row) if isinstance(row, list) else -1 for row in rows] != [size] * size:
-        faults.add(f"{where}.covariance", "", f"must be {size} rows of {size} numbers, as free names terms")
+        faults.add(f"{where}.covariance", "", f"must be {size} rows of {size} numbers, one for each term in free")
         return nothing
     cells = [(i, k, cell) for i, row in enumerate(rows) for k, cell in enumerate(row)]
     if not all([faults.number(f"{where}.covariance[{i}][{k}]", cell) for i, k, cell in cells]):

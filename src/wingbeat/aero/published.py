@@ -16,7 +16,7 @@ from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 
 
 def _sine_cosine(name: str, lift: float, mean: float, swing: float, **about: Any) -> FormulaCoefficients:
-    """Return the model ``C_L = lift sin 2a``, ``C_D = mean - swing cos 2a``, which holds at every angle."""
+    """Return the model ``C_L = lift sin 2a``, ``C_D = mean - swing cos 2a``, valid at every angle."""
     lift_terms = FormulaTerms(constant=0.0, amplitude=lift, rate=2.0, phase_deg=0.0)
     drag_terms = FormulaTerms(constant=mean, amplitude=swing, rate=2.0, phase_deg=-90.0)
     return FormulaCoefficients(name, lift_terms, drag_terms, grade="B", **about)
@@ -26,8 +26,9 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
     """Return the fit of Su et al. to a flat plate of aspect ratio 6 at Reynolds numbers of 20 000 to 50 000.
 
     ``C_L = -0.44 exp(-0.47 a) + 1.19 sin(1.74 a + 20)``, ``C_D = 1.04 + sin(1.72 a - 70)``,
-    ``x_cp = 0.247 + 0.016 a^0.6 + 0.026 a exp(-0.11 a)``; measured from 0 to 110 degrees on a plate 8 mm
-    thick and 76 mm deep, whose bluntness causes C_D(0) = 0.10. Its C_L(0) is -0.033, which the blend hides.
+    ``x_cp = 0.247 + 0.016 a^0.6 + 0.026 a exp(-0.11 a)``; measured from 0 to 110 degrees on a plate of 76 mm chord
+    and 8 mm thickness, whose blunt edges cause C_D(0) = 0.10. The formula's C_L(0) is -0.033; the blend at 0
+    degrees removes this.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 

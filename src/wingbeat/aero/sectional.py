@@ -27,7 +27,7 @@ _PASSES = 10
 
 
 class SectionalKernel(NamedTuple):
-    """Coefficients of a section as cubic splines over equal steps of the whole turn; a JAX pytree."""
+    """Coefficients of a section: cubic splines with equal steps of angle from -pi to pi; a JAX pytree."""
 
     lift_spline: Spline
     drag_spline: Spline
@@ -49,16 +49,16 @@ class SectionalKernel(NamedTuple):
 
 
 def sectional_kernel(model: CoefficientModel) -> Kernel:
-    """Return the kernel of the sections of a wing whose coefficients were measured at its aspect ratio.
+    """Return the kernel of the sectional coefficients that follow from those of a wing of finite aspect ratio.
 
     Parameters
     ----------
-    model : of any aspect ratio; one of an infinite wing is returned as it is.
+    model : coefficients at any aspect ratio; those of an infinite wing are returned unchanged.
 
     Raises
     ------
-    InvalidInputError : a model without an aspect ratio, or one so small that two angles of the wing give one angle
-        of its sections.
+    InvalidInputError : a model without an aspect ratio, or with one so small that two angles of the wing lead to
+        the same angle of its sections.
     """
     if model.aspect_ratio is None:
         rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"

@@ -57,7 +57,7 @@ class TablePieces(NamedTuple):
 
 
 class WholeTurnKernel(NamedTuple):
-    """Coefficients tabulated over the whole turn, used as they are on [-pi, pi]; a JAX pytree."""
+    """Coefficients tabulated from -pi to pi, used without extension; a JAX pytree."""
 
     pieces: TablePieces
 
@@ -74,9 +74,10 @@ class WholeTurnKernel(NamedTuple):
 class TableCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a table.
 
-    A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended
-    as a formula is; rows beyond 90 only shape the spline. With rows down to -90 degrees or below it needs the
-    extension `signed`. A table from -180 to 180 is used as it is, periodic: its extension is `signed`.
+    A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended like
+    a formula; its rows beyond 90 only shape the spline. A table with rows down to -90 degrees or below needs the
+    extension `signed`. A table from -180 to 180 is periodic and used without extension; its `extension` is
+    `signed`.
 
     Parameters
     ----------
@@ -92,8 +93,8 @@ class TableCoefficients(CoefficientModel):
 
     Raises
     ------
-    InvalidInputError : not numbers, columns of different length, angles that do not rise or look like
-        radians, negative drag, fewer than 4 rows, too short a range, an extension that does not fit it.
+    InvalidInputError : not numbers, columns of different length, angles that do not rise or look like radians,
+        negative drag, fewer than 4 rows, too short a range of angles, an extension that does not fit the range.
 
     >>> alpha = np.arange(0.0, 91.0, 5.0)
     >>> lift, drag = np.sin(2 * np.deg2rad(alpha)), 1 - np.cos(2 * np.deg2rad(alpha))
@@ -183,7 +184,7 @@ def _stated_aspect_ratio(faults: FaultList, path: Path) -> float | None:
 
 
 def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Return (row number in the file, cells) of each row that is neither blank nor a # comment."""
+    """Return the row number in the file and the cells of each row that is neither blank nor a # comment."""
     lines = enumerate(csv.reader(read_text(path).splitlines()), start=1)
     return [(i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")]
 
@@ -206,8 +207,8 @@ def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
     """Read a coefficient table from a CSV file with the columns alpha_deg, c_l, c_d and, if known, x_cp.
 
-    Blank rows and rows that begin with # are skipped, but for one that states the wing's aspect ratio, such as
-    ``# aspect_ratio = 6``, which the model of induced flow needs; ``inf`` is a section.
+    Blank rows and rows that begin with # are skipped. One such row may state the wing's aspect ratio, for example
+    ``# aspect_ratio = 6``, or ``inf`` for a section; the model of induced flow needs it.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ Where = Callable[[int, str], str]
 
 
 def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]) -> list[float]:
-    """Return the cells as floats, NaN for each one noted as a fault."""
+    """Return the cells as floats; a cell that is no number becomes NaN and is noted as a fault."""
     values = []
     for i, cell in enumerate(cells):
         try:
@@ -53,12 +53,12 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
 
 
 def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension: str, where: Where) -> None:
-    """Note a table that does not reach as far as its extension needs, or farther than it uses."""
+    """Note a table that covers fewer angles than its extension needs, or more negative angles than it uses."""
     angles = columns["alpha_deg"]
     first, last = angles[0], angles[-1]
     at_first, at_last = where(0, "alpha_deg"), where(len(angles) - 1, "alpha_deg")
     if max(abs(first), abs(last)) <= 2 * math.pi:
-        rule = f"is the largest of a column from {first:g} to {last:g} that looks like radians"
+        rule = f"is the largest angle of a column from {first:g} to {last:g}, which looks like radians"
         faults.add(at_last, last, rule, "write alpha_deg in degrees, from 0 to at least 90")
         return
     if last < 90:
@@ -80,5 +80,5 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
 
 
 def is_whole_turn(angles: Sequence[float]) -> bool:
-    """Say whether a table runs from -180 to 180 degrees."""
+    """Return whether a table runs from -180 to 180 degrees."""
     return angles[0] == -180 and angles[-1] == 180

@@ -44,10 +44,10 @@ def tail_force(
     velocity: tuple[Phases, Phases],
     xp: Any = np,
 ) -> Pair:
-    """Return the force on a tail [N], in the axes of its velocity.
+    """Return the force on a tail [N], in the axes in which its velocity is given.
 
-    Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)`` and the
-    surface's normal n.
+    Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)``, where n
+    is the unit normal of the surface.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from wingbeat.results.plausibility import statements
 
 
 class Headline:
-    """Status and the few numbers that everybody looks at first."""
+    """The status and the main numbers of an answer."""
 
     def __init__(self) -> None:
         self._place = tag("section", classes="headline", aria_label="Result in brief")
@@ -60,7 +60,7 @@ def _message(answer: dict[str, Any]) -> str:
     # Of a certified orbit the two statements say it already.
     parts = [] if answer["record"]["status"] == "converged" else [str(answer["record"]["message"])]
     if answer.get("from_file"):
-        parts.append(f"As the file {answer['from_file']} says; not solved here.")
+        parts.append(f"From the file {answer['from_file']}; not solved here.")
     elif answer.get("continued"):
         parts.append("Continued from the previous result, with one start.")
     if answer.get("continued_better") is not None:
@@ -71,11 +71,11 @@ def _message(answer: dict[str, Any]) -> str:
 
 
 class Answer:
-    """Everything else that is known of an answer, and what can be done with it.
+    """The panel with all further numbers of an answer, and buttons that act on it.
 
     Parameters
     ----------
-    acts : what the buttons do, by their texts.
+    acts : the function that each button calls, by the button's text.
     """
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
@@ -102,7 +102,7 @@ class Answer:
 
 
 class Influence:
-    """What the answer depends on: a ranking of the numbers, and what bounds cost."""
+    """The panel of sensitivities: the parameters by rank, and the price of each active bound."""
 
     def __init__(self, ask: Callable[[], Any]) -> None:
         with box("Sensitivities", "influence"):
@@ -117,16 +117,16 @@ class Influence:
             self._place = tag("div")
 
     def say(self, text: str) -> None:
-        """Say how far it is, or what went wrong."""
+        """Show the progress, or what went wrong."""
         self._state.set_text(text)
 
     def clear(self) -> None:
-        """Show nothing: the answer has changed."""
+        """Empty the panel, because the answer has changed."""
         self._state.set_text("")
         self._place.clear()
 
     def show(self, found: dict[str, Any]) -> None:
-        """Show what was found."""
+        """Show the sensitivities that were computed."""
         names = list(found["values"])
         self._place.clear()
         with self._place:
@@ -139,7 +139,7 @@ class Influence:
             ):
                 tag(
                     "caption",
-                    "Linear change to the low and the high end of each plausible range: a ranking",
+                    "Change at the low and high end of each plausible range, by linear extrapolation: a ranking",
                 )
                 with tag("thead"), tag("tr"):
                     tag("th", "Number", scope="col")
@@ -158,7 +158,7 @@ class Influence:
 
 
 def _ranking(one: dict[str, Any]) -> str:
-    """Return what a quantity depends on most; a straight line over whole ranges makes no error bar."""
+    """Return what a quantity depends on most, without error bar: a linear change over whole ranges gives none."""
     unit = "" if one["unit"] == "1" else f" {one['unit']}"
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(one["ranking"].items())[:3])
     due = f"depends most on {parts} of the variance, to first order" if parts else "no plausible ranges are known"

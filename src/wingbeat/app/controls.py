@@ -24,7 +24,7 @@ class Controls:
 
     Parameters
     ----------
-    scenario : what they show at first.
+    scenario : the choices that the controls show at first.
     change : called with the choices that were changed.
     """
 
@@ -34,7 +34,7 @@ class Controls:
         self._species = ""
 
     def build_flight(self) -> None:
-        """Make the controls that everybody wants first: animal and flight."""
+        """Make the main controls: animal and flight."""
         now = self._scenario
         with box("Animal and flight", "first"):
             names = [(name, name) for name in species_names()]
@@ -124,7 +124,7 @@ class Controls:
             self._slider.props["value"] = f"{scenario.speed:g}"
 
     def refuse(self, refusals: list[list[str]]) -> list[str]:
-        """Tell each fault beside its control, and return those that belong to none."""
+        """Show each fault beside its control; return the faults that belong to no control."""
         told: dict[Field, list[str]] = {}
         homeless = []
         for where, message in refusals:

@@ -23,8 +23,8 @@ class CurvePanel:
 
     Parameters
     ----------
-    session : asks for the points.
-    choose : called with a speed that is to be looked at.
+    session : requests the points from the solver.
+    choose : called with the speed whose answer the user wants to see.
     """
 
     def __init__(self, session: Session, choose: Callable[[float], Any]) -> None:
@@ -69,19 +69,19 @@ class CurvePanel:
         return act
 
     def show_sweep(self, scenario: Scenario) -> None:
-        """Show the range of a scenario, and dim a curve of another question."""
+        """Show the range of speeds of a scenario, and dim a curve that belongs to another scenario."""
         other = self._asked is not None and not scenario.at(self._asked.speed).asks_as(self._asked)
         set_class(self._found, "stale", other)
         for field, value in zip(self._fields, scenario.sweep, strict=True):
             field.show(f"{value:g}")
 
     def refuse(self, refusals: list[list[str]]) -> None:
-        """Tell what is wrong with the range."""
+        """Show what is wrong with the range."""
         for name, field in zip(_SWEEP, self._fields, strict=True):
             field.refuse("; ".join(message for where, message in refusals if where == f"sweep.{name}"))
 
     def start(self) -> None:
-        """Ask for every point, the slowest first."""
+        """Request every point, the slowest first."""
         self.cancel()
         if self._session.scenario.faults().faults:
             self._state.set_text("Not started: a choice is invalid; see the mark beside it.")
@@ -94,7 +94,7 @@ class CurvePanel:
         self._next(None)
 
     def cancel(self) -> None:
-        """Ask for no more points; those known stay."""
+        """Request no more points, and keep those already solved."""
         if self._job is not None:
             job, self._job = self._job, None
             self._session.cancel(job)
@@ -149,7 +149,7 @@ class CurvePanel:
         return text + "."
 
     def mark(self, speed: float) -> None:
-        """Mark the speed of the answer on the page."""
+        """Mark the speed of the answer that the page shows."""
         self._now = speed
         if self._points:
             self._drawing.set_content(chart(self._points, self._speeds, speed))

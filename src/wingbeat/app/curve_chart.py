@@ -18,9 +18,9 @@ def chart(points: Sequence[dict[str, Any]], speeds: Sequence[float], now: float 
 
     Parameters
     ----------
-    points : what is known: ``speed``, ``status``, ``frequency``, ``mean_positive_power`` each.
-    speeds : all that were asked for, which set the axis.
-    now : the speed of the answer on the page, which is marked.
+    points : the solved points, each with ``speed``, ``status``, ``frequency``, ``mean_positive_power``.
+    speeds : all requested speeds; they determine the axis.
+    now : the speed to mark, that of the answer that the page shows.
     """
     height = _TOP + len(_PANELS) * (_PANEL + _GAP) - _GAP + _FOOT
     low, high = min(speeds), max(speeds)
@@ -75,7 +75,7 @@ def _panel(
 
 
 def _lines(points: Sequence[dict[str, Any]], places: dict[float, tuple[float, float]]) -> list[str]:
-    """Return lines between neighbours that are both certified; a gap stays a gap."""
+    """Return lines between neighbours that are both certified; no line crosses a gap."""
     found = []
     for one, other in itertools.pairwise(points):
         if one["speed"] in places and other["speed"] in places:
@@ -89,7 +89,7 @@ def _text(x: float, y: float, text: str, anchor: str, kind: str = "tick") -> str
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return round numbers between two ends, some five of them."""
+    """Return about five round numbers between two ends."""
     span = max(high - low, 1e-12)
     power = 10.0 ** math.floor(math.log10(span / 4))
     step = next(power * f for f in (1, 2, 5, 10) if span / (power * f) <= 6)

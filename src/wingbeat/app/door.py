@@ -32,7 +32,7 @@ _log = logging.getLogger("uvicorn.error")
 
 
 def is_loopback(host: str) -> bool:
-    """Return whether a host as in a URL or an address means this machine alone.
+    """Return whether a host, as in a URL or an address, can be reached from this machine only.
 
     >>> is_loopback("localhost"), is_loopback("[::1]"), is_loopback("0.0.0.0"), is_loopback("localhost.evil.org")
     (True, True, False, False)
@@ -49,15 +49,15 @@ def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
 
 
 class Door:
-    """Refuses, with a sentence, requests and socket messages that no page of this server sends.
+    """Refuses requests and socket messages that no page of this server sends, and says why.
 
-    Browsers send the Host header and the Origin header by themselves; a page cannot forge them. A page of another
-    site that gives this machine a name of its own (DNS rebinding) shows by the Host header, one that reaches for
-    the server from its own site by the Origin header.
+    Browsers set the Host and Origin headers themselves; a page cannot forge them. If another site gives this
+    machine a name of its own (DNS rebinding), the Host header shows it. If a page of another site sends requests to
+    this server, the Origin header shows it.
 
     Parameters
     ----------
-    app : what stands behind the door.
+    app : the web application that is protected.
     host : the address or name that the server listens at.
     """
 
@@ -70,7 +70,7 @@ class Door:
             self._names |= {name, name.partition(".")[0], f"{name.partition('.')[0]}.local"}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request pass, or answer why not."""
+        """Pass a request on, or answer why it is refused."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
@@ -86,7 +86,7 @@ class Door:
             await self._app(scope, receive, send)
 
     def _refusal(self, scope: Scope) -> tuple[int, str]:
-        """Return the status and the sentence that a request is refused with; no sentence if it may pass."""
+        """Return the HTTP status and the reason why a request is refused; the reason is empty if it may pass."""
         headers, is_socket = Headers(scope=scope), scope["type"] == "websocket"
         host = headers.get("host", "")
         if not self._is_own(host):
@@ -107,7 +107,7 @@ class Door:
         return 200, ""
 
     def _is_own(self, header: str) -> bool:
-        """Return whether a Host header is a name of this server; an address as such is nobody's name."""
+        """Return whether a Host header names this server; an IP address must be loopback if the server is local."""
         match = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]+)(?::\d*)?", header)
         if match is None:
             return False
@@ -118,7 +118,7 @@ class Door:
 
 
 def _is_of(origin: str, host: str) -> bool:
-    """Return whether an Origin header is that of pages which the server under this Host header sent."""
+    """Return whether an Origin header belongs to pages from the server that this Host header names."""
     try:
         parts = urlsplit(origin)
     except ValueError:
@@ -133,7 +133,7 @@ def _is_page_socket(scope: Scope) -> bool:
 
 
 def _checked(receive: Receive, send: Send) -> Receive:
-    """Return `receive` for a socket that is closed, with the reason, at the first message no page would send."""
+    """Return a `receive` that closes the socket, with the reason, at the first message that no page would send."""
 
     async def checked() -> MutableMapping[str, Any]:
         event = await receive()
@@ -166,9 +166,9 @@ def _is_understood(text: str | None) -> bool:
 
 
 def guard_events() -> None:
-    """Have a socket closed whose event NiceGUI's own handlers stumble over, in place of a traceback in the log.
+    """Close a socket whose event makes NiceGUI's own handlers fail; the log then gets no traceback.
 
-    What goes wrong in this page's handlers NiceGUI reports by itself, before it comes here.
+    Errors in this page's own handlers do not reach this function: NiceGUI reports them first.
     """
     for name in ("connect", *_EVENTS):
         core.sio.on(name, _guarded(inspect.unwrap(core.sio.handlers["/"][name])))

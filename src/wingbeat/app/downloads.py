@@ -11,7 +11,7 @@ _MOST = 12
 
 
 class Download(NamedTuple):
-    """Bytes with their kind, and the name to save them under if they are saved."""
+    """Bytes with their media type, and the file name under which a browser saves them, if it does."""
 
     content: bytes
     kind: str
@@ -34,9 +34,9 @@ class Downloads:
         return DOWNLOADS + name
 
     def get(self, name: str) -> Download | None:
-        """Return a download, None if it is there no more."""
+        """Return a download; None if it has been dropped."""
         return next((own[name] for own in self._kept.values() if name in own), None)
 
     def leave(self, session: str) -> None:
-        """Forget what a session had."""
+        """Drop all downloads of a session."""
         self._kept.pop(session, None)

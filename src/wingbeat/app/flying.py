@@ -41,11 +41,11 @@ def bundle() -> bytes:
 
 
 class Flying:
-    """The place of the viewer on one page.
+    """The element of a page that holds the viewer.
 
     Parameters
     ----------
-    downloads, session : where scenes are laid out for the browser to fetch.
+    downloads, session : the store, and the session's part of it, from which the browser fetches scenes.
     """
 
     def __init__(self, downloads: Downloads, session: str) -> None:
@@ -60,12 +60,12 @@ class Flying:
             )
 
     def show(self, scene: str) -> None:
-        """Show a scene, the JSON text that the viewer takes; where there is none, what was shown stays."""
+        """Show a scene, given as the viewer's JSON text; without a scene, the view does not change."""
         if not scene:
             return
         address = self._downloads.put(self._session, Download(scene.encode(), "application/json"))
         run_script(f"wingbeatFlying.show({json.dumps(self._place.html_id)}, {json.dumps(address)})")
 
     def set_theme(self, theme: str) -> None:
-        """Show the viewer as the ``system`` has it, ``light`` or ``dark``."""
+        """Set the viewer's theme: ``system``, ``light`` or ``dark``."""
         run_script(f"wingbeatFlying.setTheme({json.dumps(theme)})")

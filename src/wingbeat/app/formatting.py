@@ -13,12 +13,12 @@ from wingbeat.species_schema import Number, display
 
 
 def number(value: float | None, digits: int = 4) -> str:
-    """Return a number as short as so many digits allow; a dash for none."""
+    """Return a number with at most so many digits, without trailing zeros; a dash if there is none."""
     return "–" if value is None else f"{value:.{digits}g}"
 
 
 def sentence(where: str, message: str) -> str:
-    """Return what was refused and why, as a sentence that stands by itself."""
+    """Return a fault as a complete sentence: what was refused and why."""
     text = message if message.endswith((".", "?")) else f"{message}."
     return f"{where}: {text}" if where else text
 
@@ -29,29 +29,29 @@ def refusals(faults: Iterable[Fault]) -> list[list[str]]:
 
 
 def not_a_number(text: str) -> str:
-    """Return what is wrong with a text in place of a number."""
+    """Return the message for a text that is not a number."""
     return f"{text[:30]!r} is not a number"
 
 
 def spoken_path(path: str) -> str:
-    """Return the name of a number: ``vehicle.wing.mass`` is ``mass``."""
+    """Return the short name of a number: ``mass`` for ``vehicle.wing.mass``."""
     return path.rpartition(".")[2].replace("_", " ")
 
 
 def shown_text(path: str, number: Number) -> str:
-    """Return a number as it is typed, angles in degrees."""
+    """Return a number as the user would type it, angles in degrees."""
     value = display(path, number)[1].value
     return ", ".join(f"{part:.10g}" for part in value) if isinstance(value, tuple) else f"{value:.10g}"
 
 
 def range_text(path: str, number: Number) -> str:
-    """Return the plausible range of a number; nothing if none is known."""
+    """Return the plausible range of a number in words; an empty text if none is known."""
     limits = display(path, number)[1].range
     return "" if limits is None else f"plausible {limits[0]:.4g} to {limits[1]:.4g}"
 
 
 def from_shown(text: str, unit: str, several: bool) -> float | tuple[float, ...] | None:
-    """Return a typed number, or several with commas between, in SI units and radians; None if it is none."""
+    """Return the typed number or numbers (with commas between) in SI units and radians; None if not a number."""
     try:
         parts = tuple(float(part) for part in text.replace(";", ",").split(","))
     except ValueError:

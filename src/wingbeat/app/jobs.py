@@ -33,7 +33,7 @@ _MOST_RANKED = 12
 
 
 def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Do a job; what is refused comes back as ``{"refused": [[where, message], ...]}``."""
+    """Do a job; if input is refused, return ``{"refused": [[where, message], ...]}``."""
     kinds: dict[str, Callable[[dict[str, Any], Context], dict[str, Any]]] = {
         "orbit": _orbit,
         "point": _point,
@@ -51,7 +51,7 @@ def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Continue the answer before where there is one near; else search as the command line does."""
+    """Solve by continuation from the previous answer if it is near; else as the command line does."""
     begun = time.perf_counter()
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
@@ -64,7 +64,7 @@ def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:
-    """Return the orbit that one search from the unknowns of another leads to, if it is certified."""
+    """Return the orbit that one local search from another orbit's unknowns finds, if it is certified."""
     if near is None or tuple(near["free"]) != problem.free:
         return None
     import numpy as np
@@ -73,7 +73,7 @@ def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution |
 
 
 def _point(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return one point of a curve: the better of its own searches and the neighbour's answer continued."""
+    """Return one point of a curve: the better of the orbit from its own starts and the continued neighbour."""
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
@@ -97,7 +97,7 @@ def _near(orbit: Orbit) -> dict[str, Any]:
 
 
 def answer_of(orbit: Orbit, beside: dict[str, Any] | None, begun: float) -> dict[str, Any]:
-    """Return all that the page shows of an orbit, beside another one where it is compared."""
+    """Return everything that the page shows of an orbit, and of a second one if they are compared."""
     record = orbit.record()
     return {
         "record": record,
@@ -124,7 +124,7 @@ def _drawn(orbit: Orbit, beside: dict[str, Any] | None) -> str:
 
 
 def orbit_again(known: dict[str, Any]) -> Orbit:
-    """Return the orbit of a record and the inputs that it answers."""
+    """Return the orbit of a record, with the inputs of its problem."""
     inputs = known["inputs"]
     return Orbit.of_record(known["record"], problem_from(inputs), inputs["starts"], inputs["seed"])
 
@@ -134,7 +134,7 @@ def _scene(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return what each quantity depends on most, and prices of the active bounds."""
+    """Return what each quantity depends on most, and the prices of the active bounds."""
     orbit = orbit_again(what["of"])
     found = sensitivities(orbit)
     rankings = [found.error_bar(name).ranked() for name in found.values]
@@ -171,7 +171,7 @@ def _figure(dataset: xr.Dataset, kind: str) -> bytes:
 
 
 def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return what an uploaded file holds: a scenario, or an orbit with the scenario that it answers."""
+    """Return the content of an uploaded file: a scenario, or an orbit with its scenario."""
     found = read_upload(what["path"], what["label"])
     if isinstance(found, Orbit):
         return _answer_of_file(found, what["label"])
@@ -179,7 +179,7 @@ def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
-    """Return the answer in a file, and the scenario that it answers where the page can ask for it."""
+    """Return the answer in a file, and its scenario if the page's controls can represent it."""
     begun = time.perf_counter()
     try:
         answer = answer_of(orbit, None, begun)

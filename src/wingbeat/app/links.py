@@ -27,7 +27,7 @@ _LONGEST_WORD = 200
 
 
 def to_query(scenario: Scenario) -> str:
-    """Return the query of a permalink: what differs from an empty page, readable, the species file packed."""
+    """Return the query of a permalink: values that differ from the defaults, and the compressed species file."""
     empty, words = Scenario(), []
     for name in (*_WORDS, *_NUMBERS, *_WHOLE):
         value = getattr(scenario, name)
@@ -49,7 +49,7 @@ def from_query(query: str) -> Scenario:
 
     Raises
     ------
-    InvalidInputError : everything in it that is not understood, and every choice that cannot be.
+    InvalidInputError : everything in it that is not understood, and every invalid choice.
     """
     faults = FaultList()
     if len(query) > _LONGEST_QUERY:
@@ -69,7 +69,7 @@ def from_query(query: str) -> Scenario:
 
 
 def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -> None:
-    """Note one ``name=text`` of a query."""
+    """Store one ``name=text`` of a query, or note its fault."""
     if name == "limit":
         plain["limits"].append(text)
     elif name in ("bound", "set"):
@@ -103,7 +103,7 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
 
 
 def _unpacked(text: str, faults: FaultList) -> str:
-    """Return the species file in a link; one that would blow up beyond the largest is never blown up."""
+    """Return the species file in a link; unpacking stops at the size limit."""
     try:
         packed = base64.b64decode(text + "=" * (-len(text) % 4), altchars=b"-_", validate=True)
         opener = zlib.decompressobj()
@@ -124,11 +124,11 @@ def to_plain(scenario: Scenario) -> dict[str, Any]:
 
 
 def from_plain(plain: Any) -> Scenario:
-    """Return the scenario of what `to_plain` made; what is absent is as on an empty page.
+    """Return the scenario of a dictionary from `to_plain`; absent keys take the default of an empty page.
 
     Raises
     ------
-    InvalidInputError : not of that form, unknown names, choices that cannot be; all at once.
+    InvalidInputError : another form, unknown names, invalid choices; all at once.
     """
     faults = FaultList()
     known = {"values" if name == "set" else name for name in plain} if isinstance(plain, dict) else set()
@@ -173,7 +173,7 @@ def from_json(text: str, label: str) -> Scenario:
 
     Raises
     ------
-    FileError : not JSON, or of something else. InvalidInputError : as in `from_plain`.
+    FileError : not JSON, or not a scenario. InvalidInputError : as in `from_plain`.
     """
     try:
         whole = json.loads(text)
@@ -218,7 +218,7 @@ def _word(value: Any) -> str | None:
 
 
 def _text(value: Any) -> str | None:
-    """Return a text that can be written down; JSON also has halves of characters."""
+    """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which it cannot."""
     return value if isinstance(value, str) and value.encode(errors="ignore").decode() == value else None
 
 

@@ -25,13 +25,13 @@ _GROUPS = {
 
 
 class Numbers:
-    """Fields of one animal.
+    """The fields for the numbers of one animal.
 
     Parameters
     ----------
-    species : as its file has it.
-    scenario : what was changed of it.
-    change : called with ``values`` or ``bounds`` in place of those before.
+    species : the species with the numbers of its file.
+    scenario : gives the numbers that the user changed.
+    change : called with the new ``values`` or ``bounds``, which replace the previous ones.
     """
 
     def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
@@ -93,7 +93,7 @@ class Numbers:
                 self._bounds[name, end] = number_field(word, "", act, unit=unit, tip=tip_here)
 
     def show(self, scenario: Scenario) -> None:
-        """Show the values of a scenario, and mark those outside what is plausible."""
+        """Show the values of a scenario, and mark those outside their plausible range."""
         self._scenario = scenario
         for path, field in self._values.items():
             number = self._numbers[path]
@@ -158,7 +158,7 @@ class Numbers:
 
 
 def _folded(title: str) -> Any:
-    """Return a part of the form that is folded up until it is wanted."""
+    """Return a part of the form that is collapsed until the user opens it."""
     fold = tag("details", classes="box fold")
     with fold:
         tag("summary", title)

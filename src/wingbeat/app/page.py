@@ -31,13 +31,13 @@ _ACCEPT = ".toml,.nc,.json"
 
 
 class Page:
-    """One visitor's page, and the `View` of its session.
+    """The page of one visitor; it is the `View` of its session.
 
     Parameters
     ----------
     name : of the session.
     pool, downloads : of the server.
-    query : of the address, which may hold a scenario.
+    query : query of the page's address, which may hold a scenario.
     """
 
     def __init__(self, name: str, pool: FairPool, downloads: Downloads, query: str) -> None:
@@ -54,7 +54,7 @@ class Page:
         self._client.on_connect(self._come)
 
     def _come(self) -> None:
-        """Solve what the address asks for once a browser has connected; fetching the page alone starts nothing."""
+        """Solve the scenario in the address once a browser has connected; fetching the page starts nothing."""
         if self._asked:  # the socket was lost, and is back
             return
         self._asked = True
@@ -72,7 +72,7 @@ class Page:
         return self._client
 
     def leave(self) -> None:
-        """Forget the page: its visitor is gone."""
+        """Release everything of the page, because its visitor has left."""
         self._session.leave()
         self._downloads.leave(self.name)
 
@@ -139,14 +139,14 @@ class Page:
     # What the session says ---------------------------------------------------------------------------------------
 
     def show_scenario(self, scenario: Scenario) -> None:
-        """Show what is asked, in the form and in the address; trouble told of what was asked before goes."""
+        """Show a scenario in the form and in the address, and clear messages about the previous one."""
         self._close_trouble()
         self._controls.show(scenario)
         self._curve.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
 
     def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
-        """Say what the session is doing."""
+        """Show what the session is doing."""
         if self._state.text != text:
             self._state.set_text(text)
         self._stop.props.set_bool("disabled", not busy)
@@ -162,18 +162,18 @@ class Page:
         self._curve.mark(float(answer["record"]["speed"]))
 
     def show_stale(self, stale: bool) -> None:
-        """Dim the answer while it is that of another question than the form's."""
+        """Dim the answer while it belongs to another scenario than the form shows."""
         set_class(self._whole, "stale", stale)
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
-        """Show what was refused beside its control, the rest above."""
+        """Show each refusal beside its control, or above the form if it belongs to no control."""
         self._curve.refuse(refusals)
         homeless = self._controls.refuse([each for each in refusals if not each[0].startswith("sweep.")])
         if homeless:
             self.show_trouble(*homeless)
 
     def show_trouble(self, *lines: str) -> None:
-        """Say that something went wrong."""
+        """Show a message about an error."""
         self._trouble_lines.clear()
         with self._trouble_lines:
             for line in lines[:_MOST_LINES]:
@@ -222,7 +222,7 @@ class Page:
         self._start({"do": "influence", "of": known(answer)}, "", show, self._influence.say)
 
     def _start(self, what: dict[str, Any], doing: str, show: Any, say: Any = None, end: Any = None) -> None:
-        """Give the pool a job beside the search, and show what comes of it."""
+        """Submit a job to the pool in addition to the search, and show its result."""
         say = say or (lambda text: self.show_state(text, busy=False))
 
         def hear(event: Event) -> None:
@@ -269,7 +269,7 @@ class Page:
             self._start(what, "Writing.", lambda found: self._download(base64.b64decode(found["content"]), kind))
 
     def _uploaded(self, event: Any) -> None:
-        """Show why the server refused to take a file; of what it took `read_file` tells."""
+        """Show why the server refused an upload; `read_file` reports on files that it accepted."""
         if isinstance(event.args, str) and event.args:
             self.show_trouble(event.args[:300])
 

@@ -16,8 +16,8 @@ class Pins:
 
     Parameters
     ----------
-    fly_beside : called with the answer to fly as a ghost, None for none.
-    bring_back : called with the answer whose choices are wanted again.
+    fly_beside : called with the answer to show as a ghost; with None to show no ghost.
+    bring_back : called with the answer whose choices the form should show again.
     """
 
     def __init__(self, fly_beside: Callable[[Any], Any], bring_back: Callable[[Any], Any]) -> None:
@@ -29,7 +29,7 @@ class Pins:
             self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
-        """Keep an answer; the oldest leaves where there are too many."""
+        """Pin an answer; if there are too many, the oldest is removed."""
         if any(each is answer for each in self._answers):
             self._note.set_text("This result is already pinned.")
             return

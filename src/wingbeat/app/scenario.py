@@ -77,7 +77,7 @@ class Scenario:
     sweep: tuple[float, float, float] = (4.0, 16.0, 1.0)
 
     def faults(self) -> FaultList:
-        """Return what is wrong with each choice by itself; what they make together `problem_of` checks."""
+        """Return the faults of each choice by itself; `problem_of` checks the choices together."""
         faults = FaultList()
         if not self.species_file:
             faults.choice("species", self.species, species_names())
@@ -127,11 +127,11 @@ class Scenario:
         return [round(first + i * step, 9) for i in range(math.floor((last - first) / step + 1e-9) + 1)]
 
     def at(self, speed: float) -> Scenario:
-        """Return this at another speed [m/s]."""
+        """Return the scenario at another speed [m/s]."""
         return dataclasses.replace(self, speed=speed)
 
     def asks_as(self, other: Scenario) -> bool:
-        """Return whether this asks for the same orbit as another; they may differ in the range of the curve."""
+        """Return whether two scenarios ask for the same orbit; the range of the curve does not matter."""
         return self == dataclasses.replace(other, sweep=self.sweep)
 
 
@@ -153,14 +153,14 @@ def _species_in_box(name: str) -> Species:
 
 
 def species_in(scenario: Scenario) -> Species:
-    """Return the species as its file has it, before any number is changed."""
+    """Return the species with the numbers of its file, before the user's changes."""
     if scenario.species_file:
         return species_from_text(scenario.species_file, f"{scenario.species}.toml")
     return _species_in_box(scenario.species)
 
 
 def problem_of(scenario: Scenario) -> OrbitProblem:
-    """Return the orbit problem that a scenario stands for, the same as the command line's.
+    """Return the orbit problem of a scenario; the command line makes the same problem from the same choices.
 
     Raises
     ------

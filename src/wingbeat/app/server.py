@@ -51,7 +51,7 @@ _FAREWELL = 0.2
 
 
 class House:
-    """What all visitors share: the pool, what lies ready to be fetched, who is here."""
+    """What all visitors share: the pool of workers, the downloads, and the open pages."""
 
     def __init__(self, processes: int) -> None:
         self.pool = FairPool(_WORK, processes)
@@ -60,7 +60,7 @@ class House:
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
 
     def open_page(self, client: Client, query: str) -> None:
-        """Build a page for a visitor who has just come."""
+        """Build a page for a new visitor."""
         name = secrets.token_urlsafe(12)
         page = self.pages[name] = Page(name, self.pool, self.downloads, query)
 
@@ -71,16 +71,16 @@ class House:
         client.on_delete(leave)
 
     def close(self) -> None:
-        """End the workers and leave nothing behind."""
+        """End the workers and delete all temporary files."""
         self.pool.close()
         self.folder.cleanup()
 
 
 class _Server(uvicorn.Server):
-    """A server that waits for nobody when it ends."""
+    """A server that does not wait for open connections when it ends."""
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Close the connection to every browser, and soon drop those that do not close theirs."""
+        """Close the connection to every browser; soon drop connections that browsers leave open."""
         asyncio.get_running_loop().call_later(_FAREWELL, self._hang_up)
         await super().shutdown(sockets)
 
@@ -95,7 +95,7 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
 
     Parameters
     ----------
-    host, port : where to listen; an empty host is this machine alone, port 0 is any that is free.
+    host, port : where to listen. An empty host accepts this machine only; port 0 takes any free port.
     processes : worker processes.
     opens : whether a browser is opened.
 
@@ -127,7 +127,7 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
 
 
 def _announce(host: str, listening: socket.socket) -> str:
-    """Print where the server listens, and warn if others reach it; return the address to open."""
+    """Print where the server listens, and warn if other machines can reach it; return the address to open."""
     bound, port = listening.getsockname()[:2]
     # "Every address" is no address to open; this machine's own is one of them.
     shown = {"0.0.0.0": _LOOPBACK, "::": "::1"}.get(bound, host)
@@ -145,7 +145,7 @@ def _announce(host: str, listening: socket.socket) -> str:
 
 
 def configure(house: House, host: str) -> uvicorn.Config:
-    """Return how the web application is served."""
+    """Return the configuration with which the web application is served."""
     return uvicorn.Config(
         build(house, host),
         http="h11",
@@ -222,7 +222,7 @@ def _add_files(app: FastAPI, house: House) -> None:
 
 
 async def _take(house: House, session: str, request: Request) -> Response:
-    """Take a file of a visitor who is here, piece by piece, and no more of it than is allowed."""
+    """Receive a file from a connected visitor, piece by piece, up to the size limit."""
     page = house.pages.get(session)
     label = clean_label(request.query_params.get("name", ""))
     rule = f"{label} was refused: a file may have at most {MOST_BYTES // 1_000_000} million bytes."

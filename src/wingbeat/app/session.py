@@ -35,32 +35,32 @@ class View(Protocol):
         ...
 
     def show_scenario(self, scenario: Scenario) -> None:
-        """Show what is asked."""
+        """Show a scenario in the form."""
 
     def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
-        """Say what the session is doing; `done` is the share that is done."""
+        """Show what the session is doing; `done` is the finished share of the work."""
 
     def show_answer(self, answer: dict[str, Any]) -> None:
         """Show an answer."""
 
     def show_stale(self, stale: bool) -> None:
-        """Say whether the answer on the page belongs to an earlier question."""
+        """Show whether the answer on the page belongs to an earlier scenario."""
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
-        """Show what was refused, [where, message] each; none takes earlier ones away."""
+        """Show the refusals, each as [where, message]; an empty list removes earlier ones."""
 
     def show_trouble(self, *lines: str) -> None:
         """Say that something went wrong."""
 
 
 class Session:
-    """What one page asks of the pool.
+    """The requests of one page to the pool.
 
     Parameters
     ----------
     name : of the session, unlike any other's.
-    pool : where the work is done.
-    scenario : what is asked at first.
+    pool : the worker pool that does the work.
+    scenario : the first scenario.
     """
 
     def __init__(self, name: str, pool: FairPool, scenario: Scenario, view: View) -> None:
@@ -79,12 +79,12 @@ class Session:
         self._gone = False
 
     def change(self, **choices: Any) -> bool:
-        """Ask for another scenario; say whether its choices can be, one by one."""
+        """Change to another scenario; return whether each of its choices is valid by itself."""
         self.scenario = dataclasses.replace(self.scenario, **choices)
         return self.ask()
 
     def rearrange(self, **choices: Any) -> None:
-        """Change what does not concern the answer."""
+        """Change a choice that does not affect the answer."""
         self.scenario = dataclasses.replace(self.scenario, **choices)
         self._tell_faults()
         self._tell_scenario()
@@ -99,7 +99,7 @@ class Session:
         return bool(refused)
 
     def ask(self, whole: bool = False) -> bool:
-        """Solve the scenario: continued from the answer before where there is one, or by a `whole` search."""
+        """Solve the scenario, by continuation from the previous answer if there is one, or by a `whole` search."""
         self._cancel_calm()
         self._continued = None
         self._tell_scenario()
@@ -127,7 +127,7 @@ class Session:
             self._view.show_trouble(BUSY)
 
     def start(self, what: dict[str, Any], hear: Callable[[Event], None]) -> Job | None:
-        """Give the pool a job; events come to `hear` on the page's own thread."""
+        """Submit a job to the pool; `hear` gets its events on the page's own thread."""
 
         def tell(event: Event) -> None:
             with suppress(RuntimeError):  # the server has closed, and its loop with it
@@ -136,7 +136,7 @@ class Session:
         return self._pool.submit(self.name, what, tell)
 
     def _inside(self, act: Callable[[Any], None], what: Any) -> None:
-        """Do something to the page, unless it is gone."""
+        """Call a function within the page's context, unless the page is closed."""
         if not self._gone:
             with self._view.context():
                 act(what)
@@ -146,7 +146,7 @@ class Session:
         self._pool.cancel(job)
 
     def stop(self, text: str = "Cancelled.") -> None:
-        """Drop what is being solved."""
+        """Cancel the search that is running."""
         self._cancel_calm()
         self._asked += 1  # whatever comes of it is not shown
         self._again, self._brief_since = False, None
@@ -156,7 +156,7 @@ class Session:
         self._view.show_state(text, busy=False)
 
     def leave(self) -> None:
-        """Drop everything of a page that is gone."""
+        """Cancel all jobs of a page that was closed."""
         self._cancel_calm()
         self._gone = True
         self._pool.leave(self.name)
@@ -188,14 +188,14 @@ class Session:
             self.ask()
 
     def tell_ending(self, event: Event) -> None:
-        """Say how a job ended that has no answer."""
+        """Show how a job without an answer ended."""
         text = _ENDINGS[event.kind].format(event.value) if event.kind in _ENDINGS else "Cancelled."
         self._view.show_state(text, busy=False)
         if event.kind in _ENDINGS:
             self._view.show_trouble(text)
 
     def _take(self, scenario: Scenario, answer: dict[str, Any]) -> None:
-        """Show an answer, and where it was continued search anew once nothing changes."""
+        """Show an answer; if it was continued, search from every start as soon as the controls are left alone."""
         answer["scenario"] = to_plain(scenario)
         best = answer["record"].get("objective_value")
         if answer.get("continued"):
@@ -211,7 +211,7 @@ class Session:
             self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)
 
     def take_file(self, answer: dict[str, Any], scenario: Scenario | None) -> None:
-        """Show an answer that came from a file, and ask for its scenario from now on."""
+        """Show an answer from a file, and make its scenario the current one."""
         self.stop("From a file; nothing was solved.")
         if scenario is not None:
             self.scenario = scenario
@@ -233,5 +233,5 @@ class Session:
 
 
 def known(answer: dict[str, Any]) -> dict[str, Any]:
-    """Return what brings the orbit of an answer back."""
+    """Return the record and inputs from which the orbit of an answer can be made again."""
     return {"record": answer["record"], "inputs": answer["inputs"]}

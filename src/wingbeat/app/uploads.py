@@ -30,7 +30,7 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
 def clean_label(name: str) -> str:
-    r"""Return what a file is called in messages: the last part of its name, printable and short; never a path.
+    r"""Return the name of a file for messages: the last part of its path, shortened and printable.
 
     >>> clean_label("../../etc/my\nbat.toml")
     'mybat.toml'
@@ -44,12 +44,12 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
 
     Parameters
     ----------
-    path : where the server put it, under a name of its own.
-    label : what the visitor calls it.
+    path : where the server stored the file, under a name that the server chose.
+    label : the visitor's name of the file.
 
     Raises
     ------
-    FileError, InvalidInputError : everything that is wrong with it, in words.
+    FileError, InvalidInputError : every fault of the file.
     """
     with open(path, "rb") as file:
         start = file.read(8)
@@ -67,7 +67,7 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
 
 
 def check_hdf5(path: str, label: str) -> None:
-    """Refuse a file of too many or too large arrays, or one that reaches for other files, before it is read.
+    """Refuse, before reading, a file with too many or too large arrays, or with links to other files.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def check_hdf5(path: str, label: str) -> None:
 
 
 def _declared(item: h5py.Dataset, refuse: Any) -> int:
-    """Return the bytes of an array once unpacked, whichever is more: all of it, or one of its chunks."""
+    """Return the unpacked size of an array or of one of its chunks, whichever is larger [bytes]."""
     if item.external or item.is_virtual:
         raise refuse("it points to other places or files")
     count = math.prod(item.shape or (1,))
@@ -135,7 +135,7 @@ def _check_attributes(item: Any, refuse: Any) -> None:
 
 
 def _checked(path: str, label: str) -> Orbit:
-    """Return the orbit in a file, if its numbers are numbers."""
+    """Return the orbit in a file; refuse it if a series holds a value that is not finite."""
     import numpy as np
 
     try:
@@ -152,7 +152,7 @@ def _checked(path: str, label: str) -> Orbit:
 
 
 def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
-    """Return the scenario whose problem is that of an orbit, or None and why there is none."""
+    """Return the scenario that has the problem of an orbit, or None and the reason why there is none."""
     inputs, why_not = orbit.inputs, ""
     for written_out in (False, True):
         try:
@@ -170,7 +170,7 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
 
 
 def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool) -> Scenario:
-    """Return a scenario of the problem, with the built-in species of its name or with the species written out."""
+    """Return a scenario of the problem; its species is the built-in one of this name, or is written out."""
     species, aero = problem.species, problem.aero
     name, text = species.name, ""
     if written_out:

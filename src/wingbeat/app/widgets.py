@@ -19,11 +19,12 @@ _LONGEST = 5000  # characters of one entry
 
 
 def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
-    """Return an HTML element with a text, always shown as text and never read as HTML.
+    """Return an HTML element with a text; the text is escaped and never interpreted as HTML.
 
     Parameters
     ----------
-    attributes : underscores stand for hyphens, one at the end for none: ``aria_label``, ``for_``.
+    attributes : attributes of the element; an underscore stands for a hyphen (``aria_label``) and is dropped at the
+        end (``for_``).
     """
     made = Element(tag=name) if text is None else TextElement(tag=name, text=text)
     if classes:
@@ -34,7 +35,7 @@ def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any
 
 
 def box(title: str, classes: str = "") -> Any:
-    """Return a section named by its heading; what follows in its ``with`` block stands below."""
+    """Return a section with a heading; elements made in its ``with`` block are placed below the heading."""
     section = tag("section", classes=f"box {classes}")
     with section:
         heading = tag("h2", title)
@@ -61,7 +62,7 @@ def button(text: str, act: Callable[[], Any], classes: str = "", **attributes: A
 
 
 class Field:
-    """A control with its label, unit, hint and the place where its fault is told.
+    """A control with its label, unit and hint, and a place for the message about its fault.
 
     Parameters
     ----------
@@ -72,12 +73,12 @@ class Field:
         self.row, self.control, self._fault, self._hint = row, control, fault, hint
 
     def show(self, value: Any) -> None:
-        """Show a value, unless it is shown already."""
+        """Show a value, unless the field already shows it."""
         if self.control.props.get("value") != value:
             self.control.props["value"] = value
 
     def refuse(self, message: str) -> None:
-        """Tell what is wrong with the value; nothing if it is empty."""
+        """Show a message about the value; an empty message removes it."""
         if self._fault.text == message:
             return
         self._fault.set_text(message)
@@ -85,12 +86,12 @@ class Field:
         self.control.props.set_optional("aria-invalid", "true" if message else None)
 
     def mark(self, text: str, odd: bool) -> None:
-        """Say what is plausible, and whether the value is not."""
+        """Show the plausible range, and mark a value outside it."""
         self._hint.set_text(text)
         set_class(self.row, "odd", odd)
 
     def number(self, text: str, unit: str = "") -> float | None:
-        """Return what was typed, in SI units and radians; tell the fault and return None if it is no number."""
+        """Return the typed number in SI units and radians; if it is no number, show the fault and return None."""
         value = from_shown(text, unit, several=False)
         if isinstance(value, float):
             return value
@@ -149,7 +150,7 @@ def _hearing(field: Field, act: Callable[[str], Any]) -> Field:
 def number_field(
     label: str, value: str, act: Callable[[str], Any], *, unit: str = "", hint: str = "", tip: str = ""
 ) -> Field:
-    """Return a field for a number, or several with commas between; `act` gets the text when it is entered."""
+    """Return a field for one number, or several with commas between; `act` gets the text on entry."""
 
     def make() -> Any:
         return tag("input", type="text", inputmode="decimal", autocomplete="off", value=value)
@@ -180,7 +181,7 @@ def choice_field(label: str, options: Sequence[tuple[str, str]], value: str, act
 
 
 def slider(label: str, value: float, least: float, most: float, step: float, act: Callable[[str], Any]) -> Any:
-    """Return a slider; `act` hears every movement, at most some twenty a second."""
+    """Return a slider; `act` is called at every movement, at most about twenty times a second."""
     control = tag("input", classes="slider", type="range", min=least, max=most, step=step, aria_label=label)
     control.props["value"] = value
     _heard(control, "input", act, lambda _: None, throttle=0.05)
@@ -196,7 +197,7 @@ class Rows:
         self._values: list[Any] = []
 
     def show(self, groups: Mapping[str, Sequence[Sequence[str]]]) -> None:
-        """Show groups by their titles; those without rows are left out."""
+        """Show groups under their titles; groups without rows are left out."""
         flat = [(title, label, value) for title, rows in groups.items() for label, value in rows]
         labels = [(title, label) for title, label, _ in flat]
         if labels != self._labels:
@@ -220,5 +221,5 @@ class Rows:
 
 
 def run_script(text: str) -> None:
-    """Run a script in the visitor's browser; what it holds of theirs must be quoted by `json.dumps`."""
+    """Run a script in the visitor's browser; quote any text of the visitor in it with `json.dumps`."""
     ui.run_javascript(text)

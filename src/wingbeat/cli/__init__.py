@@ -20,7 +20,7 @@ def __getattr__(name: str) -> object:
 
 
 def program() -> int:
-    """Run the process's command line; what is in memory at its end is left to the system to clear away."""
+    """Run the process's command line and end the process without freeing its memory, which the system does."""
     end_on_signals()  # before all else: imports take a second
     import gc
 

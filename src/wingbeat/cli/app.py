@@ -30,7 +30,7 @@ COMMANDS = {
     "uncertainty": "Compute the uncertainty of an orbit's frequency and power.",
     "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
-    "terms": "Follow the best wingbeat from none of a term of the air loads to all of it.",
+    "terms": "Follow the best wingbeat as a term of the air loads grows from none to all.",
     "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",
@@ -64,7 +64,7 @@ def _module(name: str) -> str:
 def build_app(chosen: str = "") -> App:
     """Return the command line with every command registered and none imported.
 
-    The command that was chosen is imported anyway, so its help is its own docstring, not the line of the list.
+    Only the chosen command is imported. Its help is then its own docstring, not its line in the list of commands.
     """
     app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
@@ -96,7 +96,7 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
 
 
 def _outcome(argv: list[str], app: App | None) -> int:
-    """Run a command line, and say in lines on stderr what went wrong."""
+    """Run a command line; print what goes wrong on stderr, one line for each fault."""
     command = argv[0] if argv else ""
     for word in argv:
         if len(word) > _LONGEST:
@@ -146,7 +146,7 @@ def _message(error: CycloptsError) -> str:
 
 
 def _missing_command(error: ImportError) -> str | None:
-    """Return which command's own module is absent, or None if an import failed for another reason."""
+    """Return the name of the command whose module is absent; None if an import failed for another reason."""
     cause = error.__cause__
     for name in COMMANDS:
         if isinstance(cause, ModuleNotFoundError) and cause.name == _module(name):

@@ -17,7 +17,7 @@ def bench(
 ) -> None:
     """Measure how fast this machine solves orbits, on one core, in about a minute.
 
-    Nothing is kept from one orbit to the next, and every orbit is certified.
+    No orbit starts from the result of another, and every orbit is certified.
     """
     from wingbeat.bench import measure
     from wingbeat.errors import FaultList

@@ -30,16 +30,17 @@ def compare(
     spanwise: Annotated[Whole, Parameter(help="Panels along the span of one wing.")] = _DEFAULT.spanwise,
     steps: Annotated[Whole, Parameter(help="Time steps of a beat.")] = _DEFAULT.steps,
     beats: Annotated[
-        Whole, Parameter(help="Beats flown from rest; the last is compared, the wake is that of all.")
+        Whole, Parameter(help="Beats flown from rest. The last one is compared; all leave a wake.")
     ] = _DEFAULT.beats,
     json: Annotated[bool, Parameter(negative="", help="Print the comparison as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw lift and thrust over the beat: .png, .pdf or .svg.")] = None,
 ) -> None:
-    """Replay a saved orbit in another code, and compare lift, thrust and power of the wings.
+    """Compute the air loads of a saved orbit with another code, and compare lift, thrust and power of the wings.
 
-    The motion is that of the file; the body does not answer the other code's loads. A vortex lattice has attached
-    flow without viscosity: where strips work beyond 15 degrees of angle of attack, it must be wrong. The table also
-    has our own loads on the same motion with each of the terms of --unsteady and --inflow. Needs the extra uvlm.
+    The motion is that of the file; the body does not respond to the other code's loads. A vortex lattice assumes
+    attached, inviscid flow, so it is wrong for strips beyond 15 degrees of angle of attack. The table also has our
+    own loads on the same motion, with and without each of the terms of --unsteady and --inflow. Needs the extra
+    uvlm.
 
     Examples: wingbeat orbit pigeon --speed 12 -o pigeon.nc; wingbeat compare pigeon.nc --with uvlm --plot lift.png
     """
@@ -81,14 +82,14 @@ def _print(record: dict[str, Any]) -> None:
         mark = " *" if all(row[term] == record[term] for term in ("unsteady", "inflow")) else ""
         table.add_row(Text(_name(row) + mark), *_cells(row))
     console.print(table)
-    console.print("* the loads of the file. lift later: by which share of a beat the lattice's lift comes later")
+    console.print("* the loads of the file. lift later: delay of the lattice's lift, as a share of a beat")
     for row in record["terms"]:
         if "refused" in row:
             console.print(f"- {_name(row)}: {row['refused']}", style="yellow", markup=False)
     share = record["beyond_15_deg"]
     console.print(
-        f"beyond 15 deg of angle of attack: {share:.0%} of beat and strips; there the lattice, which has attached "
-        "flow without viscosity, must be wrong"
+        f"beyond 15 deg of angle of attack: {share:.0%} of beat and strips; the lattice is wrong there, "
+        "because it assumes attached, inviscid flow"
     )
     for code, label in (("ours", "our loads leave out"), ("theirs", "the lattice leaves out")):
         console.print(f"{label}: {'; '.join(record['left_out'][code])}")

@@ -52,7 +52,7 @@ def curve(
     power_limit: Annotated[
         float | None, Parameter(help="Sustainable power [W]: prints the speeds within it.")
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Starts at both ends; a third as many at each speed in between.")] = 6,
+    starts: Annotated[Whole, Parameter(help="Starts at the first and last speed; others get a third as many.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
@@ -61,8 +61,8 @@ def curve(
 ) -> int:
     """Find the power and frequency curves along speed, their branches and their characteristic speeds.
 
-    Every optimum found is continued to the next lower and higher speeds. Where the best orbit changes branch, or is
-    at other bounds, the curve is marked. Exit code 0: certified, with gaps reported. 3: nothing certified.
+    Every optimum found is continued to the next lower and higher speeds. A mark on the curve shows where the best
+    orbit changes branch or reaches other bounds. Exit code 0: some speeds certified, gaps reported. 3: none.
 
     Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
     wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc

@@ -25,7 +25,7 @@ _LABELS = {
 
 
 def drawn(curve: Curve) -> Figure:
-    """Return the page of a curve, with what was published of the animal, if anything, beside it."""
+    """Return the page of a curve, with published measurements of the animal, if there are any."""
     from wingbeat.plots import curve_page
 
     record, speed = curve.record(), curve.dataset["speed"].values
@@ -35,7 +35,7 @@ def drawn(curve: Curve) -> Figure:
 
 
 def print_curve(curve: Curve) -> None:
-    """Print one line per speed with the changes in between, then characteristic speeds, then warnings."""
+    """Print one line per speed, with changes of the best orbit between them, characteristic speeds and warnings."""
     from rich.table import Table
     from rich.text import Text
 

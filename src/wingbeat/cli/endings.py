@@ -31,7 +31,7 @@ _ender: int | None = None
 
 
 def end_on_signals() -> None:
-    """From now on end the process at Ctrl-C and SIGTERM, unless it was started to ignore them."""
+    """Make Ctrl-C and SIGTERM end the process from now on, unless it was started to ignore them."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _end)
     if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
@@ -41,7 +41,7 @@ def end_on_signals() -> None:
 
 
 def _end(number: int, frame: FrameType | None = None) -> None:
-    """End the process with nothing left behind; the first thread that asks does it, the others wait."""
+    """Delete temporary files and end the process; the first thread that calls does it, the others wait."""
     global _ender
     if not _ending.acquire(blocking=False):
         if _ender == get_ident():  # a second signal in the midst of it
@@ -55,7 +55,7 @@ def _end(number: int, frame: FrameType | None = None) -> None:
 
 
 def _start_watch() -> None:
-    """Let a thread receive signals, because the main thread receives none while it is in compiled code."""
+    """Start a thread that receives signals, because the main thread receives none while in compiled code."""
     from threading import Thread
 
     hears, tells = os.pipe()

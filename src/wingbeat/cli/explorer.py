@@ -25,7 +25,7 @@ def app(
     ] = None,
     open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
 ) -> int:
-    """Open the explorer in a browser: choose, slide, and see it fly; Ctrl-C ends it.
+    """Open the explorer in a browser: choose a problem, move sliders, and see it fly. Ctrl-C ends it.
 
     It needs the extra app: uv run --extra app wingbeat app.
 

@@ -66,7 +66,7 @@ def fit(
 
 
 def _summary(found: WingFit) -> dict[str, Any]:
-    """Return the fit as JSON's types; what is not finite is null."""
+    """Return the fit as JSON types; numbers that are not finite become null."""
 
     def curve(label: str) -> dict[str, Any]:
         one = found.curves[label]

@@ -49,7 +49,7 @@ def glide(
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
         str,
-        Parameter(help="What turns until the pitching moment is zero: body-pitch, flap, or tail (nothing)."),
+        Parameter(help="What turns to trim the pitching moment: body-pitch, flap or tail (nothing without one)."),
     ] = "body-pitch",
     air: AirLoadOptions = DEFAULT_AIR_LOADS,
     set_: Settings = None,
@@ -60,7 +60,7 @@ def glide(
 ) -> int:
     """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
 
-    Where no angle trims the pitching moment, the table says what a tail would need to supply.
+    If no angle trims the pitching moment, the table shows the moment that a tail would need to supply.
     Exit code 3: no steady glide at any of the angles.
 
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03

@@ -17,7 +17,7 @@ _NAMED = 3
 
 
 def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console) -> None:
-    """Print what each quantity depends on most, the parameters, and prices of the active bounds."""
+    """Print what each quantity depends on most, the sensitivities, and the prices of the active bounds."""
     from rich.table import Table
     from rich.text import Text
 
@@ -38,7 +38,7 @@ def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console
         swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
         table.add_row(Text(f"  {parameter.path}"), plausible, *swings)
     console.print()
-    heading = "linear change to the low and the high end of each range: a ranking"
+    heading = "change at the low and high end of each range, by linear extrapolation: a ranking"
     console.print(Text(heading, style="bold"))
     console.print(table)
     console.print()
@@ -58,7 +58,7 @@ def ranked_in_words(bar: ErrorBar) -> str:
 
 
 def in_words(bar: ErrorBar) -> str:
-    """Return an error bar as a line: value, standard deviation, and what it is mostly due to."""
+    """Return an error bar as a line: value, standard deviation, and its main causes."""
     parts = ", ".join(f"{name} {deviation:.2g}" for name, deviation in list(bar.due_to.items())[:_NAMED])
     unit = "" if bar.unit == "1" else f" {bar.unit}"
     due = f", of which {parts}" if parts else ": no plausible ranges are known"
@@ -66,7 +66,7 @@ def in_words(bar: ErrorBar) -> str:
 
 
 def price_in_words(price: Sensitivity, found: Sensitivities) -> str:
-    """Return what one unit more of a bound changes: ``1 deg more of bounds.flap_amplitude.upper: -0.1 Hz``."""
+    """Return the effect of one more unit of a bound: ``1 deg more of bounds.flap_amplitude.upper: -0.1 Hz``."""
     parameter = price.parameter
     per, unit = (math.radians(1.0), "deg") if parameter.unit == "rad" else (0.01 * parameter.size, parameter.unit)
     amount = 1.0 if unit == "deg" else per

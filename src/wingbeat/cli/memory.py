@@ -14,7 +14,7 @@ _READERS = ("species",)
 
 
 def memory_shortage(command: str) -> str | None:
-    """Return why a command cannot run within the limit on address space (``ulimit -v``), or None if it can."""
+    """Return the reason why a command cannot run within the address-space limit (``ulimit -v``), or None."""
     try:
         from resource import RLIM_INFINITY, RLIMIT_AS, getrlimit
     except ImportError:  # not on Windows

@@ -23,7 +23,7 @@ from wingbeat.species import Species, load_species, parse_setting
 
 
 def _whole(type_: type, tokens: Sequence[Token]) -> int:
-    """Return a whole number; cyclopts by itself would round 1.5."""
+    """Return a whole number, or refuse it; cyclopts alone would round 1.5."""
     text = tokens[0].value
     try:
         return int(text)
@@ -57,7 +57,7 @@ WingsMayCross = Annotated[
 @Parameter(name="*")
 @dataclass(frozen=True)
 class AirLoadOptions:
-    """The options of the air loads, the same for every command that flies an animal."""
+    """The options of the air loads, which all commands share that fly an animal."""
 
     aero: Annotated[
         str, Parameter(help="Coefficients: su-fan, feathered, ... (see `polar`), a table (.csv) or a fit (.toml).")
@@ -114,7 +114,7 @@ class AirLoadOptions:
         )
 
     def fit(self) -> FittedModel | None:
-        """Return the fit, with its covariance, where ``--aero`` names the file of one."""
+        """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
         return read_model(self.aero) if self.aero.lower().endswith(".toml") else None
 
 
@@ -141,7 +141,7 @@ def species_with(name: str, settings: list[str] | None, payload: float = 0.0) ->
 
 
 def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
-    """Return, as typed, the options of a command that are not at their default, except those allowed."""
+    """Return the options, as typed, that differ from their defaults, except those in `allowed`."""
     defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}
     names = []
     for name, value in values.items():
@@ -154,7 +154,7 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
 
 @contextmanager
 def unpacking(path: Path) -> Iterator[None]:
-    """Turn whatever goes wrong while the orbit in the file at `path` is set up again into a `FileError`."""
+    """Turn any error in setting up the orbit of the file at `path` into a `FileError`."""
     try:
         yield
     except NotInFileError as error:
@@ -167,7 +167,7 @@ def unpacking(path: Path) -> Iterator[None]:
 
 
 class _Enough(Exception):
-    """A path can be written; there is nothing to write yet."""
+    """Raised to leave `writing` once it has shown that a path can be written; nothing is written yet."""
 
 
 Output = Annotated[
@@ -179,13 +179,13 @@ Output = Annotated[
 
 
 def check_result(faults: FaultList, output: Path | None) -> None:
-    """Note an output whose name is no result's; `check_outputs` refuses folders and devices itself."""
+    """Note an output name whose ending no result has; `check_outputs` refuses folders and devices."""
     if output is not None and (os.path.isfile(output) or not os.path.exists(output)):
         check_result_name(faults, "--output", output)
 
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
-    """Note figures that are none, and files that two options name; a figure by the name of its option."""
+    """Note figure names with another ending than a figure's, and files that two options name."""
     from wingbeat.plots import check_figure_name
 
     taken = {} if output is None else {_real(output): "--output"}
@@ -200,7 +200,7 @@ def check_files(faults: FaultList, output: Path | None = None, **figures: Path |
 
 
 def _real(path: Path) -> str:
-    """Return which file a path means; one that no file can have is refused when it is written."""
+    """Return the resolved path of a file; an impossible path is refused later, when it is written."""
     try:
         return os.path.realpath(path)
     except ValueError:  # a NUL
@@ -208,7 +208,7 @@ def _real(path: Path) -> str:
 
 
 def check_outputs(*paths: Path | None) -> None:
-    """Refuse a path that cannot be written, before hours of work and not after; an existing file stays as it is."""
+    """Refuse a path that cannot be written, before the work starts; an existing file is not changed."""
     for path in paths:
         if path is not None:
             with suppress(_Enough), writing(path):

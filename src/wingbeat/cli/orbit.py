@@ -85,7 +85,7 @@ def orbit(
     ] = None,
     starts: Annotated[
         Whole | None,
-        Parameter(help="Number of starts; default 6, 12 for powers and limits, 24 for peaks and own bounds."),
+        Parameter(help="Number of starts; default 6, 12 for powers and limits, 24 for peaks and your own bounds."),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     wings_may_cross: WingsMayCross = False,
@@ -111,7 +111,7 @@ def orbit(
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
-    With --kinematics, what was filmed is kept and the rest is found, with errors due to the noise of the film.
+    With --kinematics, filmed motions are kept and the others are found, with errors due to the noise of the film.
     Exit code 0: certified. 3: nothing certified; the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;
@@ -204,7 +204,7 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
 
 
 def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
-    """Differentiate an orbit, and draw what its uncertain numbers can change."""
+    """Compute the sensitivities of an orbit, and draw the effects of its uncertain parameters."""
     influence = differentiate(found)
     if tornado is not None:
         from wingbeat.plots import save_figure, tornado_page
@@ -215,7 +215,7 @@ def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple
 
 
 def _spread(found: Orbit, beat: FilmedBeat) -> Spread:
-    """Fly other draws of the film, for the error bars."""
+    """Return the spread of orbits whose wingbeats are random draws of the film, for error bars."""
     with progress_bar("error bars") as progress:
         return orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
 

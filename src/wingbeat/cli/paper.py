@@ -86,7 +86,7 @@ def paper(
 
 
 def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: str) -> list[int]:
-    """Return the numbers that words like ``2-8`` or ``3,5`` name."""
+    """Return the numbers in a text such as ``2-8`` or ``3,5``."""
     numbers: list[int] = []
     for word in words.split(","):
         first, _, last = word.strip().partition("-")

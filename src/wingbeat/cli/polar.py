@@ -74,7 +74,7 @@ def polar(
 
 
 def _collected(faults: FaultList, door: Callable[[], Any]) -> Any:
-    """Return what `door` gives; add what it refuses to the faults, so that all are told at once."""
+    """Call `door`; add the faults that it raises to `faults`, so that all are reported at once."""
     try:
         return door()
     except InvalidInputError as error:

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:
-    """Return the groups of rows that tell a power account, none if there is none."""
+    """Return a power account as groups of rows; no groups if there is no account."""
     if account is None:
         return {}
     costs = [(_fate(share), _watts(cost)) for share, cost in account["cost_by_returned"]]

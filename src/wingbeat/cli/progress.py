@@ -36,7 +36,7 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
 
 
 def _show_cursor() -> None:
-    """Give the terminal its line and its cursor back, which the bar has hidden."""
+    """Show the terminal's cursor again, which the bar has hidden, and clear the bar's line."""
     os.write(2, b"\r\x1b[2K\x1b[?25h")
 
 
@@ -66,7 +66,7 @@ def study_bar() -> Iterator[Callable[[Tally], None] | None]:
 
 
 def duration(seconds: float) -> str:
-    """Return a time in the unit that suits it.
+    """Return a time in seconds, minutes or hours, depending on its length.
 
     >>> duration(40), duration(600), duration(9000)
     ('40 s', '10 min', '2.5 h')

@@ -52,12 +52,12 @@ def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]
 
 
 def parse_range(text: str, where: str) -> NDArray[np.float64]:
-    """Return the numbers of ``start:stop:step``, both ends exact, or of a single number, shape (n,).
+    """Return the numbers of ``start:stop:step``, both ends included exactly, or a single number, shape (n,).
 
     Parameters
     ----------
-    text : what the user wrote.
-    where : the option it was written for, for the message.
+    text : the user's text.
+    where : the option's name, for messages.
 
     Raises
     ------

@@ -22,12 +22,12 @@ def reduce(
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
     last: Annotated[float, Parameter(help="Steady seconds at the end of each record.")] = 20.0,
 ) -> None:
-    """Turn load-cell records into coefficients with their errors, repeats of a point pooled.
+    """Turn load-cell records into coefficients with errors; repeated runs of one point are pooled.
 
     A record has the columns time [s], normal_force [N], tangential_force [N], moment [N m] (about mid-chord,
-    nose-up positive) and alpha_deg, and above them lines "# speed = ...", density, viscosity (kinematic), chord and
-    span in SI units; optional are thickness, channel_width and the readings in still fluid,
-    "# tare_normal_force = before, after" and so on, between which the zero drifts linearly.
+    nose-up positive) and alpha_deg. Lines above them, such as "# speed = ...", give speed, density, viscosity
+    (kinematic), chord and span in SI units. Optional are thickness, channel_width and the readings in still fluid,
+    "# tare_normal_force = before, after" and so on; the zero drifts linearly between the two readings.
 
     Example: wingbeat reduce run*.csv -o coefficients.csv --last 20
     """
@@ -51,7 +51,7 @@ def reduce(
 
 
 def _read_all(paths: list[Path]) -> list[LoadCellRun]:
-    """Read every run; tell the faults of all files at once."""
+    """Read every run; report the faults of all files at once."""
     runs, faults, unreadable = [], FaultList(), []
     for path in paths:
         try:

@@ -36,7 +36,7 @@ def read_result(path: str | PathLike[str]) -> xr.Dataset:
 
 
 def print_orbit(record: dict[str, Any], console: Console) -> None:
-    """Print an orbit record: how it closes, whether it is plausible, every group of numbers it holds, warnings."""
+    """Print an orbit record: closure, plausibility, every group of its numbers, and warnings."""
     if record.get("status") == "converged":
         said = statements(record)
         # The green word stands where both statements hold; each is its own.
@@ -56,7 +56,7 @@ def flight_summary(dataset: xr.Dataset, path: str | PathLike[str]) -> dict[str, 
 
     Raises
     ------
-    FileError : the file at `path`, which the dataset came from, lacks one of these.
+    FileError : the file at `path`, from which the dataset was read, lacks one of these.
     """
     try:
         about = {name: json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat")}

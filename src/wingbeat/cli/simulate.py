@@ -67,10 +67,10 @@ def simulate(
 ) -> int:
     """Fly an initial state for some wingbeats with the wings prescribed.
 
-    The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from a film (--kinematics;
-    the species gives what was not filmed) or from an orbit (--from). To disturb an orbit, give --u, --w,
-    --body-pitch-deg or --pitch-rate: each replaces that number of its initial state. For a film, power is printed
-    with the error due to the noise of the film.
+    The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from an orbit (--from), or
+    from a film (--kinematics; the species gives the motions that were not filmed). To disturb an orbit, give --u,
+    --w, --body-pitch-deg or --pitch-rate; each replaces this number in the orbit's initial state. With a film,
+    power is printed with the error due to the noise of the film.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)
@@ -123,7 +123,7 @@ def simulate(
 
 
 def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[float | None]:
-    """Return the standard error of each beat's mean power, from flights of other draws of the film."""
+    """Return the standard error of each beat's mean power, from flights with random draws of the film."""
     power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
     start, squares = State(*flight.states[0]), []
     for wingbeat in beat.draws(flight.wingbeat, DRAWS):
@@ -135,7 +135,7 @@ def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[
 
 
 def beat_rows(flight: Flight, samples: int) -> list[dict[str, Any]]:
-    """Return one row per beat: state at its end, mean velocities and mean power; None once the vehicle tumbled."""
+    """Return one row per beat: state at its end, mean velocities and mean power; None after the vehicle tumbled."""
     period = 1.0 / flight.wingbeat.frequency
     power = flight.dataset["hinge_power"].to_numpy()
     rows = []

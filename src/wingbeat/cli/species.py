@@ -78,7 +78,7 @@ def new(
     wing_area: Annotated[float | None, Parameter(help="Area of both wings and the body between them [m2].")] = None,
     force: Annotated[bool, Parameter(negative="", help="Overwrite an existing file.")] = False,
 ) -> None:
-    """Write a commented template for a species of your own, or a bird, bat or robot by scaling laws."""
+    """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
     from wingbeat.files import write_atomically
 
     size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
@@ -111,7 +111,7 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
 
 
 def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
-    """Return the settings; all that cannot be read are reported at once."""
+    """Return the settings; report all unreadable ones at once."""
     from wingbeat.errors import FaultList, InvalidInputError
 
     faults, values = FaultList(), {}
@@ -225,7 +225,7 @@ def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
 
 
 def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
-    """Return a table of what is plausible of a beat; the ranges of the wingbeat stand with its numbers."""
+    """Return a table of the plausible ranges of a beat's quantities; those of parameters are in the other table."""
     from wingbeat.nomenclature import cf, for_people
 
     table = _table("plausible ranges", "quantity", "minimum>r", "maximum>r", "unit", "at [m/s]>r", "source>r")

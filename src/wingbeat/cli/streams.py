@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class StdoutError(Exception):
-    """Standard output cannot be written to; `number` is the errno. No OSError, as rich catches some of those."""
+    """Standard output cannot be written; `number` is the errno. Not an OSError: rich catches some of these."""
 
     def __init__(self, error: OSError) -> None:
         self.number = error.errno
@@ -37,7 +37,7 @@ class _Stderr(io.FileIO):
 
 
 def prepare_streams() -> None:
-    """Give the process its streams, also where it was started with some of them closed."""
+    """Set up the standard streams of the process, even if it was started with some of them closed."""
     if os.name != "posix":  # a console of Windows is no file
         for stream in (sys.stdout, sys.stderr):
             if isinstance(stream, io.TextIOWrapper):
@@ -55,7 +55,7 @@ def prepare_streams() -> None:
 
 
 def _stream(before: Any, raw: io.FileIO, at_once: bool = False) -> io.TextIOWrapper:
-    """Return a stream like the one before that writes with `raw`; signs that an encoding lacks become escapes."""
+    """Return a stream like `before` that writes with `raw`; characters that its encoding lacks become escapes."""
     return io.TextIOWrapper(
         io.BufferedWriter(raw),
         encoding=getattr(before, "encoding", "utf-8"),
@@ -65,13 +65,13 @@ def _stream(before: Any, raw: io.FileIO, at_once: bool = False) -> io.TextIOWrap
 
 
 def drop_stdout() -> None:
-    """Point standard output at nothing, so that the flush at exit does not fail again."""
+    """Redirect standard output to the null device, so that the flush at exit does not fail again."""
     with suppress(OSError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def plain_console() -> Console:
-    """Return standard output for tables: names and messages of files may look like markup, and are text."""
+    """Return a console for tables that prints names and messages as text, even if they look like markup."""
     from rich.console import Console
 
     return Console(markup=False, highlight=False, emoji=False)

@@ -65,7 +65,7 @@ def run(
 ) -> int:
     """Solve all points without a result, and keep every result in the store beside the file.
 
-    Ctrl-C keeps the points that end within a second, then stops; run the study again to go on from there.
+    Ctrl-C waits one second for points that end, saves them and stops; run the study again to resume.
     Exit codes: 0 all points certified, 2 bad input, 3 some points not certified, 130 interrupted, 143 terminated.
     Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
 
@@ -94,7 +94,7 @@ def run(
 
 @study.command
 def status(file: File) -> None:
-    """Print how many points have each status, and why points without a certified orbit have none."""
+    """Print the number of points with each status, and why points have no certified orbit."""
     asked = _read(file)
     _print_summary(asked, asked.status())
 
@@ -118,7 +118,7 @@ def plot(
         Parameter(help="Column of the table to draw, such as mean_power; default: the minimised quantity."),
     ] = None,
 ) -> None:
-    """Draw what was found over what was varied: lines over one parameter, maps over two, strands over more."""
+    """Draw a result against the varied parameters: lines for one, maps for two, parallel coordinates for more."""
     from wingbeat.plots import check_figure_name, save_figure, study_page
 
     with _written(output, check_figure_name, "figure.png, .pdf or .svg") as path:
@@ -129,7 +129,7 @@ def plot(
 def salvage(file: File) -> None:
     """Rebuild a damaged store from every intact result in it; run the study to solve the rest again.
 
-    The damaged store is put aside; nothing is deleted. An undamaged store is left as it is.
+    The damaged store is renamed; nothing is deleted. An undamaged store is not changed.
     """
     asked = _read(file)
     kept, aside = asked.salvage()
@@ -144,7 +144,7 @@ def salvage(file: File) -> None:
 def _written(
     output: Path | None, check_name: Callable[[FaultList, str, Path], None], examples: str
 ) -> Iterator[Path]:
-    """Yield the file to write, after checking that it can be written; afterwards say that it was."""
+    """Yield the file to write, after a check that it can be written; print its name after the block."""
     faults = FaultList()
     if output is None:
         faults.add("--output", None, "is missing", f"give a file: -o {examples}")

@@ -46,13 +46,13 @@ def terms(
         list[str] | None,
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Starts at both ends; a third as many at each share in between.")] = 6,
+    starts: Annotated[Whole, Parameter(help="Starts at the first and last share; others get a third as many.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
 ) -> int:
-    """Find the best wingbeats from none of a term of the air loads to all of it, and where their family changes.
+    """Find the best wingbeats as a term of the air loads grows from none to all, and where their family changes.
 
     Name the terms with --unsteady and --inflow; if both are named, they grow together.
     Exit code 3: no share has a certified orbit.
@@ -100,7 +100,7 @@ def _print(record: dict[str, Any]) -> None:
     for point in record["points"]:
         table.add_row(*_cells(point))
     console.print(table)
-    console.print("power: mean of all actuators; what it is spent on stands beside it")
+    console.print("power: mean of all actuators; the columns beside it show what it is spent on")
     for mark in record["marks"]:
         console.print(f"share {mark['lower']:g} to {mark['upper']:g}: {mark['what']}")
     told = "one family of wingbeats leads" if record["same_family"] else "no single family of wingbeats leads"

@@ -72,7 +72,7 @@ def uncertainty(
 
 
 def _processes(samples: int) -> int:
-    """Return how many processes are worth starting: each start takes as long as some hundred draws."""
+    """Return how many processes are worth starting: one takes as long to start as some hundred draws to solve."""
     return max(1, min(core_count(), samples // 200))
 
 

@@ -107,7 +107,7 @@ def validate(
 
 
 def _slug(name: str) -> str:
-    """Return a name with letters and digits only, for that of a file."""
+    """Return a text reduced to letters and digits, as part of a file name."""
     return "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:80]
 
 
@@ -142,8 +142,9 @@ def _print(found: Validation) -> None:
     for note in found.notes:
         console.print(f"- {note}", style="yellow")
     console.print(
-        "mean, peak: computed over measured; rms: over the weight; about mean: over the measured spread; "
-        "lag: share of a beat, late is positive; wake: thin-aerofoil with the lag of the wake\n"
+        "mean, peak: computed force / measured force; rms: difference / weight; about mean: rms of the difference "
+        "/ rms of the measurement, both without their means; lag: share of a beat, positive if computed is late; "
+        "wake: thin-aerofoil with the lag of the wake\n"
     )
 
 

@@ -41,9 +41,9 @@ class Campaign:
     alpha_deg : angles of attack [deg].
     repeats : runs of each point.
     duration, rate : length of a record [s] and samples per second [Hz].
-    turbulence : standard deviation of each force coefficient within a record [-]; that of C_M is a quarter of it.
-    memory : correlation time of that noise [s].
-    cell_noise : standard deviation of white noise of the load cell, as shares of its scale (1 N, 0.1 N m).
+    turbulence : standard deviation of each force coefficient within a record [-]; C_M gets a quarter of it.
+    memory : correlation time of the turbulence [s].
+    cell_noise : standard deviation of the load cell's white noise, as a share of its scale (1 N, 0.1 N m).
     drift : largest change of the zero readings over a run, as a share of the same scale.
     start : share by which loads overshoot when the stream starts; it decays with a time constant of 1.5 s.
     chord, span, thickness, channel_width : of plate and channel [m].
@@ -86,7 +86,7 @@ class Campaign:
 
 
 def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
-    """Return the truth at angles [deg], shape (n,): C_L, C_D and x_cp.
+    """Return the true coefficients C_L, C_D and x_cp at angles [deg], shape (n,).
 
     >>> [round(float(c[0]), 4) for c in true_coefficients(np.array([40.0]))]
     [1.19, 1.0191, 0.4061]
@@ -98,13 +98,13 @@ def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
 def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     """Return the records of a synthetic campaign; the same seed gives the same records.
 
-    Each channel is the truth times its start-up ``1 + start exp(-t/1.5)``, plus fluctuations of the flow (a first
-    order Markov process), white noise of the cell, and a zero that drifts linearly between the
-    readings before and after.
+    Each channel is the true load times the start-up factor ``1 + start exp(-t/1.5)``, plus fluctuations of the flow
+    (a first-order Markov process), white noise of the load cell, and a zero that drifts linearly from the reading
+    before to the reading after.
 
     Parameters
     ----------
-    campaign : what is swept, and the errors.
+    campaign : the angles and Reynolds numbers to measure, and the errors.
     seed : of the random numbers.
 
     >>> small = Campaign(reynolds=(3e4,), alpha_deg=(10.0, 20.0), repeats=2, rate=10.0)
@@ -138,7 +138,7 @@ _SHARED = ("density", "viscosity", "chord", "span", "thickness", "channel_width"
 def _records(
     campaign: Campaign, coefficients: Array, speed: float, time: Array, random: np.random.Generator
 ) -> tuple[Array, Array]:
-    """Return the channels of runs, shape (runs, 3, n), and their zeros before and after, shape (runs, 3, 2)."""
+    """Return the channels of runs, shape (runs, 3, n), and their zero readings before and after, (runs, 3, 2)."""
     from scipy.signal import lfilter
 
     count = len(time)

@@ -26,7 +26,7 @@ def draw(
     extension: str = "mirrored",
     blend_width_deg: float = 1.0,
 ) -> list[FormulaCoefficients]:
-    """Return models with random terms from the normal distribution of a fit's parameters.
+    """Return coefficient models whose terms are random draws from the normal distribution of a fit's parameters.
 
     The parameters of each curve (lift, drag, centre of pressure) are drawn with their covariance, and the curves
     independently of one another. A sample that is not a valid formula (a decay that grows) is drawn again.
@@ -65,7 +65,7 @@ def draw(
 
 
 def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generator) -> list[Any]:
-    """Return `count` formulas of one coefficient."""
+    """Return `count` random draws of the formula of one coefficient."""
     if not curve.free:
         return [curve.terms] * count
     mean = np.array([getattr(curve.terms, name) for name in curve.free])
@@ -88,7 +88,7 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
 
 
 def _root(covariance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a matrix whose square is the covariance, which rounding may have left a hair below semidefinite."""
+    """Return a matrix L with ``L L^T`` equal to the covariance; negative eigenvalues from rounding count as 0."""
     spread = np.sqrt(np.diag(covariance))
     scale = np.where(spread > 0, spread, 1.0)
     values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))

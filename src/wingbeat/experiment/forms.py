@@ -36,9 +36,9 @@ def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any) -> Any:
 
 
 def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
-    """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and its slopes in its terms.
+    """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and its derivatives by its terms.
 
-    The slopes are a record like `terms` that holds arrays of shape (n,) in the place of numbers. All forms with the
+    The derivatives are a record like `terms` with arrays of shape (n,) instead of numbers. All forms with the
     same terms share one compiled function.
 
     >>> value, slopes = value_and_slopes(FormulaTerms(0.1, 2.0, 2.0, 0.0), np.array([45.0]))
@@ -52,7 +52,7 @@ def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
 
 
 def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
-    """Return terms without the checks of a model: a search passes through values that a model may not hold."""
+    """Return terms without the checks of their constructor, because a fit may pass through refused values."""
     # All of them floats: JAX compiles anew for another type of number, and does not differentiate in integers.
     return unchecked(kind, {name: float(value) for name, value in terms.items()})
 
@@ -113,7 +113,7 @@ class CurveForm:
         return np.asarray(self.function(alpha_deg, **parameters), dtype=np.float64)
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the derivatives in the parameters, shape (n, parameters), by central differences.
+        """Return the derivatives by the parameters, shape (n, parameters), from central differences.
 
         Parameters
         ----------
@@ -152,14 +152,14 @@ class CurveForm:
 
 @dataclass(frozen=True)
 class BoxForm(CurveForm):
-    """A formula of `wingbeat.aero`, some terms held fixed; its slopes are exact and it finds its own start."""
+    """A formula of `wingbeat.aero`, possibly with fixed terms, with exact slopes and its own starts for a fit."""
 
     kind: Kind = FormulaTerms
     fixed: dict[str, float] = field(default_factory=dict)
     grids: dict[str, Array] = field(default_factory=dict)
 
     def terms(self, parameters: dict[str, float]) -> dict[str, float]:
-        """Return all terms of the formula, those held fixed included."""
+        """Return all terms of the formula, including fixed ones."""
         return self.fixed | parameters
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
@@ -167,12 +167,12 @@ class BoxForm(CurveForm):
         return self.value_and_slopes(alpha_deg, parameters)[1]
 
     def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
-        """Return `value` and `slopes`, shapes (n,) and (n, parameters), of one evaluation."""
+        """Return `value` and `slopes`, shapes (n,) and (n, parameters), from one evaluation."""
         value, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
         return value, np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
-        """Return the three best nodes of a grid over the non-linear terms, the others by linear least squares."""
+        """Return three starts: the best grid nodes of the non-linear terms, with the others by least squares."""
         found: list[tuple[float, dict[str, float]]] = []
         for node in product(*self.grids.values()):
             held = {name: float(at) for name, at in zip(self.grids, node, strict=True)}
@@ -184,7 +184,7 @@ class BoxForm(CurveForm):
         return [start for _, start in found[:3]]
 
     def _linear_basis(self, a: Array, held: dict[str, float]) -> tuple[Array, Callable[[Array], dict[str, float]]]:
-        """Return the functions the formula is linear in, and how their factors become parameters."""
+        """Return the functions in which the formula is linear, and a map from their factors to parameters."""
         blank = dict.fromkeys(self.names, 0.0) | self.fixed | held
         names = [name for name in self.names if name not in self.grids and name != "phase_deg"]
         _, slopes = value_and_slopes(_any_terms(self.kind, blank), a)

@@ -21,14 +21,14 @@ _SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "°": "deg", "d
 
 
 class Heading(NamedTuple):
-    """A name with the unit in brackets behind it, if one was written."""
+    """A name, and the unit that follows it in brackets; None without one."""
 
     name: str
     unit: str | None
 
 
 class Sheet(NamedTuple):
-    """A CSV file taken apart: constants by key with their row, column names, rows of cells with their row."""
+    """The parts of a CSV file: constants by key, column names, and cells; constants and cells with their row."""
 
     file: str
     constants: dict[str, tuple[int, str]]
@@ -52,7 +52,7 @@ def split_unit(text: str) -> Heading:
 
 
 def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> None:
-    """Note a unit that is written but differs from the one in which the column is read."""
+    """Note a fault if a unit is given that differs from the one in which the column is read."""
     if unit is None:
         return
     plain = re.sub(r"\s+", " ", unit.strip().lower().replace("^", "").replace("²", "2").replace("³", "3"))
@@ -101,7 +101,7 @@ def parse_numbers(
 
     Parameters
     ----------
-    names : what the columns are called in messages.
+    names : the columns' names in messages.
     blank : the columns where a cell may be empty, which gives NaN.
     """
     if sheet.rows and not blank:

@@ -30,7 +30,7 @@ class LoadCellRun:
 
     Parameters
     ----------
-    name : what the run is called in messages, such as its file.
+    name : the run's name in messages, such as its file.
     time : rising times of the samples [s], shape (n,).
     normal_force, tangential_force : along the plate's normal and towards its trailing edge [N], shape (n,).
     moment : about mid-chord, nose-up positive [N m], shape (n,).
@@ -81,7 +81,7 @@ class LoadCellRun:
 
     @property
     def duration(self) -> float:
-        """Length of the record, one sample's share included [s]."""
+        """Length of the record: number of samples times the mean step [s]."""
         return float((self.time[-1] - self.time[0]) * len(self.time) / (len(self.time) - 1))
 
     @property
@@ -155,7 +155,7 @@ def read_run(path: str | Path) -> LoadCellRun:
 
 
 def _in_sheet(where: str, sheet: Sheet) -> str:
-    """Return where in its file a fault of a run stands: that of a constant, of a sample, or of a whole column."""
+    """Return the place in the file of a run's fault: a constant, a sample, or a whole column."""
     name, _, index = where.removeprefix(f"{sheet.file}, ").removesuffix("]").partition("[")
     for key, (row, _) in sheet.constants.items():
         if split_unit(key).name == name:
@@ -167,7 +167,7 @@ def _in_sheet(where: str, sheet: Sheet) -> str:
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
-    """Return the place of each column; note those missing, in another unit, or angles that are not in degrees."""
+    """Return the index of each column; note missing columns, other units, and angles that are not in degrees."""
     place: dict[str, int] = {}
     for k, cell in enumerate(sheet.header):
         name, unit = split_unit(cell)
@@ -190,7 +190,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
 
 
 def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
-    """Return the constants of the test; note those missing, in another unit, or that are no numbers."""
+    """Return the constants of the test; note missing ones, other units, and values that are no numbers."""
     found: dict[str, tuple[float, ...]] = {}
     units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
     for key, (row, text) in sheet.constants.items():
@@ -219,7 +219,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
 
 
 def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
-    """Refuse a sweep of angles whose largest is no more than pi: it was written in radians.
+    """Refuse a sweep of angles that does not go beyond pi: such a sweep is in radians.
 
     Raises
     ------

@@ -38,7 +38,7 @@ class RunMeans(NamedTuple):
     mean, sd, se : mean, standard deviation and standard error of each of `QUANTITIES`, shape (4,); those of x_cp
         are NaN where the normal force is too small to divide by.
     normal, normal_se : C_N and its standard error.
-    blockage : width of the plate across the stream over that of the channel; 0 where that is not known.
+    blockage : width of the plate across the stream divided by the channel's width; 0 if the latter is unknown.
     notes : notes for the reader.
     """
 
@@ -57,15 +57,15 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
     """Return the coefficients of one run from the last seconds of its record.
 
     ``L = F_N cos a - F_T sin a``, ``D = F_N sin a + F_T cos a``; ``C_L = L/(q c h)``, ``C_D = D/(q c h)``,
-    ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. The readings in
-    still fluid are taken off, drifting linearly from the one before to the one after. Standard errors are those
-    of block means (`wingbeat.experiment.statistics`); that of the ratio x_cp is to first order.
+    ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. A zero that
+    drifts linearly from the still-fluid reading before to the one after is subtracted. Standard errors come from
+    block means (`wingbeat.experiment.statistics`); the error of the ratio x_cp is to first order.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 
     Parameters
     ----------
-    last : length of the window at the end of the record [s]; the part before is transient.
+    last : length of the window at the end of the record [s]; everything before it counts as transient.
     run : the record.
 
     Raises
@@ -76,7 +76,7 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
 
 
 def _reduced(runs: Sequence[LoadCellRun], last: float) -> list[RunMeans]:
-    """Return the coefficients of each run: hundreds in a few calls of NumPy, as a call costs more than a record."""
+    """Return the coefficients of each run; runs are reduced together, because each NumPy call is slow."""
     steady = [_steady(run, last) for run in runs]
     alike: dict[int, list[int]] = {}
     for place, (_, loads) in enumerate(steady):
@@ -93,7 +93,7 @@ def _reduced(runs: Sequence[LoadCellRun], last: float) -> list[RunMeans]:
 
 
 def _steady(run: LoadCellRun, last: float) -> tuple[float, NDArray[np.float64]]:
-    """Return the angle [deg] of a run and its C_N, C_T and C_M in the window at its end, shape (3, n)."""
+    """Return a run's angle [deg], and C_N, C_T and C_M in the window at its end, shape (3, n)."""
     keep = _window(run, last)
     share = (run.time[keep] - run.time[0]) / (run.time[-1] - run.time[0])
     tare = np.asarray(run.tare)
@@ -151,7 +151,7 @@ def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float
 
 
 def _unsteady(names: list[str], series: NDArray[np.float64]) -> list[tuple[str, ...]]:
-    """Say which coefficients drift within the window by more than their block means scatter about a line."""
+    """Return a note that names the coefficients whose drift in the window exceeds their block means' scatter."""
     size = series.shape[2] // _TREND_BLOCKS
     blocks = series[..., : size * _TREND_BLOCKS].reshape(*series.shape[:2], _TREND_BLOCKS, size).mean(axis=3)
     place = np.linspace(-1.0, 1.0, _TREND_BLOCKS)
@@ -168,20 +168,20 @@ def _unsteady(names: list[str], series: NDArray[np.float64]) -> list[tuple[str, 
 
 
 def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
-    """Return the plate's width across the stream over the channel's, 0 where that is not told."""
+    """Return the plate's width across the stream divided by the channel's width; 0 if that is not given."""
     if run.channel_width is None:
         return 0.0
     return (run.chord * abs(sin) + run.thickness * abs(cos)) / run.channel_width
 
 
 def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> CoefficientTable:
-    """Return the coefficients of a campaign: one row for each angle and Reynolds number, repeats pooled.
+    """Return the coefficients of a campaign: one row for each angle and Reynolds number; repeated runs are pooled.
 
-    Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is that of
-    its runs; its standard error is ``sqrt(sum se^2 / R^2 + tau^2 / R)``, where tau^2 is the variance of the repeats
-    beyond their own errors, estimated for each coefficient from all points of a Reynolds number together, and 0
-    unless it stands out. The standard deviation is that of the samples within runs; x_cp is that of the pooled
-    force and moment.
+    Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is the mean
+    of its R runs, with the standard error ``sqrt(sum se^2 / R^2 + tau^2 / R)``. Here tau^2 is the variance between
+    repeats that their own errors do not explain. It is estimated for each coefficient from all points of a Reynolds
+    number together, and is 0 unless significant. The standard deviation is that of the samples within runs. The
+    row's x_cp is computed from the pooled force and moment.
 
     Parameters
     ----------
@@ -208,7 +208,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
 
 
 def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
-    """Return, for each value, the number of its cluster: a new one begins where the sorted values leap."""
+    """Return the cluster number of each value; a new cluster begins at a large step between sorted values."""
     order = np.argsort(values, kind="stable")
     number = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
     clusters = np.empty(len(values), dtype=np.intp)
@@ -259,7 +259,7 @@ def _pooled(means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.i
 
 
 class Variance(NamedTuple):
-    """Variance of each point's mean: from its samples, and from what its repeats scatter beyond."""
+    """Variance of each point's mean: the part from its samples, and the added part from scatter between repeats."""
 
     within: NDArray[np.float64]
     between: NDArray[np.float64]

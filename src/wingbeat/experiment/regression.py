@@ -26,8 +26,8 @@ class FitRangeWarning(UserWarning):
 class CurveFit:
     """A curve fitted to measurements; made by `fit_curve`.
 
-    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``, so scatter beyond the given standard errors
-    widens it, and so does a form that does not fit.
+    The covariance is ``s^2 (J^T W J)^-1`` with ``s^2 = chi^2/(n - p)``. It therefore grows if the data scatter more
+    than the given standard errors, or if the form does not fit.
 
     Attributes
     ----------
@@ -78,8 +78,8 @@ class CurveFit:
     def aicc(self) -> float:
         """Akaike's criterion for small samples: the lower of two forms on the same data is the better one.
 
-        ``n ln(chi^2/n) + 2k + 2k(k+1)/(n-k-1)``, k parameters and a variance: Hurvich and Tsai 1989, doi
-        10.1093/biomet/76.2.297. NaN where there are no more points than that; -inf for a perfect fit.
+        ``n ln(chi^2/n) + 2k + 2k(k+1)/(n-k-1)``, where k counts the parameters and the variance: Hurvich and Tsai
+        1989, doi 10.1093/biomet/76.2.297. NaN unless n > k + 1; -inf for a perfect fit.
         """
         n, k = len(self.values), len(self.parameters) + 1
         if n - k - 1 <= 0:
@@ -114,8 +114,8 @@ class CurveFit:
     def covers(self, parameters: dict[str, float], confidence: float = 0.95) -> bool:
         """Return whether parameters lie in the joint confidence region of all of them.
 
-        The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41), which stays
-        right where the parameters are so correlated that the ellipse of the covariance does not.
+        The region is ``chi^2(p) <= chi^2_min (1 + p/(n-p) F)`` (Beale 1960, J. R. Stat. Soc. B 22:41). It stays
+        valid for strongly correlated parameters, where the ellipse of the covariance is wrong.
 
         Parameters
         ----------
@@ -161,7 +161,8 @@ class CurveFit:
         ----------
         alpha_deg : angles of attack [deg], shape (n,).
         confidence : between 0 and 1.
-        of_mean : the band of the curve itself, rather than that of a new measurement of the same precision.
+        of_mean : whether the band is that of the curve itself; else that of a new measurement of the same
+            precision.
 
         Raises
         ------
@@ -197,16 +198,16 @@ def fit_curve(
 
     Parameters
     ----------
-    alpha_deg, values : angles [deg] and what was measured there, shape (n,).
+    alpha_deg, values : angles [deg] and the values measured there, shape (n,).
     form : the curve.
-    sigma : standard error of each measurement, shape (n,); None weighs all alike.
+    sigma : standard error of each measurement, shape (n,); None gives all equal weight.
     label : name of the quantity in messages.
 
     Raises
     ------
-    InvalidInputError : columns of different length or not finite, fewer than two points more than parameters,
-        fewer angles than parameters, errors that are not positive, a form that does not hold at the negative
-        angles given, or a form of the user's own that gives no finite numbers.
+    InvalidInputError : columns of different length or not finite; fewer than p + 2 points or p different angles for
+        p parameters; errors that are not positive; negative angles with a form that is invalid there; a form of the
+        user's own whose values are not finite.
 
     >>> a = np.arange(0.0, 91.0, 10.0)
     >>> line = CurveForm("m a + b", lambda a, m, b: m * a + b, {"m": 0.0, "b": 0.0})
@@ -261,7 +262,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
 
 
 def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: str) -> Any:
-    """Return the best of the searches from each of the form's starts."""
+    """Return the best result of the fits from each of the form's starts."""
     from scipy.optimize import least_squares
 
     names = form.names
@@ -307,7 +308,7 @@ def _tidy(parameters: dict[str, float]) -> dict[str, float]:
 
 
 def _distrust(fit: CurveFit) -> tuple[str, ...]:
-    """Say which parameters the data do not determine."""
+    """Return notes that name the parameters that the data do not determine."""
     notes = []
     for name, value in fit.parameters.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
@@ -327,7 +328,7 @@ def _distrust(fit: CurveFit) -> tuple[str, ...]:
 
 
 def _room(fit: CurveFit, name: str) -> float:
-    """Return how far a parameter's interval may reach before it says nothing: as far as its own size."""
+    """Return the largest meaningful half width of a parameter's interval, in general the parameter's own size."""
     value = abs(fit.parameters[name])
     if name == "phase_deg":
         return 45.0

@@ -11,9 +11,9 @@ MIN_BLOCKS = 8
 def standard_error(series: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the standard error of the mean of each row of `series`, shape (..., n), by block means.
 
-    Blocks of 1, 2, 4, ... samples are averaged until their means are independent: the standard error found from
-    blocks of B samples grows with B until then. The block is the smallest with ``B^3 > 2 n (se_B / se_1)^4``,
-    where its bias and its scatter are balanced; there are never fewer than 8 blocks.
+    The samples are averaged in blocks of B = 1, 2, 4, ... The standard error estimated from the block means grows
+    with B until the means are independent. We use the smallest B with ``B^3 > 2 n (se_B / se_1)^4``, which balances
+    bias and scatter of the estimate, and never fewer than 8 blocks.
 
     Flyvbjerg and Petersen 1989, J. Chem. Phys. 91:461, doi 10.1063/1.457480; the choice of the block is that of
     Lee et al. 2011, Phys. Rev. E 83:066706, doi 10.1103/PhysRevE.83.066706.
@@ -42,17 +42,18 @@ def _error_of_independent(blocks: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], groups: NDArray[np.intp]) -> float:
-    """Return the variance between repeats beyond what their own standard errors explain, one for all groups.
+    """Return the variance between repeats that their own standard errors do not explain, one value for all groups.
 
-    It is 0 unless ``Q > df + 2 sqrt(2 df)``, two standard deviations of chi^2: errors that are themselves estimated
-    make Q a little too large. Beyond, it is the moment estimator ``tau^2 = (Q - df) / sum(W - sum(w^2)/W)`` with
+    It is 0 unless ``Q > df + 2 sqrt(2 df)``, two standard deviations of chi^2 above its mean, because estimated
+    errors make Q slightly too large. Above this limit it is the moment estimator ``tau^2 = (Q - df) / sum(W -
+    sum(w^2)/W)`` with
     ``w = 1/se^2``, ``W`` their sum in a group and ``Q = sum w (x - mean)^2``: DerSimonian and Laird 1986, doi
     10.1016/0197-2456(86)90046-2.
 
     Parameters
     ----------
     values, errors : one mean and its standard error for each run, shape (runs,).
-    groups : which runs are repeats of one point, numbers from 0, shape (runs,).
+    groups : number of each run's group, from 0; the runs of a group are repeats of one point; shape (runs,).
 
     >>> added_variance(np.array([1.0, 3.0]), np.array([1e-6, 1e-6]), np.array([0, 0]))  # doctest: +ELLIPSIS
     1.999...

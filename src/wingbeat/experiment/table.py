@@ -92,7 +92,7 @@ class CoefficientTable:
 
         Raises
         ------
-        InvalidInputError : there is no such row.
+        InvalidInputError : no row is between the angles.
         """
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():
@@ -110,7 +110,7 @@ class CoefficientTable:
         return CoefficientTable(self.alpha_deg[keep], mean, sd, se, reynolds, runs, self.notes)
 
     def save(self, path: str | Path) -> None:
-        """Write the table as CSV, an empty cell where a quantity is undefined; notes as # lines above it.
+        """Write the table as CSV, with notes as # lines above it; cells of undefined quantities are empty.
 
         Parameters
         ----------
@@ -132,8 +132,8 @@ class CoefficientTable:
 def load_measurements(path: str | Path) -> CoefficientTable:
     """Read a table of measured coefficients from CSV.
 
-    The columns alpha_deg, C_L and C_D are needed; reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
-    read if present; others are refused, because a misspelt error column would be lost silently.
+    The columns alpha_deg, C_L and C_D are required. reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
+    read if present. Other columns are refused, because a misspelt error column would otherwise be ignored.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
 
 
 def _check_rows(faults: FaultList, sheet: Sheet, columns: Columns) -> None:
-    """Note errors below 0, Reynolds numbers that are none, and angles beyond half a turn."""
+    """Note errors below 0, impossible Reynolds numbers, and angles beyond half a turn."""
     for name, column in columns.items():
         bad = np.zeros(len(column), dtype=bool)
         rule = fix = ""

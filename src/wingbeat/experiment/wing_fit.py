@@ -34,7 +34,7 @@ class WingFit:
     form : name of the form.
     citation : source of the measurements.
     lift, drag : fits of C_L and C_D.
-    centre : fit of the centre of pressure; None where it was not measured or not asked for.
+    centre : fit of the centre of pressure; None if it was not measured, or if the form has no curve for it.
     table : the measurements.
     notes : notes for the reader.
     """
@@ -85,11 +85,11 @@ class WingFit:
         return normal * (0.5 - self.centre.predict(alpha_deg))
 
     def model(self) -> FittedModel:
-        """Return the fit as what a model file says.
+        """Return the fit in the form of a model file's content.
 
         Raises
         ------
-        InvalidInputError : a form of the user's own, which no formula of a model file can hold.
+        InvalidInputError : a form of the user's own, which a model file cannot hold.
         """
         faults = FaultList()
         for label, curve in self.curves.items():
@@ -177,8 +177,8 @@ def fit_wing(
 ) -> WingFit:
     """Fit lift, drag and, where it was measured, the centre of pressure.
 
-    Rows are weighted by their standard errors where the table has them. The centre of pressure is fitted to the
-    rows that have one and whose angle is not negative.
+    Rows are weighted by their standard errors if the table has them. The centre of pressure is fitted to rows that
+    have one and whose angle is not negative.
 
     Su-Fan's form is that of Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602; Dickinson's
     that of Dickinson, Lehmann and Sane 1999, doi 10.1126/science.284.5422.1954.
@@ -258,5 +258,5 @@ def _row(values: object) -> str:
 
 
 def _quoted(text: str) -> str:
-    """Return a TOML string; JSON's escapes are TOML's, once what cannot be printed is out."""
+    """Return a TOML string, written as JSON: their escapes agree once unprintable characters are removed."""
     return json.dumps("".join(sign for sign in text if sign.isprintable()), ensure_ascii=False)

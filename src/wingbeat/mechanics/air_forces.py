@@ -31,15 +31,15 @@ if TYPE_CHECKING:
 
 
 class AirPower(NamedTuple):
-    """What a flight spends on the air [W], shape (...).
+    """The power that a flight spends on the air [W], by cause, shape (...).
 
     Attributes
     ----------
-    profile : on the lift and drag of the strips in the air at the wings; holds the induced part of a polar that was
-        measured on a finite wing.
-    induced : on the stream of air that holds the weight, ``-F . v``; 0 without inflow.
-    parasite : on the loads of body and tail.
-    unsteady : on rotation, added mass and couples; that on added mass is stored in the air and returned.
+    profile : power against the lift and drag of the strips, at their velocity relative to the air at the wings. If
+        the polar was measured on a finite wing, it contains that wing's induced drag.
+    induced : power spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow.
+    parasite : power against the loads of body and tail.
+    unsteady : power against rotation, added mass and couples; the air stores and returns the part on added mass.
     """
 
     profile: Phases
@@ -54,12 +54,13 @@ class AirForces(NamedTuple):
     Attributes
     ----------
     generalised : generalised forces f_aero, shape (..., 5) [N, N m].
-    power : of the air loads on all that moves through the air [W], shape (...).
-    spent : on what, with the opposite sign.
+    power : power of the air loads on wings, body and tail [W], shape (...).
+    spent : the same power by cause, with the opposite sign.
     strips : loads on the strips of the left wing, shape (..., N).
     strip_force : force on each strip in the world [N], shape (..., N, 3).
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
-    added_mass : by which f_aero falls with q'', shape (..., 5, 5) [kg, kg m, kg m2]; zero in steady air.
+    added_mass : inertia of the air, minus the derivative of f_aero by q'', shape (..., 5, 5) [kg, kg m, kg m2];
+        zero without unsteady terms.
     """
 
     generalised: Coordinates
@@ -72,11 +73,12 @@ class AirForces(NamedTuple):
 
 
 class _AirResistance(NamedTuple):
-    """What a thin aerofoil's air resists: motions of each strip of the left wing, and its inertia against them.
+    """The motions of each strip of the left wing that the air of a thin aerofoil resists, and the air's inertia.
 
-    `mass` and `inertia` are of a strip. `lever` and `turn` are the speed of the mid-chord along the normal and the
-    turning of the chord by q', shape (N, 5); `normal_bias` and `turning_bias` are their rates at ``q'' = 0``.
-    `turning` is of the chord [rad/s].
+    `mass` and `inertia` are the air's added mass and inertia for a strip. `lever` and `turn`, shape (N, 5), are the
+    derivatives by q' of the mid-chord's normal speed and of the chord's turning rate. `normal_bias` and
+    `turning_bias` are the time derivatives of these speeds at ``q'' = 0``. `turning` is the chord's turning rate
+    [rad/s].
     """
 
     mass: PerStrip
@@ -89,7 +91,7 @@ class _AirResistance(NamedTuple):
 
     @property
     def added_mass(self) -> CoordinateMatrix:
-        """The generalised inertia of the air at both wings, shape (5, 5)."""
+        """The generalised added mass of the air at both wings, shape (5, 5)."""
         return 2.0 * (
             jnp.einsum("n,ni,nj->ij", self.mass, self.lever, self.lever)
             + jnp.einsum("n,ni,nj->ij", self.inertia, self.turn, self.turn)
@@ -143,7 +145,7 @@ def air_forces_on(
     ----------
     model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
     motion : of the wing points.
-    q_acceleration : q'', which unsteady air resists, shape (5,); None for none.
+    q_acceleration : q'', for the added mass, shape (5,); None leaves this part out.
     """
     strips = strips_of(model.vehicle.wing, model.strips)
     length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
@@ -208,7 +210,7 @@ def air_forces_on(
 
 
 class _Unsteady(NamedTuple):
-    """The unsteady share of `AirForces`: of generalised forces, power, strip forces, and the added mass."""
+    """The unsteady parts of `AirForces`: generalised forces, power, strip forces, and the added mass."""
 
     generalised: Coordinates
     power: Phases

@@ -44,17 +44,17 @@ class BodyLoads(NamedTuple):
 def strip_loads(
     kernel: Kernel, density: Scalar, motion: WingMotion, velocity: Pair, pitch_rate: Phases
 ) -> StripForces:
-    """Return the loads of the coefficients on the strips of one wing.
+    """Return the quasi-steady loads on the strips of one wing, from the coefficients.
 
-    The velocity of the quarter chord gives the angle of attack, wherever the force acts. Chord and normal are those
-    that the strip has without pitch.
+    The velocity of the quarter chord determines the angle of attack, wherever the force acts. The loads are along
+    the chord and the normal of the unpitched strip.
 
     Parameters
     ----------
     kernel : of the coefficient model.
     density : of the air [kg/m3].
     motion : of the wing.
-    velocity : of the body through the air at the wings in stroke axes, forward and up [m/s].
+    velocity : of the body relative to the air at the wings, in stroke axes, forward and up [m/s].
     pitch_rate : [rad/s].
     """
     forward_speed, up_speed = velocity[0] - pitch_rate * motion.above, velocity[1] + pitch_rate * motion.ahead
@@ -86,13 +86,13 @@ def wing_loads(
     at_centre_of_pressure: bool,
     unsteady: Scalar = 0.0,
 ) -> BodyLoads:
-    """Return the air loads on both wings, in stroke axes, of a body that does not accelerate.
+    """Return the air loads on both wings, in stroke axes, for a body that does not accelerate.
 
     Parameters
     ----------
     kernel, density, motion, velocity, pitch_rate : as in `strip_loads`.
     at_centre_of_pressure : whether loads act at the centre of pressure rather than at the quarter chord.
-    unsteady : share of the loads of unsteady air, 1 for all; it counts where `motion` has them.
+    unsteady : share of the unsteady loads, 1 for all; no effect if `motion` has none.
     """
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
@@ -159,16 +159,16 @@ def body_air(
 ) -> BodyAir:
     """Return the air loads on the body and its tail.
 
-    The one place where forces on the body that are not the wings' join. The tail moves through the air around: it
-    feels the body's velocity and the pitch rate at its own place, and none of the flow that the wings induce.
+    All forces on the body other than those of the wings are added here. The tail's velocity relative to the air
+    comes from the body's velocity and pitch rate; the flow that the wings induce does not reach the tail.
 
     Parameters
     ----------
     vehicle : gives drag area and tail.
     density : of the air [kg/m3].
-    velocity : of the body's centre of mass through the air around, forward and up [m/s].
+    velocity : of the body's centre of mass relative to the undisturbed air, forward and up [m/s].
     pitch_rate : [rad/s].
-    axes : how far the axes of the velocity are pitched nose-up from body axes [rad].
+    axes : nose-up pitch of the velocity's axes relative to body axes [rad].
     tilt : added to the tail's incidence [rad]; None for nothing.
     """
     drag, tail = body_drag(vehicle.body.drag_area, density, velocity), vehicle.tail
@@ -205,7 +205,7 @@ def accelerations(
     vehicle : gives the masses and the body's inertia.
     gravity : [m/s2].
     motion : of the wing.
-    loads : air loads in stroke axes, of a body that does not accelerate.
+    loads : air loads in stroke axes, for a body that does not accelerate.
     attitude : pitch of the stroke axes from the world's [rad].
     pitch_rate : psi' [rad/s].
     unsteady_density : density of the air times the share of unsteady loads [kg/m3].
@@ -240,10 +240,10 @@ def accelerations(
 
 
 def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Triple:
-    """Solve three equations whose symmetric matrix is given by the rows of its upper triangle.
+    """Solve three linear equations; the symmetric matrix is given by the rows of its upper triangle.
 
-    By cofactors, which need one division. Behind the barriers matrix and right side are computed once for all
-    directions of a derivative: a flight takes 1.58 times as long as one in steady air this way, and 1.9 without.
+    Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions of
+    a derivative. A flight then takes 1.58 times as long as one without unsteady terms; without barriers, 1.9 times.
     """
     (a, b, c), (d, e), (f,) = fusion_barrier(rows)
     x, y, z = fusion_barrier(right)

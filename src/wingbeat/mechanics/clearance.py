@@ -23,7 +23,7 @@ LEADING, TRAILING = 0.25, -0.75
 
 
 def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int) -> tuple[PerStrip, PerStrip]:
-    """Return how far the corners of the left wing's strips lie to the left [m].
+    """Return the distance of the left wing's strip corners to the left of the plane of symmetry [m].
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: 
 def lateral_corner(
     vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, share: Phases, side: Phases, phase: Phases, count: int
 ) -> Phases:
-    """Return how far given corners lie to the left [m], each at its own phase: arrays of shape (K,) throughout.
+    """Return the distance of given corners to the left [m], each at its own phase; all arrays have shape (K,).
 
     Parameters
     ----------
@@ -77,10 +77,10 @@ def _half_width(
 
 
 def has_room(vehicle: Vehicle) -> bool:
-    """Say whether the shoulder lies beside the plane of symmetry, so that a pitching root can stay on its side.
+    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its side.
 
-    Where the shoulder lies in the plane itself, some corner of the root crosses in any stroke. The wing then keeps
-    to its side if neither arm nor hand turns by more than a right angle.
+    If the shoulder is in the plane itself, some corner of the root crosses it in any stroke. The wing then counts
+    as on its side if neither arm nor hand flaps by more than a right angle.
     """
     return bool(vehicle.wing.shoulder[1] != 0.0)
 

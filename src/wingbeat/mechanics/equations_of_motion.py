@@ -46,7 +46,7 @@ class EquationsOfMotion(NamedTuple):
 
 
 def _point_masses(model: FlightModel) -> PerStrip:
-    """Return the mass of each point times two wings [kg], shape (N,): half a strip's mass, twice."""
+    """Return the mass of each point, counted for both wings [kg], shape (N,): half a strip's mass, twice."""
     return strips_of(model.vehicle.wing, model.strips).mass
 
 
@@ -69,7 +69,7 @@ def _terms(
 def accelerations_from_torques(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, torques: Pair
 ) -> Coordinates:
-    """Return q'' where torques drive the hinges, at one instant, shape (5,) [m/s2, rad/s2].
+    """Return q'' of a vehicle whose hinges are driven by torques, at one instant, shape (5,) [m/s2, rad/s2].
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def equations_of_motion(
 ) -> EquationsOfMotion:
     """Return the terms of the five-coordinate equations of motion ``D q'' + C q' + h + g = tau + f_aero``.
 
-    They are those of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), with h for prescribed span, fold and sweep.
+    Source: Su et al. 2023 (doi 10.48550/arXiv.2302.09602); h is added for prescribed span, fold and sweep.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def air_forces(
     Parameters
     ----------
     model, wingbeat, q, q_dot, time : as in `equations_of_motion`.
-    q_acceleration : q'', which unsteady air resists, shape (..., 5) [m/s2, rad/s2]; None for none.
+    q_acceleration : q'', for the added mass, shape (..., 5) [m/s2, rad/s2]; None leaves this part out.
 
     Returns
     -------
@@ -195,7 +195,7 @@ def generalised_torques(
 
     Returns
     -------
-    tau of shape (..., 5): zero in its first three rows for a free flight, then the hinge torques of both wings
-    together [N m].
+    tau of shape (..., 5). The first three components are zero in free flight [N, N, N m]; the others are the flap
+    and pitch hinge torques of both wings together [N m].
     """
     return _over_axes(_torque, model, wingbeat, time, q, q_dot, q_acceleration)

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 class Loads(NamedTuple):
     """Motions, forces, torques and powers along a flight, with the axes of phase first.
 
-    Vectors are in the world; strips are those of the left wing; torques and powers are of both wings together,
-    momenta and energies of the whole vehicle.
+    Vectors are in world axes. Strips are those of the left wing. Torques and powers are those of both wings
+    together; momenta and energies are those of the whole vehicle.
 
     Attributes
     ----------
@@ -48,9 +48,10 @@ class Loads(NamedTuple):
     air_force : generalised air loads on the five coordinates [N, N m], shape (..., 5).
     flap_torque, pitch_torque : of the hinges [N m].
     hinge_power, actuator_power : of the hinges, and of all actuators [W].
-    aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], see `HingeLoads`.
-    air_power : of the air loads on all that moves through the air [W].
-    profile_power, induced_power, parasite_power, unsteady_power : what that power is spent on [W], see `AirPower`.
+    aerodynamic_power, inertial_power, body_power : parts of the hinge power [W], see `HingeLoads`.
+    air_power : power of the air loads on wings, body and tail [W].
+    profile_power, induced_power, parasite_power, unsteady_power : parts of that power by cause, with the opposite
+        sign [W]; see `AirPower`.
     centre_of_mass : x and z [m], shape (..., 2).
     momentum : x and z [kg m/s], shape (..., 2).
     angular_momentum : about the centre of mass, nose-up positive [kg m2/s].

@@ -61,7 +61,7 @@ def check_state(state: State) -> None:
 @register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"), optional=("unsteady",))
 @dataclass(frozen=True, init=False)
 class FlightModel:
-    """A vehicle, its air loads and the air: all numbers of the equations of motion but the wingbeat; a JAX pytree.
+    """A vehicle, its air loads and the air: all numbers of the equations of motion except the wingbeat, a pytree.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class FlightModel:
     aero : a `BladeElement`, or a coefficient model, its name, the path of its file, or a function of the angle of
         attack [rad] that returns (C_L, C_D).
     air : standard air if not given.
-    velocity : mean velocity of the flight, forward and up [m/s], that determines the inflow of `aero`, if any.
+    velocity : mean velocity of the flight, forward and up [m/s]; only needed to compute the inflow of `aero`.
 
     Attributes
     ----------
@@ -79,13 +79,13 @@ class FlightModel:
     at_centre_of_pressure : whether the force acts at the centre of pressure.
     full_airspeed : whether the force depends on the whole airspeed of a strip.
     unsteady : share of the unsteady terms: 1 for all, 0 for none.
-    induced_factor : induced power over that of an ideal disc; None without inflow.
-    induced_flow : velocity of the air at the wings, forward and up [m/s]; None without inflow.
+    induced_factor : induced power divided by that of an ideal disc, a ratio; None without inflow.
+    induced_flow : induced velocity of the air at the wings, forward and up [m/s]; None without inflow.
 
     Raises
     ------
-    InvalidInputError, FileError : an `aero` that is none of these; inflow without a velocity, or one at which the
-        wings descend into their own wake.
+    InvalidInputError, FileError : another kind of `aero`; inflow without a velocity, or with one at which the wings
+        descend into their own wake.
 
     >>> from wingbeat.species import load_species
     >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
@@ -124,7 +124,7 @@ class FlightModel:
 def _checked_flow(
     vehicle: Vehicle, aero: BladeElement, air: Air, velocity: tuple[float, float] | None
 ) -> tuple[float, float] | None:
-    """Return the induced flow of a flight, or None without inflow; refuse what has none."""
+    """Return the induced flow of a flight, None without inflow; refuse a velocity for which the model has none."""
     if aero.inflow == "none":
         return None
     faults = FaultList()
@@ -142,7 +142,7 @@ def _checked_flow(
 
 
 def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
-    """Return the model with the induced flow of a flight at another mean velocity.
+    """Return the model with the induced flow for another mean velocity.
 
     Parameters
     ----------
@@ -158,13 +158,13 @@ def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
 def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any = np) -> Pair:
     """Return the induced flow at the wings in steady flight, forward and up [m/s].
 
-    The wings carry the weight and overcome the drag of the body at the mean velocity. What a tail lifts or drags is
-    left out: it depends on the attitude, which is not known beforehand, and is a small share of the weight.
+    The wings carry the weight and balance the body's drag at the mean velocity. The tail's lift and drag are left
+    out: they depend on the attitude, which is not known beforehand, and they are a small share of the weight.
 
     Parameters
     ----------
-    vehicle, air : what flies, in what.
-    factor : induced power over that of an ideal disc.
+    vehicle, air : the vehicle, and the air in which it flies.
+    factor : induced power divided by that of an ideal disc, a ratio.
     velocity : mean velocity, forward and up [m/s].
     xp : array module of the numbers.
     """
@@ -180,7 +180,7 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: 
     ----------
     model, wingbeat : the wing and how it beats.
     phase : phases, shape (...).
-    vector : pads the strips to a multiple of this number.
+    vector : the number of strips is padded to a multiple of this number.
     """
     return wing_motion(
         model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed, is_unsteady(model)
@@ -188,7 +188,7 @@ def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: 
 
 
 def is_unsteady(model: FlightModel) -> bool:
-    """Say whether a model has unsteady terms."""
+    """Return whether a model has unsteady terms."""
     return not at_default(model, "unsteady")
 
 
@@ -198,8 +198,8 @@ def _air_loads(
 ) -> BodyLoads:
     """Return the air loads on a vehicle that does not accelerate, in stroke axes.
 
-    `forward` and `up` are the velocity of the body through the air at the wings [m/s], `body` that through the
-    air around, where it differs.
+    `forward` and `up` are the body's velocity relative to the air at the wings [m/s]; `body` is its velocity
+    relative to the undisturbed air, if that differs.
     """
     model, motion = model_and_motion
     wings = wing_loads(
@@ -219,7 +219,7 @@ def _air_loads(
 
 
 def velocity_at_wings(model: FlightModel, attitude: Phases, u: Phases, w: Phases) -> Pair:
-    """Return the velocity of the body through the air at the wings, in stroke axes [m/s].
+    """Return the velocity of the body relative to the air at the wings, in stroke axes [m/s].
 
     Parameters
     ----------
@@ -250,8 +250,8 @@ def air_loads(
     motion : its table of the wing's motion.
     attitude : pitch of the stroke axes from the world's [rad].
     u, w, pitch_rate : velocity of the body, forward and up, and its pitch rate [m/s, m/s, rad/s].
-    acceleration : (x'', z'', psi'') of the body, which unsteady air resists, shape (3, ...) [m/s2, m/s2, rad/s2];
-        None for a body that does not accelerate.
+    acceleration : (x'', z'', psi'') of the body, for the added mass, shape (3, ...) [m/s2, m/s2, rad/s2]; None for
+        a body that does not accelerate.
     """
     velocity = velocity_at_wings(model, attitude, u, w)
     body = () if model.induced_flow is None else from_world(attitude, u, w)
@@ -271,7 +271,7 @@ def unsteady_density(model: FlightModel) -> Scalar:
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) -> PitchState:
     """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...) [rad/s, m/s2, m/s2, rad/s2].
 
-    The place of the body does not enter.
+    The position of the body has no effect.
 
     Parameters
     ----------

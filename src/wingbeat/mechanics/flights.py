@@ -34,7 +34,7 @@ _VECTOR = 8
 
 
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
-    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated at this very phase.
+    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated exactly at this phase.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ def integrate(
 ) -> Integrated:
     """Integrate with Dopri8.
 
-    It steps exactly onto every fourth of the times and takes those between from the integrator's own polynomials:
-    stepping onto all takes a third longer, and longer steps fail at the kinks of the loads.
+    A step ends exactly at every fourth of the times; the integrator's own polynomials give the states at the times
+    between. Steps that end at every time would take a third longer, and longer steps fail at kinks of the loads.
 
     Parameters
     ----------
@@ -60,13 +60,13 @@ def integrate(
     start : state at the first time, shape (n,).
     times : increasing, shape (K,).
     args : passed to `rates`.
-    most_steps : most steps, besides those onto the times.
+    most_steps : largest number of steps, not counting those that end at a given time.
     rtol : relative tolerance; the absolute one is a hundredth of it.
 
     Returns
     -------
-    States at `times`, shape (K, n), not-a-number from where it gives up; times and states of its own steps, as many
-    as there may be, infinite after the last.
+    States at `times`, shape (K, n), not-a-number after the integrator gave up; times and states of its own steps,
+    in arrays of the largest length, filled with infinity after the last step.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
@@ -123,13 +123,13 @@ def fly_through(
     ----------
     model, wingbeat : what flies.
     state : at phase 0 [m, rad, m/s, rad/s].
-    phases : from 0 on, shape (K,); they may repeat.
+    phases : in increasing order from 0, shape (K,); equal phases are allowed.
     rtol : relative tolerance.
 
     Returns
     -------
-    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), not-a-number from where the integrator gave up; and
-    where it stepped.
+    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), not-a-number after the integrator gave up; and the
+    integrator's steps.
     """
     states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)
     count = int(np.isfinite(at).sum())
@@ -146,11 +146,11 @@ def fly_beats(
     ----------
     model, wingbeat, state : as in `fly_through`.
     beats : number of beats.
-    samples : in each beat.
+    samples : number of samples in each beat.
 
     Returns
     -------
-    ``beats * samples + 1`` phases, and the states there as `fly_through` gives them.
+    ``beats * samples + 1`` phases, and the states there, as from `fly_through`.
     """
     one_beat = np.linspace(0.0, 1.0, samples + 1)
     current, pieces = state, [np.array([state], dtype=float)]

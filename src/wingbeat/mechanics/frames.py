@@ -18,21 +18,21 @@ if TYPE_CHECKING:
 
 
 def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
-    """Turn an in-plane vector into the world (x, z) from axes pitched nose-up by `attitude`."""
+    """Return the world components (x, z) of an in-plane vector given in axes pitched nose-up by `attitude`."""
     c, s = cos(attitude), sin(attitude)
     return c * forward - s * up, s * forward + c * up
 
 
 def from_world(attitude: Component, x: Component, z: Component) -> Pair:
-    """Turn an in-plane vector from the world into axes pitched nose-up by `attitude`."""
+    """Return the components of an in-plane world vector in axes pitched nose-up by `attitude`."""
     c, s = cos(attitude), sin(attitude)
     return c * x + s * z, c * z - s * x
 
 
 def stroke_pitch(stroke_plane_angle: Component) -> Component:
-    """Return how far stroke axes are pitched nose-up from body axes [rad]; 0 for a vertical stroke plane.
+    """Return the nose-up pitch of stroke axes relative to body axes [rad]; 0 for a vertical stroke plane.
 
-    Their first axis is ``e_c0 = (sin beta, 0, cos beta)``, their third ``d_up = (-cos beta, 0, sin beta)``.
+    The first stroke axis is ``e_c0 = (sin beta, 0, cos beta)``; the third is ``d_up = (-cos beta, 0, sin beta)``.
 
     Parameters
     ----------

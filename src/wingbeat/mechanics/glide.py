@@ -65,9 +65,9 @@ class Glide(NamedTuple):
     glide_ratio : distance over height lost.
     body_pitch, wing_pitch, flap : [rad].
     tail_tilt : added to the tail's incidence [rad]; 0 without a tail.
-    tail_moment : the moment that a tail would need to supply, or a tail that is there in addition, nose-up positive
-        [N m]; 0 where the glide is trimmed.
-    flap_torque, pitch_torque : that hold the wings [N m].
+    tail_moment : moment that a tail would need to supply, in addition to that of an existing tail, nose-up positive
+        [N m]; 0 if the glide is trimmed.
+    flap_torque, pitch_torque : torques that hold the wings [N m].
     trimmed : whether the pitching moment vanishes.
     """
 
@@ -93,7 +93,7 @@ _NO_POSTURE = Posture(*[math.nan] * 6)
 
 
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
-    """Return the wingbeat of wings held still: spread and straight, as at mid-downstroke, twist kept."""
+    """Return a wingbeat with wings held still: spread and straight, as at mid-downstroke, with the same twist."""
     still = {"flap_amplitude": 0.0, "pitch_amplitude": 0.0, "span_retraction": 0.0, "fold_amplitude": 0.0}
     return dataclasses.replace(wingbeat, **still)
 
@@ -109,7 +109,7 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
     """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m].
 
-    Without a tail, the numbers of the posture end before its tilt.
+    Without a tail, the posture has no last number (the tail's tilt).
     """
     posture = Posture(*numbers)
     if model.vehicle.tail is not None:
@@ -132,9 +132,10 @@ class GlideSolver:
     model : the flight model.
     wingbeat : gives the twist.
     flap : angle at which the wings are held [rad].
-    trim : what is turned until the pitching moment vanishes: ``"body-pitch"`` while the wings keep their angle of
-        attack, ``"flap"`` or ``"tail"`` while the body stays along the path; nothing if there is no tail to turn.
-    reach : lowest and highest value of the angle that trims [rad], body pitch, flap or tilt of the tail.
+    trim : what turns until the pitching moment vanishes. With ``"body-pitch"``, the wings keep their angle of
+        attack; with ``"flap"`` or ``"tail"``, the body stays along the path. Without a tail, ``"tail"`` turns
+        nothing.
+    reach : lowest and highest value of the angle that is turned (body pitch, flap or tilt of the tail) [rad].
 
     Attributes
     ----------
@@ -150,9 +151,9 @@ class GlideSolver:
         self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
 
     def at(self, angle_of_attack: float) -> Glide:
-        """Return the glide at an angle of attack; all not-a-number where the forces do not balance.
+        """Return the glide at an angle of attack; all its numbers are not-a-number if the forces cannot balance.
 
-        If nothing trims the glide, the body stays along the path and the glide gives the moment that is missing.
+        If nothing trims the glide, the body stays along the path, and `tail_moment` is the missing moment.
 
         Parameters
         ----------
@@ -167,7 +168,7 @@ class GlideSolver:
         return self._glide_of(turned or posture, trimmed=turned is not None)
 
     def _trimmed(self, untrimmed: Posture) -> Posture | None:
-        """Return the posture without a moment nearest to `untrimmed`, or None; forces always balance."""
+        """Return the trimmed posture nearest to `untrimmed`, or None; the forces balance in every posture tried."""
         column, reach = _COLUMNS[self._trim], np.array(self._reach)
         if self._trim == "body-pitch":
             reach = reach + untrimmed.glide_angle  # above the path, not the horizontal
@@ -194,7 +195,7 @@ class GlideSolver:
         return float(self._evaluate(np.array(posture))[2])
 
     def _closed_form(self, alpha: float) -> tuple[float, float]:
-        """Return speed and glide angle of the plain wing that this one nearly is."""
+        """Return speed and glide angle of a simple wing that approximates this one, in closed form."""
         vehicle, air = self.model.vehicle, self.model.air
         # One strip, which stands for all: the balance only starts here.
         lift, drag = (float(c[0]) for c in self.model.kernel.lift_drag(jnp.asarray([alpha])))
@@ -206,7 +207,7 @@ class GlideSolver:
         return math.sqrt(2.0 * pressure / air.density), math.atan2(drag, lift)
 
     def _solve(self, start: Posture, rows: int, free: list[int]) -> Posture | None:
-        """Return the posture near `start` in which the first rows balance, or None."""
+        """Return the posture near `start` in which the first `rows` components vanish, or None."""
         from scipy.optimize import root
 
         held = np.array(start)
@@ -250,7 +251,7 @@ def _with_angle(posture: Posture, column: int, angle: float) -> Posture:
 
 
 def _between(one: tuple[Posture, float], other: tuple[Posture, float]) -> Posture:
-    """Return the posture on the straight line between two at which their moments, of opposite signs, cancel."""
+    """Return the posture without moment on the line between two postures whose moments have opposite signs."""
     (first, moment), (last, opposite) = one, other
     share = moment / (moment - opposite) if moment != opposite else 0.0
     return Posture(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))

@@ -34,22 +34,24 @@ if TYPE_CHECKING:
 
 
 class PartialMotion(NamedTuple):
-    """A motion of the wing: the velocity v that it gives each point, per unit of the motion, and sums over v.
+    """A motion of the wing: sums over the velocities v that one unit of this motion gives to the wing's points.
 
-    v is in m/rad for the turn of a hinge, in m/s for the whole motion. Sums go over the mass of both wings and have
-    any axes of times; r is the place of a mass point in stroke axes, E turns by a right angle.
+    For the turn of a hinge, v is in m/rad; for the whole motion, it is in m/s. The sums are over the mass points of
+    both wings and may have axes of times. In stroke axes, r is the position of a mass point, and E rotates by a
+    right angle.
 
     Attributes
     ----------
-    normal_lever : quarter chord's v along the normal that the strip has without pitch, by strip.
+    normal_lever : component of the quarter chord's v along the unpitched strip's normal, by strip.
     chord_rotation : turn of the chord, by strip.
     first_moment : ``sum m v``, forward and up.
-    euler : ``sum m v . E r``, to be multiplied by the pitch acceleration.
-    centrifugal : ``sum m v . r``, by the pitch rate squared.
-    coriolis : ``sum m v . E r'``, by the pitch rate.
+    euler : ``sum m v . E r``, to be multiplied by the body's pitch acceleration.
+    centrifugal : ``sum m v . r``, to be multiplied by the pitch rate squared.
+    coriolis : ``sum m v . E r'``, to be multiplied by the pitch rate.
     own_acceleration : ``sum m v . r''``.
-    chordwise_lever : quarter chord's v along the unpitched chord, by strip; None unless the wing sweeps.
-    unsteady : load of unsteady air; None in steady air.
+    chordwise_lever : component of the quarter chord's v along the unpitched chord, by strip; None unless the wing
+        sweeps.
+    unsteady : generalised load of the unsteady terms; None without them.
     """
 
     normal_lever: PerStrip
@@ -85,11 +87,11 @@ class HingeLoads(NamedTuple):
     Attributes
     ----------
     flap_torque, pitch_torque : [N m].
-    hinge_power : torques times rates [W]; the sum of the three shares below.
-    actuator_power : that of all actuators, those of span, fold and sweep included [W].
-    aerodynamic_power : share against the air loads [W].
-    inertial_power : share that accelerates the wings as seen from the body [W].
-    body_power : the rest [W], because the body that carries the wings accelerates and turns, and gravity acts.
+    hinge_power : torques times rates [W]; the sum of the three parts below.
+    actuator_power : power of all actuators, including those of span, fold and sweep [W].
+    aerodynamic_power : part against the air loads [W].
+    inertial_power : part that accelerates the wings relative to the body [W].
+    body_power : the rest [W]; it arises because the body accelerates and turns, and because of gravity.
     """
 
     flap_torque: Phases
@@ -106,9 +108,9 @@ class _GeneralisedForce(NamedTuple):
 
     Attributes
     ----------
-    air : share against the air loads.
-    inertia : share of the wing's own acceleration in the body.
-    body : share of the body's acceleration and of gravity.
+    air : part against the air loads.
+    inertia : part that accelerates the wing relative to the body.
+    body : part due to the body's acceleration and gravity.
     """
 
     air: Phases
@@ -121,7 +123,7 @@ class _GeneralisedForce(NamedTuple):
 
 
 class _Chords(NamedTuple):
-    """Where the strips are: their shape, their mid-chords, and vectors to the leading edge."""
+    """The strips' shape, their mid-chords, and the vectors from there to the leading edge."""
 
     shape: WingShape
     mid_chord: Triple
@@ -135,7 +137,7 @@ def _chords(shape: WingShape, strips: Strips) -> _Chords:
 
 
 def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
-    """Tabulate what the hinges move at given phases.
+    """Tabulate the motions that the hinges cause, at given phases.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ _FEW_STRIPS = 32
 
 
 def sum_over_strips(a: PerStrip) -> Phases:
-    """Return the sum over the strips; of few by additions, of which XLA on CPU makes vector code."""
+    """Return the sum over the strips; a few strips are added one by one, which XLA on CPU can vectorise."""
     if a.shape[0] > _FEW_STRIPS:
         return jnp.sum(a, axis=0)
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
@@ -26,6 +26,6 @@ def sum_over_strips(a: PerStrip) -> Phases:
 def mass_moments(mass: PerStripBroadcast | float, rows: Sequence[PerStrip]) -> Sums:
     """Return the sums over the strips of each row times the strips' mass, shape (rows, ...).
 
-    One sum of all rows compiles in a third of the time of a sum for each.
+    A single sum for all rows compiles in a third of the time that one sum per row needs.
     """
     return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))

@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 
 
 class StripSpeeds(NamedTuple):
-    """Speeds that a motion gives the strips, per unit of the motion; None stands for none.
+    """Speeds of the strips per unit of a motion; None stands for zero.
 
     Attributes
     ----------
-    chord, normal : of the quarter chord, along the chord and the normal that the strip has without pitch.
+    chord, normal : of the quarter chord, along the chord and the normal of the unpitched strip.
     mid : of the mid-chord, along the normal of the chord.
     turn : of the chord about the span, leading edge up.
     """
@@ -48,7 +48,7 @@ class StripSpeeds(NamedTuple):
 
 
 class StripRates(NamedTuple):
-    """Time derivatives of the speeds of the same names in `StripSpeeds`."""
+    """Time derivatives of the speeds in `StripSpeeds`, by the same names."""
 
     mid: PerStrip
     turn: PerStrip | None
@@ -59,7 +59,7 @@ class StripMotion(NamedTuple):
 
     Attributes
     ----------
-    speeds, rates : by these four motions.
+    speeds, rates : the strips' speeds for each of these four motions, and their time derivatives.
     """
 
     speeds: tuple[StripSpeeds, ...]
@@ -123,7 +123,7 @@ def mid_speed(
 
 
 def _products(*pairs: tuple[PerStripOrNone | float, PerStripOrNone]) -> Any:
-    """Return the sum of the products of pairs; None counts as 0, and so does the sum of none."""
+    """Return the sum of the products of pairs; None counts as 0, and a sum without terms is None."""
     products = [a * b for a, b in pairs if a is not None and b is not None]
     return sum(products[1:], products[0]) if products else None
 
@@ -134,7 +134,7 @@ def _pairs(one: TripleOrNone, other: TripleOrNone) -> Any:
 
 
 def _unpitched(shape: WingShape, rate: WingShape, second: WingShape) -> tuple[TripleOrNone, ...]:
-    """Return the unit vector along the chord without pitch, and its two time derivatives; None is 0."""
+    """Return the unit vector along the unpitched chord, and its first two time derivatives; None means 0."""
     if shape.sweep_sine is None:
         return (jnp.ones_like(shape.pitch), None, None), (None, None, None), (None, None, None)
 
@@ -147,9 +147,9 @@ def _unpitched(shape: WingShape, rate: WingShape, second: WingShape) -> tuple[Tr
 
 
 def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, Triple, Triple]) -> Any:
-    """Return the speeds along an axis by (V_x, V_z, psi') and by the wing's own motion, and their derivatives.
+    """Return the speeds along an axis due to V_x, V_z, psi' and the wing's own motion, and their time derivatives.
 
-    `places` are the quarter chords with their two time derivatives.
+    `places` holds the quarter chords and their first two time derivatives.
     """
     (x, _, z), (x_speed, _, z_speed) = places[:2]
     (x_axis, _, z_axis), (x_rate, _, z_rate) = axis, axis_rate
@@ -165,15 +165,17 @@ def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, T
 
 
 class UnsteadyLoad(NamedTuple):
-    """The load of unsteady air on one motion of both wings, per density of the air.
+    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
 
     Attributes
     ----------
-    by_acceleration : A, by the acceleration of the body in stroke axes and its pitch acceleration, shape (3, ...).
-    by_velocity : B, by xi, shape (3, ...).
-    own : C, of the wing's own motion, shape (...).
-    by_spin, own_spin : D and E, by the pitch rate times xi, and by the pitch rate, shapes (3, ...) and (...).
-    damping, damping_by_spin : by the airspeed of each strip, and by that times the pitch rate.
+    by_acceleration : A, factor of the body's acceleration in stroke axes and its pitch acceleration, shape (3,
+        ...).
+    by_velocity : B, factor of xi = (V_x, V_z, psi'), shape (3, ...).
+    own : C, part due to the wing's own motion, shape (...).
+    by_spin, own_spin : D and E, factors of the pitch rate times xi and of the pitch rate, shapes (3, ...) and
+        (...).
+    damping, damping_by_spin : factors of each strip's airspeed, and of the airspeed times the pitch rate.
     """
 
     by_acceleration: ByBodyMotion
@@ -210,7 +212,7 @@ def _rows(matrix: ByBodyMotion) -> Triple:
 
 
 class _Row(NamedTuple):
-    """What a motion of the strips is resisted with, by its added mass and inertia, and its speeds."""
+    """The added mass and inertia times the speeds of one motion of the strips, and these speeds."""
 
     mass: PerStrip
     inertia: PerStrip | None
@@ -223,7 +225,7 @@ def _row(speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases) -> _Row:
 
 
 def _rotation(lift: PerStrip, moved: StripSpeeds, speeds: StripSpeeds) -> tuple[PerStrip, Any]:
-    """Return the two factors of the work of a rotation's lift by one motion on another; it is 0 on itself."""
+    """Return the two factors of the work that one motion's rotational lift does on another motion."""
     minus_chord = None if moved.chord is None else -moved.chord
     return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
 
@@ -266,7 +268,7 @@ def unsteady_load(
     Parameters
     ----------
     motion : of the strips.
-    speeds : that the motion on which the air acts gives the strips.
+    speeds : of the strips, per unit of the motion on which the air acts.
     chord, width : of the strips [m].
     """
     row = _row(speeds, chord, width)
@@ -286,9 +288,9 @@ def unsteady_load(
 def unsteady_loads_on_body(
     motion: StripMotion, chord: PerStripBroadcast, width: Phases
 ) -> tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad]:
-    """Return the loads of unsteady air on the motions V_x, V_z and psi' of the body.
+    """Return the loads of the unsteady terms on the motions V_x, V_z and psi' of the body.
 
-    A is symmetric and the part of D without the turning of the axes antisymmetric, so 24 sums serve 33 tables.
+    A is symmetric, and the part of D without the turning of the axes is antisymmetric, so 24 sums give 33 tables.
 
     Parameters
     ----------

@@ -24,30 +24,32 @@ if TYPE_CHECKING:
 
 
 class WingMotion(NamedTuple):
-    """The wing's motion as it acts on air and body, in stroke axes, with any trailing axes of times.
+    """What air loads and body motion need of the wing's motion, in stroke axes; any axes of times come last.
 
-    Speeds are those of the quarter chord; pitch turns a strip about its quarter chord and so changes none of them.
-    Sums over mass points count both wings.
+    Speeds are those of the quarter chord. Pitch turns a strip about its quarter chord and does not change these
+    speeds. Sums over mass points count both wings.
 
     Attributes
     ----------
-    ahead, above : place of the quarter chord [m]; `ahead` has no axis of strips unless the wing sweeps.
-    flapping_speed : along the normal that the strip has without pitch [m/s].
+    ahead, above : position of the quarter chord [m]; `ahead` has no axis of strips unless the wing sweeps.
+    flapping_speed : speed along the normal of the unpitched strip [m/s].
     flap_cosine : of the strip's flap angle.
     pitch : pitch of the strip [rad].
     area : of the strip [m2].
     width : of every strip, along the span [m], shape (...).
-    first_moment : sum of mass times place, forward and up [kg m].
+    first_moment : sum of mass times position, forward and up [kg m].
     first_moment_rate, first_moment_acceleration : its time derivatives [kg m/s, kg m/s2].
-    inertia, inertia_rate : sum of mass times place squared [kg m2], and its time derivative [kg m2/s].
-    acceleration_moment : sum of mass times (place turned by a right angle) . acceleration [N m].
-    unpitched : unit vector along the chord without pitch, in the plane of symmetry; None unless the wing sweeps.
-    sweeping_speed : along that chord [m/s]; None unless the wing sweeps.
+    inertia, inertia_rate : sum of mass times position squared [kg m2], and its time derivative [kg m2/s].
+    acceleration_moment : sum of mass times (position turned by a right angle) . acceleration [N m].
+    unpitched : components in the plane of symmetry of the unit vector along the unpitched chord; None unless the
+        wing sweeps.
+    sweeping_speed : speed along that chord [m/s]; None unless the wing sweeps.
     tilt : of the stroke plane [rad]; None where it is 0.
-    span : unit vector along the span, in the plane of symmetry; None unless loads go with the whole airspeed.
-    spanwise_speed : along the span [m/s]; None unless loads go with the whole airspeed.
-    unsteady : loads of unsteady air on the body, forward, up and nose-up; None in steady air.
-    tail_tilt : added to the tail's incidence [rad]; None where it is 0, and without a tail.
+    span : components in the plane of symmetry of the unit vector along the span; None unless loads depend on the
+        full airspeed.
+    spanwise_speed : speed along the span [m/s]; None unless loads depend on the full airspeed.
+    unsteady : unsteady loads on the body, forward, up and nose-up; None without unsteady terms.
+    tail_tilt : added to the tail's incidence [rad]; None if it is 0, or without a tail.
     """
 
     ahead: Phases | PerStrip
@@ -104,22 +106,22 @@ def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
 
 
 def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
-    """Return what adds to the tail's incidence [rad]; None where it is off, and without a tail."""
+    """Return the angle that is added to the tail's incidence [rad]; None if it is off, or without a tail."""
     if vehicle.tail is None or at_default(wingbeat, "tail_tilt"):
         return None
     return wingbeat.tail_tilt
 
 
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
-    """Return how far stroke axes are pitched nose-up from the world's [rad]."""
+    """Return the nose-up pitch of stroke axes relative to world axes [rad]."""
     attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
     return attitude if motion.tilt is None else attitude - motion.tilt
 
 
 def padded(strips: Strips, vector: int) -> Strips:
-    """Return the strips, followed by strips without chord and mass up to a multiple of `vector`.
+    """Return the strips, padded to a multiple of `vector` with strips without chord and mass.
 
-    At a single time XLA on CPU works along the strips, and a few left over cost more than a whole vector.
+    At a single time, XLA on CPU vectorises along the strips; a few left-over strips cost more than a full vector.
     """
     more = (0, -strips.span_fraction.size % vector)
     return Strips(
@@ -133,16 +135,16 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's wing pitch over that of the root, ``1 + (twist_ratio - 1) s/L``."""
+    """Return each strip's wing pitch divided by that of the root, ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
 def wing_shape(
     vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
 ) -> WingShape:
-    """Place the strips of the left wing at given flap and pitch angles; span, fold and sweep follow the phase.
+    """Place the strips of the left wing at given flap and pitch angles; the phase gives span, fold and sweep.
 
-    Inboard of the wrist a strip has the flap angle of the arm, outboard that of the hand.
+    Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
 
     Parameters
     ----------
@@ -231,7 +233,7 @@ def wing_motion(
     along_span: bool = False,
     unsteady: bool = False,
 ) -> WingMotion:
-    """Tabulate, in one pass, the wing's motion at given phases as it acts on air and body.
+    """Tabulate, in one pass, what air loads and body motion need of the wing's motion at given phases.
 
     Parameters
     ----------
@@ -246,7 +248,7 @@ def wing_motion(
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
 
     def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
-        """Return the shape and, in the plane of symmetry, mid-chords and vectors to the leading edge."""
+        """Return the shape, and in-plane components of mid-chords and of vectors from there to the leading edge."""
         shape = shape_at(vehicle, wingbeat, strips, at)
         fore = shape.chordwise[0], shape.chordwise[2]
         quarter = 0.25 * strips.chord

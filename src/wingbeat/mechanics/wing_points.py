@@ -61,7 +61,7 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Sc
 
     Parameters
     ----------
-    model, wingbeat : give the wing and its span, fold and sweep.
+    model, wingbeat : the wing, and its laws of span, fold and sweep.
     q : (x, z, body pitch, flap, root wing pitch), shape (5,) [m, rad].
     time : [s].
     """
@@ -100,7 +100,7 @@ def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
 
 @exported
 def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Corners:
-    """Return `corners_of` the strips along a flight, shape (K, N, 4, 3).
+    """Return the strips' corners along a flight [m], shape (K, N, 4, 3), as `corners_of` does for one instant.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, t
 
 
 def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return ``dr/dt`` at fixed q of all wing points [m/s]: what span, fold and sweep move."""
+    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold and sweep."""
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 
@@ -211,7 +211,7 @@ class PointMotion(NamedTuple):
 def point_motion(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
 ) -> PointMotion:
-    """Differentiate the wing points once for all that a given motion needs.
+    """Return the wing points and all their derivatives that a given motion needs, from one differentiation.
 
     Parameters
     ----------

@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 
 class Strips(NamedTuple):
-    """Numbers of one wing's strips that do not change with time, shape (N,), or (N, 1, ...) beside axes of time.
+    """Numbers of one wing's strips that are constant in time, shape (N,), or (N, 1, ...) to match axes of time.
 
     Attributes
     ----------
-    span_fraction : distance of the strip's centre from the shoulder over the semi-span, 0 to 1.
+    span_fraction : distance of the strip's centre from the shoulder, divided by the semi-span, 0 to 1.
     chord : [m].
     mass : [kg].
     """
@@ -33,7 +33,7 @@ class WingShape(NamedTuple):
 
     Attributes
     ----------
-    ahead, left, above : place of the quarter chord from the body's centre of mass [m].
+    ahead, left, above : position of the quarter chord relative to the body's centre of mass [m].
     flap_sine, flap_cosine : of the strip's flap angle.
     pitch : pitch of the strip [rad].
     pitch_sine, pitch_cosine : of that pitch.
@@ -53,12 +53,12 @@ class WingShape(NamedTuple):
 
     @property
     def quarter_chord(self) -> Triple:
-        """Place of the quarter chord, forward, left and up [m]."""
+        """Position of the quarter chord, forward, left and up [m]."""
         return self.ahead, self.left, self.above
 
     @property
     def unpitched(self) -> Triple:
-        """Unit vector along the chord that the strip has without pitch."""
+        """Unit vector along the chord of the unpitched strip."""
         if self.sweep_sine is None:
             return 1.0, 0.0, 0.0
         inward = -self.sweep_sine
@@ -86,6 +86,6 @@ class WingShape(NamedTuple):
         return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine
 
     def _pitched(self, along: PerStripBroadcast, across: PerStripBroadcast) -> Triple:
-        """Return the vector of these parts along the unpitched chord and along the normal without pitch."""
+        """Return the vector with these components along the unpitched strip's chord and normal."""
         forward, left, up = self.unpitched
         return along * forward, along * left - across * self.flap_sine, along * up + across * self.flap_cosine

@@ -89,7 +89,7 @@ STUDY = (
     Term(
         "certificate",
         "1",
-        "largest residual of the certifier's flight, of lengths, angles and velocities in SI units",
+        "largest residual of the certifier's flight among lengths, angles and velocities, in SI units",
     ),
     Term("error", "", "why the point has no result"),
     Term("run_seconds", "s", "time to solve the point"),

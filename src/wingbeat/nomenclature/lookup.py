@@ -30,7 +30,7 @@ _ABOUT = {
 def find(path: str) -> Term | None:
     """Return the entry of a dotted name, None if the table has none.
 
-    The longest end of the name that is in the table counts, so ``wing.mass`` and ``body.mass`` differ. If an
+    The longest ending of the name that is in the table is used, so ``wing.mass`` and ``body.mass`` differ. If an
     angle's name ends in ``_deg``, its entry is in degrees.
 
     >>> find("vehicle.wing.mass").label, find("wingbeat.flap_mean_deg").unit, find("nonsense")
@@ -78,7 +78,7 @@ def label_of(path: str) -> str:
 
 
 def attributes_of(term: Term) -> dict[str, str]:
-    """Return the attributes of a variable of a data set; texts have no unit, and some names have no symbol."""
+    """Return the attributes of a data set's variable; texts have no unit, and some names have no symbol."""
     known = {"units": term.unit, "long_name": term.label, "symbol": term.symbol}
     return {key: value for key, value in known.items() if value}
 
@@ -97,7 +97,7 @@ def axis_label(name: str, full: bool = False) -> str:
 
 
 def _named_parts(path: str) -> list[str]:
-    """Return the parts of a dotted name that name something, without places in lists, ends of bounds and limits."""
+    """Return a dotted name's parts without list indices and without the words for bounds and limits."""
     if path.startswith("constraints."):
         path = re.split("[<>=]", path.partition(".")[2])[0]
     # The numbers in the brackets of power_cost(0.5) may hold dots.

@@ -46,7 +46,7 @@ SERIES = (
     Term("inertial_power", "W", "hinge power that accelerates the wings relative to the body, both wings", "P_in"),
     Term("body_power", "W", "hinge power due to the body's motion and to weight, both wings", "P_body"),
     Term("air_power", "W", "power of the air loads on the vehicle", "P_air"),
-    Term("profile_power", "W", "power against lift and drag of the strips in the air at the wings", "P_pro"),
+    Term("profile_power", "W", "power against the strips' lift and drag in the air at the wings", "P_pro"),
     Term("induced_power", "W", "power spent on the induced flow", "P_ind"),
     Term("parasite_power", "W", "power against the air loads of body and tail", "P_par"),
     Term("unsteady_power", "W", "power against rotation, added mass and couples", "P_uns"),

@@ -41,7 +41,7 @@ def plain(unit: str) -> str:
 
 
 def for_people(unit: str) -> tuple[float, str]:
-    """Return the factor to a unit that readers prefer, and that unit: angles are in degrees.
+    """Return the unit that readers prefer (degrees for angles) and the factor to it; the factor comes first.
 
     >>> for_people("m s-1"), for_people("1"), for_people("rad s-1")[1]
     ((1.0, 'm/s'), (1.0, ''), 'deg/s')

@@ -36,7 +36,7 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
 def first_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Return where local searches end: from the starts, from optima without limits, and beside the lowest peak.
+    """Return the ends of local searches: from the starts, from optima without limits, and near the lowest peak.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
 def search_from_starts(
     programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
-    """Yield where local searches from these starts end, in order, with so many threads.
+    """Yield the ends of local searches from these starts, in order, with a number of parallel threads.
 
     Every start but the first, the stock wingbeat, is brought close to closure before the objective is minimised. A
     local search from far away diverges. Where there is no orbit, 30 flights show this instead of 100.
@@ -107,7 +107,7 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
 
 
 def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
-    """Search from beside the best optimum, because a lower peak is often near; return where the searches end."""
+    """Search from points near the best optimum, as a lower peak is often near; return where the searches end."""
     more: list[Candidate] = []
     for index in range(count):
         optima = optima_of((*found, *more))

@@ -67,7 +67,7 @@ class OptimumSlopes:
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
-            rule = "is not determined by its conditions: its derivatives do not exist, or depend on the direction"
+            rule = "is no isolated optimum, so its derivatives do not exist or depend on the direction"
             fix = "try a neighbouring speed, or free more of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
         self._at, self._free, self._active = found, newton.free, newton.active
@@ -100,7 +100,7 @@ class OptimumSlopes:
         return self._here.objective(self._at) * self.problem.minimise.scale
 
     def active(self) -> list[Parameter]:
-        """Return the active bounds and limits; the derivative of the objective by each is its price."""
+        """Return the active bounds and limits; the price of each is the derivative of the objective by it."""
         problem, names = self.problem, self._unknowns.names
         found = [
             bound_of(problem, name, SIDES[int(not at_lower)])
@@ -116,7 +116,7 @@ class OptimumSlopes:
         return found
 
     def values(self, quantities: Sequence[Quantity]) -> np.ndarray:
-        """Return quantities at the optimum; of a series, its largest value."""
+        """Return quantities at the optimum; for a series, its largest value."""
         return self._read(self._here, self._at, quantities)
 
     def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
@@ -125,7 +125,7 @@ class OptimumSlopes:
         Parameters
         ----------
         parameter : one of `parameters_of` the problem, or of those that are `active`.
-        quantities : other quantities to differentiate; of a series, its largest value.
+        quantities : other quantities to differentiate; for a series, its largest value.
         """
         size, scale = parameter.size, self._unknowns.scale
         moved = np.zeros(self._at.size)
@@ -168,7 +168,7 @@ class OptimumSlopes:
         return gradient - self._conditions(programme, scaled)[1].T @ self._multipliers
 
     def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
-        """Return quantities of the beat as the certifier flies it."""
+        """Return quantities of the beat, computed from the certifier's flight."""
         if not quantities:
             return np.zeros(0)
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
@@ -186,14 +186,14 @@ class OptimumSlopes:
         direction: np.ndarray,
         parameter: Parameter | None = None,
     ) -> np.ndarray:
-        """Return a function's derivative as the unknowns move in a direction and a parameter by its size."""
+        """Return a function's derivative along a direction of the unknowns, while a parameter moves by its size."""
         step = self._options.sensitivity.step / max(1.0, float(np.abs(direction).max()))
         nodes = self._nodes(parameter, step)
         values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]
         return np.sum(values, axis=0) / step
 
     def _nodes(self, parameter: Parameter | None, step: float) -> list[tuple[int, float, Transcription]]:
-        """Return multiples of a step, their weights in a derivative, and the programme with the parameter there."""
+        """Return multiples of a step, their weights in a derivative, and the programmes at shifted parameters."""
         if parameter is None:
             return [(at, weight, self._here) for at, weight in _CENTRAL]
         for weights in (_CENTRAL, _UPWARDS, _DOWNWARDS):

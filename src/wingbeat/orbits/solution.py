@@ -127,7 +127,7 @@ class Solution:
         return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
 
     def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified beat in its unit; of a series, its largest value."""
+        """Return a quantity of the certified beat in its unit; for a series, its largest value."""
         return float(np.max(quantity.of(self.beat())))
 
     @functools.cached_property

@@ -91,7 +91,7 @@ def find_orbit(
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and the best that so many starts find, one after the other.
+    """Return the better of a certified orbit and the best orbit from a number of starts, run one after the other.
 
     Only optima that may be better, judged by the solver's coarse flights, are certified.
     """
@@ -161,11 +161,11 @@ def _found(
 
 
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
-    """Search, limit by limit, from beats with the least of the limited quantity; yield where the searches end.
+    """For each limit, search from the beat that minimises the limited quantity; yield the ends of the searches.
 
-    Limits on a peak have edges at which local searches stop. For the bat at 10 m/s, least positive power was sought
-    within a limit of pitch torque. All fifty random starts stopped at such an edge, although a quarter less torque
-    was feasible.
+    Limits on a peak have edges at which local searches stop. In one case, we minimised the bat's positive power at
+    10 m/s with a limit on pitch torque. All fifty random starts stopped at such an edge, although a quarter less
+    torque was feasible.
     """
     problem, options = programme.problem, programme.options
     for limit in problem.subject_to:

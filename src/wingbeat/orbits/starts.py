@@ -64,7 +64,7 @@ def start_point(
 def structured_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> list[np.ndarray]:
     """Return a start in each family of wingbeats, the species' stock wingbeat first.
 
-    In optima the wings beat below, above or about level with the body, with little or much pitching.
+    In known optima, the wings beat below, above or about level with the body, with little or much pitching.
     """
     unknowns = problem.unknowns()
     found: list[np.ndarray] = []

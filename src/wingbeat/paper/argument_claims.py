@@ -197,8 +197,8 @@ def argument_claims() -> list[FlightClaim]:
             "gains-at-speed",
             _DISCUSSION,
             "Su-Fan brings the frequencies of both animals closer to the measured ones, most of all at high "
-            "speed (tested: Dickinson's relative error minus Su-Fan's; its mean at 10 m/s and above is larger "
-            "than its mean below 10 m/s; ours: the difference of the two means, the smallest of three: the "
+            "speed (tested: the gain, Dickinson's relative error minus Su-Fan's, has a larger mean at 10 m/s and "
+            "above than below 10 m/s; ours: the difference of the two means, the smallest of three: the "
             "pigeon with each of its two references, and the bat)",
             "> 0",
             "1",

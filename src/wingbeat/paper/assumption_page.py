@@ -35,7 +35,7 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
     ----------
     study : the study.
     folder : folder to write to.
-    heading : how the study was run: command and time.
+    heading : text on how the study was run: command and time.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def _named(hang: Importance | None) -> str:
 
 
 def _apart(study: Judged) -> list[str]:
-    """Return a line for each pair of claims that hold often but never together."""
+    """Return a line for each pair of claims that each hold often but never hold together."""
     lines = []
     often = [k for k in range(len(study.claims)) if np.nansum(study.holds[:, k]) >= _OFTEN]
     for i, k in enumerate(often):

@@ -29,7 +29,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim: its place in the paper, its statement and our test in our words, the paper's number, our findings.
+    """One claim: its place in the paper, its statement and test in our words, the paper's number, and our findings.
 
     The first finding is under our default assumptions; its number is shown beside the paper's.
     """
@@ -44,7 +44,7 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """Holds under all assumptions, under some or under none (fails); or cannot be tested; or is not asked."""
+        """Whether the claim holds under all, some or no assumptions; or cannot be tested; or was not asked."""
         if not self.asked:
             return NOT_ASKED
         told = [finding.holds for finding in self.findings if finding.holds is not None]
@@ -53,7 +53,7 @@ class Claim:
         return HOLDS if all(told) else HOLDS_UNDER if any(told) else FAILS
 
     def row(self) -> dict[str, Any]:
-        """Return the claim as it stands in claims.json."""
+        """Return the claim as a row of claims.json."""
         return {
             "id": self.id,
             "where": self.where,

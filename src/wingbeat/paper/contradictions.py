@@ -33,7 +33,7 @@ def near(value: float, printed: float, share: float) -> bool:
 
 
 def told(figure: int, printed: Sequence[Printed]) -> str:
-    """Return the sentences of a caption: what is printed, what ours is, and why where they differ.
+    """Return the sentences of a caption: the printed number, our number, and the reason if they differ.
 
     >>> told(7, [Printed("a peak of 30 W", "31 W", True)])
     'The paper prints a peak of 30 W; ours: 31 W, which agrees.'

@@ -34,7 +34,7 @@ def sample_orbits(orbits: Orbits, treatment: str, animal: str) -> dict[str, Orbi
 
 
 def absence(orbits: Orbits, treatment: str, animal: str, models: tuple[str, ...] = MODELS) -> str:
-    """Return in words which of the sample orbits are missing and why; empty if none is.
+    """Return in words which sample orbits are missing and why; an empty text if none is missing.
 
     >>> absence({}, "mirrored", "bat", ("su-fan",))
     'No certified orbit of the bat at 10 m/s with Su-Fan (mirrored): not solved.'
@@ -193,7 +193,7 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
 
 
 def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> list[Printed]:
-    """Return what the paper prints of the bat's angles and forces beside ours."""
+    """Return the paper's printed statements about the bat's angles and forces, each with our result."""
     found = []
     if ("su-fan", "1/4") in series:
         low, high = PAPER_SMALL_ALPHA_DEG
@@ -215,7 +215,7 @@ def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> 
 
 
 def _printed_of_power(series: dict[str, dict[str, np.ndarray]]) -> list[Printed]:
-    """Return what the paper prints of the bat's peak power beside ours."""
+    """Return the bat's peak powers that the paper prints, each with our result."""
     found = []
     for model, columns in series.items():
         peak, printed = float(columns["hinge_power_W"].max()), PAPER_PEAK_POWER[model]
@@ -225,7 +225,7 @@ def _printed_of_power(series: dict[str, dict[str, np.ndarray]]) -> list[Printed]
 
 
 def _printed_of_pitch(series: dict[str, dict[str, np.ndarray]]) -> list[Printed]:
-    """Return what the paper prints of the bat's range of body pitch beside ours."""
+    """Return the bat's ranges of body pitch that the paper prints, each with our result."""
     found = []
     for model, columns in series.items():
         extent, printed = float(np.ptp(columns["body_pitch_deg"])), PAPER_PITCH_RANGE_DEG[model]

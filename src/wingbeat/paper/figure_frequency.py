@@ -81,7 +81,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
 
 
 def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:
-    """Return how many of the orbits drawn have the largest flap amplitude allowed, and how many there are."""
+    """Return the number of drawn orbits at the largest flap amplitude allowed, and the number of all of them."""
     limits = [orbit.inputs["bounds"]["flap_amplitude"][1] for orbit in drawn]
     reached = [
         math.isclose(o.wingbeat.flap_amplitude, top, abs_tol=1e-4) for o, top in zip(drawn, limits, strict=True)
@@ -122,7 +122,7 @@ def _mark_printed(axes: Axes) -> None:
 
 
 def _printed(orbits: Orbits) -> list[Printed]:
-    """Return what the paper prints of the bat's frequency beside ours, treatment by treatment."""
+    """Return the bat's frequencies that the paper prints, each with our result, for each treatment."""
     (slow, fast), found = PAPER_BAT_SPEEDS, []
     for treatment in FILLS:
         fit, fly = (certified(orbits, treatment, "bat", model) for model in MODELS)
@@ -140,7 +140,7 @@ def _printed(orbits: Orbits) -> list[Printed]:
 
 
 def _reach(measured: Measured) -> np.ndarray:
-    """Return the speeds at which to draw a measurement [m/s]: those of its range within the figure."""
+    """Return the speeds at which to draw a measurement [m/s]: its own range, cut to that of the figure."""
     low, high = measured.speeds
     if low == high:
         return np.array([low])
@@ -148,7 +148,7 @@ def _reach(measured: Measured) -> np.ndarray:
 
 
 def measured_values(measured: Measured, speeds: np.ndarray) -> np.ndarray:
-    """Return the frequency for our own vehicle at flight speeds [m/s], shape (K,)."""
+    """Return the measured frequency, or the law's frequency for our vehicle, at flight speeds [m/s], shape (K,)."""
     species = load_species(measured.animal)
     return np.array([measured.value(species.vehicle, species.air, float(speed)) for speed in speeds])
 

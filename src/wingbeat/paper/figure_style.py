@@ -25,7 +25,7 @@ Table = Sequence[Row]
 
 @dataclass(frozen=True)
 class Look:
-    """A coefficient model's name for readers, and its colour, dash and marker; each of them alone identifies it."""
+    """A coefficient model's name for readers, colour, dash and marker; each of these alone identifies the model."""
 
     name: str
     color: str
@@ -51,8 +51,8 @@ def sheet(width: float, height: float, note: str, alarm: str = "") -> Figure:
     Parameters
     ----------
     width, height : of the figure, and of its panels alone [mm].
-    note : what a reader must know; wrapped.
-    alarm : what is missing, in red above the note.
+    note : text that a reader needs; it is wrapped.
+    alarm : text about missing results, in red above the note.
     """
     letters = int(width / (FONT * _LETTER * INCH / 72))
     lines = [(line, color) for text, color in ((alarm, ALARM), (note, "k")) for line in _wrapped(text, letters)]
@@ -72,14 +72,14 @@ def _wrapped(text: str, letters: int) -> list[str]:
 
 
 def dress_cycle(axes: Axes, ylabel: str) -> None:
-    """Prepare a panel over one period, its downstroke shaded."""
+    """Prepare a panel with an axis of one period and the downstroke shaded."""
     dress(axes, "time t/T [-]", ylabel)
     shade_downstrokes(axes, 0.0, 1.0)
     axes.axhline(0.0, color=GREY, linewidth=0.5, zorder=1)
 
 
 def say(axes: Axes, words: str) -> None:
-    """Write in an empty panel why it is empty."""
+    """Write a text into an empty panel that says why it is empty."""
     middle: dict[str, Any] = {"ha": "center", "va": "center", "transform": axes.transAxes, "backgroundcolor": "w"}
     axes.set(xticks=[], yticks=[])
     axes.text(0.5, 0.5, textwrap.fill(words, 28), color=ALARM, fontsize=FONT, parse_math=False, **middle)

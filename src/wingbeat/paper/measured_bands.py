@@ -31,12 +31,12 @@ class Measured:
 
     Parameters
     ----------
-    animal : which of our vehicles it is compared with.
+    animal : the vehicle of ours with which it is compared.
     label : short, for a legend.
-    speeds : lowest and highest flight speed for which it stands [m/s]; the same twice for a point.
-    value : frequency for a vehicle, its air and a flight speed [m/s]; in `unit`.
+    speeds : lowest and highest flight speed of the measurement [m/s]; equal for a single point.
+    value : function that returns the frequency, in `unit`, for a vehicle, its air and a flight speed [m/s].
     spread : half width, in `unit`; 0 where the source states none.
-    source, grade : where it was read, and how sure we are (A or D).
+    source, grade : the citation; A if the value is as in the source, D if we computed it from the source.
     unit : of value and spread.
     """
 

@@ -54,7 +54,7 @@ _POINTS = 33
 
 
 def published_for(animal: str, vehicle: Vehicle, air: Air, slowest: float, fastest: float) -> list[Published]:
-    """Return what is known of a live animal between two speeds [m/s]; scaling laws are those for this vehicle."""
+    """Return published values for a live animal between two speeds [m/s]; scaling laws use this vehicle's size."""
     beside = []
     if animal in MEASURED_MINIMUM_POWER_SPEEDS:
         label, speeds, _ = MEASURED_MINIMUM_POWER_SPEEDS[animal]

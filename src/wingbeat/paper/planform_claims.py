@@ -18,10 +18,10 @@ def planform_claim(orbits: Orbits) -> Claim:
     return Claim(
         "wing-shape",
         "methods, simulation",
-        "the shape of the wing does not change the optimum much (tested: the median change of frequency over all "
-        f"speeds, animals and models is at most {100 * INSIGNIFICANT:.0f} % when another wing of the same span "
-        "replaces the rectangle: one tapered 3 to 1 with the rectangle's area, or a leaf shape with the "
-        "rectangle's area and second moment of area about the shoulder)",
+        "the shape of the wing does not change the optimum much (tested: another wing of the same span "
+        "replaces the rectangle; the median change of frequency over all speeds, animals and models is at most "
+        f"{100 * INSIGNIFICANT:.0f} %; the other wing is tapered 3 to 1 with the rectangle's area, or leaf-shaped "
+        "with the rectangle's area and second moment of area about the shoulder)",
         "not significant",
         "1",
         findings,

@@ -51,9 +51,9 @@ def premise_claims() -> list[Claim]:
         tested(
             "formulas-differentiable",
             "discussion, last paragraph",
-            "the formulas are differentiable (tested: the slope of the centre of pressure at 0 deg; it is "
-            "infinite, because the centre moves as the angle to the power 0.6; ours: the slope at 1e-4 deg; C_L "
-            f"is {float(printed_lift(fit, np.zeros(1))[0]):.3f} at 0 deg, so it jumps there when mirrored)",
+            "the formulas are differentiable (tested: the slope of the centre of pressure is finite at 0 deg; it "
+            "is not, because x_cp varies as the angle to the power 0.6; ours: the slope at 1e-4 deg; C_L is "
+            f"{float(printed_lift(fit, np.zeros(1))[0]):.3f} at 0 deg, so the mirrored formula jumps there)",
             "differentiable",
             "1/rad",
             steepness,

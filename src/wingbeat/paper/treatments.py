@@ -171,7 +171,7 @@ def solve_cases(
 
     Parameters
     ----------
-    cases : which orbits.
+    cases : the orbits to solve.
     starts : starts of each case before solutions are passed on to its neighbours.
     processes : Python processes that share the series.
     progress : called with (series done, all series).

@@ -23,9 +23,9 @@ from wingbeat.viewer.shape import body_axes
 class Posture(NamedTuple):
     """A vehicle at one instant, its body's centre of mass at the origin; world axes, left wing, metres, radians.
 
-    ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3); ``quarter_chord`` and the
-    unit vectors ``chordwise`` and ``spanwise`` (N, 3); ``stroke`` is the nose-up pitch of the stroke axes;
-    ``body_axes`` are the half length and half depth of the body drawn as an ellipsoid.
+    ``outlines`` are the corners of the strips in the order of `CORNERS`, shape (N, 4, 3). ``quarter_chord`` and the
+    unit vectors ``chordwise`` and ``spanwise`` have shape (N, 3). ``stroke`` is the nose-up pitch of the stroke
+    axes. ``body_axes`` are the half length and half depth of the ellipsoid drawn as the body.
     """
 
     phase: float
@@ -65,7 +65,7 @@ class Flown(NamedTuple):
     states: np.ndarray
 
     def state(self, phase: float) -> np.ndarray:
-        """Return the state at a phase, shape (6,), its place at the origin."""
+        """Return the state at a phase, shape (6,), with the body at the origin."""
         found = [np.interp(phase, self.phase, column) for column in self.states.T]
         return np.array([0.0, 0.0, *found[2:]])
 

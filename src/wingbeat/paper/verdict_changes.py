@@ -152,9 +152,9 @@ def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
 
 
 def verdict_changes(before: Sequence[dict[str, Any]], claims: Sequence[Claim]) -> list[Change]:
-    """Return what became of the claims of an earlier run, and which are new, in the present order.
+    """Return the changes from the claims of an earlier run to the present ones, including new claims, in order.
 
-    Claims that the present run does not ask are left out.
+    Claims that the present run does not test are left out.
     """
     old = {row["id"]: row for row in before}
     origin = {new: name for name in old for new in REPLACED.get(name, (name,))}

@@ -92,7 +92,7 @@ def _draw_data(axes: Axes, fit: WingFit, name: str) -> None:
 
 
 def _streams(fit: WingFit) -> list[tuple[str, Any, tuple[str, str]]]:
-    """Return label, rows and look of each Reynolds number, or of all rows where there are more than five."""
+    """Return label, rows and style for each Reynolds number; if there are more than five, for all rows together."""
     reynolds = fit.table.reynolds
     if reynolds is None:
         return [("measured", slice(None), _STREAMS[0])]
@@ -124,7 +124,7 @@ def _draw_curve(axes: Axes, curve: CurveFit) -> None:
 
 
 def _shown(r_squared: float) -> str:
-    """Return R-squared cut, not rounded: 0.99996 is not 1."""
+    """Return R-squared, truncated rather than rounded, so that 0.99996 is not shown as 1."""
     return f"{np.floor(r_squared * 1e4) / 1e4:.4f}" if np.isfinite(r_squared) else "-"
 
 

@@ -18,7 +18,7 @@ _MEAN: dict[str, Any] = {"color": "0.35", "linestyle": "-.", "linewidth": 0.8}
 
 
 def mean_power(dataset: xr.Dataset) -> float | None:
-    """Return the mean hinge power of what was flown [W]; None where nothing was."""
+    """Return the mean hinge power over the flown samples [W]; None if there are none."""
     reached = flown(dataset)
     phase, power = dataset["phase"].values[reached], dataset["hinge_power"].values[reached]
     return float(np.trapezoid(power, phase) / np.ptp(phase)) if len(phase) > 1 else None
@@ -134,7 +134,7 @@ def _length(values: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _turned(angle: np.ndarray) -> np.ndarray:
-    """Return angles within half a turn of 0 in degrees, with a gap where a tumbling wing passes the half."""
+    """Return angles within half a turn of 0 [deg], with a gap where a tumbling wing passes +-180 degrees."""
     degrees = np.mod(np.degrees(angle) + 180.0, 360.0) - 180.0
     return np.where(np.abs(np.diff(degrees, prepend=degrees[:1])) > 180.0, np.nan, degrees)
 

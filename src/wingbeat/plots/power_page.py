@@ -32,8 +32,9 @@ _LOOKS = {"aerodynamic": FIRST, "inertial": SECOND, "body": THIRD}
 def power_page(dataset: xr.Dataset) -> Figure:
     """Draw the parts of an orbit's hinge power.
 
-    a: hinge power over the wingbeat with its aerodynamic, inertial and body parts. b: flap torque over flap angle,
-    the part taken by the best spring and the rest for the actuators. c: mean power by the use of negative work.
+    a: hinge power over the wingbeat with its aerodynamic, inertial and body parts. b: flap torque against flap
+    angle, with the best spring's part and the remaining part of the actuators. c: mean power against the returned
+    share of negative work.
 
     Parameters
     ----------

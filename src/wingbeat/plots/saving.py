@@ -38,8 +38,8 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
 
     Parameters
     ----------
-    figure : from one of the pages.
-    path : of the file to write; its suffix, .png, .pdf or .svg, says which.
+    figure : a figure, such as `wingbeat_page` returns.
+    path : of the file to write; its suffix, .png, .pdf or .svg, determines the format.
 
     Raises
     ------

@@ -74,5 +74,5 @@ def _draw_force(axes: Axes, opinion: SecondOpinion, force: str) -> None:
 
 
 def _closed(values: np.ndarray, more: float = 0.0) -> np.ndarray:
-    """Return the samples of a beat with the first once more at its end."""
+    """Return the samples of a beat, with the first one repeated at the end."""
     return np.append(values, values[0] + more)

@@ -32,9 +32,9 @@ def study_page(
 ) -> Figure:
     """Draw a quantity of a study's certified orbits against the varied parameters.
 
-    Points without a result are left out and counted in the title. One varied parameter gives a line for each
-    combination of the top level, with failures as red crosses at the bottom. Two give a map for each, in squares
-    for a grid and in dots otherwise. More give parallel coordinates for each, with one line per point.
+    Points without a result are left out and counted in the title. There is one line or panel for each combination
+    of the study's top-level keys. One varied parameter gives lines, with failures as red crosses at the bottom. Two
+    give maps, in squares for a grid and in dots otherwise. More give parallel coordinates, with one line per point.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def study_page(
 
 
 def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:
-    """Return the points of each combination of all else that the study asked for, and its name."""
+    """Return the points, and the name, of each combination of the study's other requested values."""
     columns = [str(name) for name in frame.columns]
     # What was asked for stands between the status and the record, which begins with its message.
     end = columns.index("message" if "message" in columns else "certificate")
@@ -124,7 +124,7 @@ def _draw_lines(
 def _draw_panels(
     figure: Figure, groups: list[tuple[str, pd.DataFrame]], names: list[str], labels: list[str], label: str
 ) -> None:
-    """Draw a panel for each combination of the top level."""
+    """Draw a panel for each combination of the top-level keys."""
     maps = len(names) == 3
     columns = min(2, len(groups)) if maps else 1
     panels = figure.subplots(math.ceil(len(groups) / columns), columns, squeeze=False).ravel()
@@ -142,7 +142,7 @@ def _draw_panels(
 
 
 def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> Any:
-    """Draw the last column over the first two, and red crosses where nothing is certified."""
+    """Draw the last column against the first two, with red crosses at points that are not certified."""
     x, y = table[:, 0], table[:, 1]
     drawn = _mesh(axes, x, y, np.where(good, table[:, 2], np.nan))
     if not good.all():
@@ -154,7 +154,7 @@ def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> 
 
 
 def _mesh(axes: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray) -> Any:
-    """Draw values as squares where every x meets every y, else as dots."""
+    """Draw values as squares if the points form a full grid, else as dots."""
     across, up = np.unique(x), np.unique(y)
     if across.size > 1 and up.size > 1 and across.size * up.size == x.size:
         table = np.full((up.size, across.size), np.nan)

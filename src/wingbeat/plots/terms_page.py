@@ -43,7 +43,7 @@ def terms_page(record: dict[str, Any]) -> Figure:
 
 
 def _runs(record: dict[str, Any]) -> list[list[dict[str, Any]]]:
-    """Return the points in runs that no change of branch and no gap tears."""
+    """Return the points in runs without a change of branch and without a gap."""
     torn = {mark["lower"] for mark in record["marks"] if mark["kind"] != "bounds"}
     runs: list[list[dict[str, Any]]] = [[]]
     for point in record["points"]:

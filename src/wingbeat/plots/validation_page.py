@@ -50,9 +50,9 @@ _STATIONS = ((0.25, FIRST), (0.5, SECOND), (0.75, THIRD))
 def validation_page(found: Validation) -> Figure:
     """Return a figure of a measured motion: forces and residuals through time, and angles of attack.
 
-    Black is the measurement with two standard errors on either side. The solid line is the recommended row, dashed
-    ones are the same coefficients with other terms, grey ones all other rows, and dots the best sine at the beat's
-    frequency. Below is what is left of the force. Downstrokes are shaded.
+    Black: the measurement with two standard errors on either side. Solid: the recommended row. Dashed: the same
+    coefficients with other terms. Grey: all other rows. Dotted: the best sine at the beat's frequency. The panels
+    below show the residual force. Downstrokes are shaded.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def validation_page(found: Validation) -> Figure:
 
 
 def _beats(found: Validation) -> np.ndarray:
-    """Return the judged times in beats since the first."""
+    """Return the times that are scored, in beats since the first of them."""
     times = found.case.times[found.case.inside]
     return (times - times[0]) * found.case.frequency
 
@@ -90,7 +90,7 @@ def _force(row: ValidationRow, found: Validation, axis: str) -> np.ndarray:
 
 
 def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]]:
-    """Return each row with its label and look, those behind first."""
+    """Return each row with its label and style, in the order of drawing."""
     best = found.recommended
     same = [row for row in found.rows if row is not best and row.aero.coefficients is best.aero.coefficients]
     grey: dict[str, Any] = {"color": "0.65", "linewidth": 0.4}

@@ -70,7 +70,7 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
 
 def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], float]:
-    """Return the lines above the panels with their styles, and the weight [N]; refuse what is not ours."""
+    """Return the lines above the panels with their styles, and the weight [N]; refuse a dataset not of wingbeat."""
     faults = FaultList()
     kind = dataset.attrs.get("wingbeat_kind")
     if kind not in ("orbit", "flight"):
@@ -110,7 +110,7 @@ def _capital(text: str) -> str:
 
 
 def _read(about: dict[str, Any], name: str) -> Any:
-    """Return a part of the record; a file of a version that judged nothing has no plausibility."""
+    """Return a part of the record, or None: files of early versions have no ``plausibility``."""
     return about[name] if name == "status" else json.loads(about.get(name, "null"))
 
 

@@ -21,18 +21,18 @@ from wingbeat.aero import (
 
 # Before the name of a function of the user's, and after what no file brings back.
 OWN = "the user's own"
-SET_ANEW = "is not in the file; set up the problem with it again"
+SET_ANEW = "is not in the file; set up the problem with this function again"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
 _CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
 _TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
 
 
 class NotInFileError(ValueError):
-    """Inputs name a function of the user's, which no file holds."""
+    """The inputs name a function of the user's, which a file cannot hold."""
 
 
 def aero_record(aero: BladeElement) -> dict[str, Any]:
-    """Return what makes the air loads; of a function of the user's, a digest of what it computes."""
+    """Return the inputs of the air loads; a function of the user's is represented by a digest of its program."""
     named = _named(aero.coefficients)
     digest = {"function": named.pop("function")} if "function" in named else {}
     return {

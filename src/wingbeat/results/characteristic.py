@@ -20,7 +20,7 @@ def characteristic_speeds(
     Parameters
     ----------
     speed, power : the curve [m/s, W], shape (K,), increasing in speed; power is not-a-number where there is a gap.
-    joined : whether each point and the next are of one branch, shape (K - 1,).
+    joined : whether each point and the next belong to one branch, shape (K - 1,).
     power_limit : [W].
 
     Returns
@@ -63,8 +63,8 @@ def _least(
 ) -> dict[str, Any] | None:
     """Return where a value is smallest.
 
-    `lowest` gives that speed from the parabola ``square U^2 + slope U + level`` that the power makes at the least
-    point and those beside it, where these are of one branch.
+    If the least point and its two neighbours belong to one branch, the power there is taken as the parabola
+    ``square U^2 + slope U + level``, and `lowest` returns the speed from its coefficients.
     """
     good = np.isfinite(value)
     if not good.any():
@@ -90,7 +90,7 @@ def _least(
 
 
 def _reach(speed: np.ndarray, value: np.ndarray, start: int, way: int, level: float) -> float:
-    """Return the first speed, going one way, at which a value that starts below a level reaches it, or the last."""
+    """Return the first speed in one direction at which a value below a level reaches it, else the last speed."""
     here = start
     while 0 <= here + way < len(value) and np.isfinite(value[here + way]):
         there = here + way

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
 
-    Lists of anything else are JSON text.
+    Other lists become JSON text.
 
     >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
     {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
@@ -28,7 +28,7 @@ def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield what `flat` does, but leave lists of anything else as they are."""
+    """Yield the same as `flat`, except that lists of other things than numbers stay lists."""
     for key, value in record.items():
         path = f"{before}{key}"
         if isinstance(value, dict):
@@ -44,11 +44,11 @@ def _numeric(value: list[Any]) -> bool:
 
 
 def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
-    """Return the unit of a single value beside a data set's series, or an empty text where none is known.
+    """Return the unit of a single value in a data set's attributes; an empty text if it is not known.
 
     Parameters
     ----------
-    dataset, results : the data set, and what its attributes hold.
+    dataset, results : the data set, and the content of its attributes.
     path, value : dotted name and value of one of the results.
     """
     head, last = path.partition(".")[0], path.rpartition(".")[2]

@@ -36,7 +36,7 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     Parameters
     ----------
     dataset : an orbit's, a flight's, a curve's or a glide polar's.
-    results : what its attributes hold, from `results_of`.
+    results : the content of its attributes, from `results_of`.
     """
     kind = results["wingbeat_kind"]
     along = _ROWS[kind]
@@ -72,7 +72,7 @@ def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
 
 
 def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
-    """Return the parts of a column's name and meaning for one place along a dimension; places count from 1."""
+    """Return the endings of a column's name and meaning for one index along a dimension; indices start at 1."""
     if dim == "optimum":  # the best of each speed is what most readers want, so it has the plain name
         return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
     label = dataset[dim].values[index]
@@ -82,7 +82,7 @@ def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
 
 
 def _single_values(dataset: xr.Dataset, along: str, results: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield what has no rows: results by their dotted names, then whole variables along other dimensions."""
+    """Yield all values outside the table: results by dotted name, then variables without the rows' dimension."""
     yield from leaves(results)
     for name, variable in dataset.variables.items():
         if along not in variable.dims and name != "optimum":
@@ -94,7 +94,7 @@ def _bracket(unit: str) -> str:
 
 
 def _cell(value: Any) -> Any:
-    """Return what stands in a cell: a number with all its digits, a text in one line."""
+    """Return the text of a cell: a number with all its digits, or a text on one line."""
     if isinstance(value, float):
         if math.isfinite(value):
             return repr(value)

@@ -92,7 +92,7 @@ class Curve(Saveable):
         return characteristic_speeds(speed, power, joined, limit)
 
     def record(self) -> dict[str, Any]:
-        """Return the curve as a JSON-able dictionary: SI units, radians, None for what has no value."""
+        """Return the curve as a JSON-able dictionary: SI units, radians, None for missing values."""
         data, about = self._dataset, self._dataset.attrs
         columns = {n: v.values.tolist() for n, v in data.data_vars.items() if v.dims in (POINTS, ("speed",))}
         points = []
@@ -133,8 +133,8 @@ def solve_curve(
     """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
 
     Every optimum that is found is continued to the neighbouring speeds, up and down, until nothing new appears.
-    Each step changes every unknown only a little. Where the best optimum of one speed does not lead to the best of
-    the next, the curve carries a mark.
+    Each step changes every unknown only a little. If the best optimum of one speed does not lead to the best of the
+    next, the curve has a mark between these speeds.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def solve_curve(
     speeds : at least two, increasing [m/s]; 0 is hover.
     starts : number of starts at each end of the range; each speed in between gets a third as many.
     seed : of the random starts.
-    power_limit : the mean power that can be sustained [W]; if given, the speeds within it are found too.
+    power_limit : the mean power that can be sustained [W]; if given, the speeds within this limit are found too.
     progress : called with (tasks done, tasks known so far).
     options : of the solvers.
 

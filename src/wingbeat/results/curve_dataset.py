@@ -117,14 +117,14 @@ def _rows(records: Any, branches: Branches) -> Any:
 
 
 class _Table:
-    """Columns over speed and optimum, read off records; None is a record of no certified orbit."""
+    """Columns over speed and optimum, from records; a record is None if there is no certified orbit."""
 
     def __init__(self, records: Sequence[Sequence[dict[str, Any] | None]], widest: int) -> None:
         self._records, self._shape = records, (len(records), widest)
         self.columns: dict[str, Any] = {}
 
     def add(self, name: str, unit: str, meaning: str, of: Any) -> None:
-        """Add a number of each record; what is None, as a cost of transport in hover, becomes not-a-number."""
+        """Add a number of each record; None, such as a cost of transport in hover, becomes not-a-number."""
         values = np.full(self._shape, np.nan)
         for place, record in self._each():
             found = of(record)
@@ -184,7 +184,7 @@ def _attributes(
 
 
 def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:
-    """Return the warnings of the best orbits with their speeds; those that differ only in numbers appear once."""
+    """Return the best orbits' warnings with their speeds; warnings that differ only in numbers are merged."""
     speeds: dict[str, list[float]] = {}
     texts: dict[str, str] = {}
     for record in records:

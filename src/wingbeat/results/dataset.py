@@ -37,7 +37,7 @@ def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: 
 def _in_blocks(
     function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray
 ) -> Iterator[Any]:
-    """Evaluate in blocks of equal length, the last padded with its end: JAX compiles anew for each length."""
+    """Evaluate in blocks of equal length, because JAX compiles anew for each length; the last block is padded."""
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
         yield function(model, wingbeat, State(*states[here].T), phase[here])

@@ -31,10 +31,10 @@ class Flight(Saveable):
 
     Attributes
     ----------
-    model, wingbeat : what flew.
+    model, wingbeat : the flight model and its wingbeat.
     phase : beats since the start, shape (K,).
-    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number from
-        where the integrator gave up.
+    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number after the
+        integrator gave up.
     """
 
     model: FlightModel

@@ -53,7 +53,7 @@ class GlidePolar(Saveable):
     best_ratio: Glide | None
 
     def record(self) -> dict[str, Any]:
-        """Return everything as a JSON-able dictionary, SI and radians; what was not found is None."""
+        """Return everything as a JSON-able dictionary, SI and radians; None for glides that were not found."""
         rows = [finite_or_none(glide._asdict()) for glide in self.glides]
         lists = {name: [row[name] for row in rows] for name in Glide._fields}
         return {**self._about(), **lists}
@@ -97,8 +97,8 @@ def glide_polar(
 ) -> GlidePolar:
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
-    Lift, drag and weight balance, and the pitching moment too where possible, with the same air loads as in
-    flapping flight. If no angle trims the moment, the body stays along the path, and `Glide.tail_moment` is the
+    Lift, drag and weight balance, with the same air loads as in flapping flight. The pitching moment vanishes too
+    if possible. If no angle trims the moment, the body stays along the path, and `Glide.tail_moment` is the
     moment that a tail would need to supply.
 
     Parameters
@@ -148,7 +148,7 @@ def glide_polar(
 
 
 def _best(solver: GlideSolver, glides: tuple[Glide, ...], cost: Any) -> Glide | None:
-    """Return the glide of minimum cost between the neighbours of the cheapest, or None if that one is at an end."""
+    """Return the glide of minimum cost between the cheapest glide's neighbours; None if that glide is at an end."""
     from scipy.optimize import minimize_scalar
 
     costs = np.nan_to_num([cost(glide) for glide in glides], nan=np.inf)

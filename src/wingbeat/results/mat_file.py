@@ -24,7 +24,7 @@ def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
     Parameters
     ----------
     dataset : an orbit's, a flight's, a curve's or a glide polar's.
-    results : what its attributes hold, from `results_of`.
+    results : the content of its attributes, from `results_of`.
     """
     from scipy.io import savemat
 
@@ -41,7 +41,7 @@ def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
 
 
 def _units(dataset: xr.Dataset, results: dict[str, Any], part: dict[str, Any], before: str) -> dict[str, Any]:
-    """Return the units of all numbers of a part of the results, by the same names."""
+    """Return the units of all numbers in a part of the results, under the same names."""
     found: dict[str, Any] = {}
     for key, value in part.items():
         path = f"{before}{key}"
@@ -54,12 +54,12 @@ def _units(dataset: xr.Dataset, results: dict[str, Any], part: dict[str, Any], b
 
 
 def _array(values: np.ndarray) -> np.ndarray:
-    """Return numbers as doubles, which MATLAB computes with, and texts as a cell array."""
+    """Return numbers as doubles, MATLAB's default type, and texts as a cell array."""
     return values.astype(float) if values.dtype.kind in "biuf" else values.astype(object)
 
 
 def _value(value: Any) -> Any:
-    """Return one part of a record as MATLAB holds it; what has no value is NaN."""
+    """Return one part of a record in MATLAB's types; a missing value becomes NaN."""
     if value is None:
         return np.nan
     if isinstance(value, dict):
@@ -73,7 +73,7 @@ def _value(value: Any) -> Any:
 
 
 def _listed(items: list[Any]) -> np.ndarray:
-    """Return a list as a matrix where it holds numbers, as a cell array otherwise."""
+    """Return a list as a matrix if it holds numbers, else as a cell array."""
     try:
         numbers = np.array(items, dtype=float)
         if not any(isinstance(item, str) for item in items):

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Summary(NamedTuple):
-    """What is known of an orbit without evaluating its loads."""
+    """The results of an orbit that need no evaluation of its loads."""
 
     status: Status
     message: str
@@ -44,7 +44,7 @@ _Flown = tuple[OrbitProblem, Wingbeat, Certificate]
 
 
 def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[str, Any]) -> xr.Dataset:
-    """Return the time series of what was flown of a wingbeat, with record and inputs as attributes."""
+    """Return the time series of a wingbeat, as far as it was flown, with record and inputs as attributes."""
     problem, wingbeat, certificate = flown()
     flight = problem.model, wingbeat, certificate.phase, certificate.states
     return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
@@ -79,7 +79,7 @@ class Orbit(Saveable):
         orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
         orbit.view()                  the flight in motion, in a notebook
         orbit.problem                 the problem it solves, to change and solve again
-        orbit.relaxations             where there is no orbit: the changes that make one
+        orbit.relaxations if there is no orbit: changes with which there is one
 
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
@@ -90,11 +90,11 @@ class Orbit(Saveable):
     Attributes
     ----------
     status : how the solver ended.
-    message : what that means, in terms of flight.
+    message : what the status means, in terms of flight.
     wingbeat : the wingbeat found.
     initial_state : the body's state at phase 0.
     unknowns : pitch state at phase 0 and free parameters, as the initial guess of a start.
-    relaxations : where there is no orbit, single changes that make one, the smallest first.
+    relaxations : if there is no orbit, single changes with which there is one, the smallest first.
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.
@@ -146,7 +146,7 @@ class Orbit(Saveable):
         return cls(summary, inputs, record, functools.partial(_series, flown, inputs), problem)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what is pickled: the record as it is here, and the time series if they were made."""
+        """Return the state to pickle: the record, and the time series if they have been computed."""
         return vars(self) | {"_record": self._record}
 
     @functools.cached_property
@@ -169,7 +169,7 @@ class Orbit(Saveable):
 
     @property
     def relaxations(self) -> tuple[Relaxation, ...]:
-        """Where there is no orbit, single changes that make one, the smallest first.
+        """Single changes with which there is an orbit, the smallest first; empty if there is one already.
 
         `Relaxation.apply` returns the changed problem.
         """
@@ -192,7 +192,7 @@ class Orbit(Saveable):
 
     @property
     def problem(self) -> OrbitProblem:
-        """The problem this orbit solves, set up again from its inputs unless they hold a user's function."""
+        """The problem that this orbit solves, set up again from its inputs unless these name a user's function."""
         if self._problem is not None and own_functions(self._inputs):
             return self._problem
         return problem_from(self._inputs)

@@ -97,7 +97,7 @@ def statements(record: dict[str, Any]) -> Statements:
 
 
 def _how(one: dict[str, Any]) -> str:
-    """Return how a number is outside its range, angles in degrees."""
+    """Return in words how a number is outside its range, angles in degrees."""
     value: float = one["value"]
     above = one["high"] is not None and value > one["high"]
     end: float = one["high" if above else "low"]

@@ -29,17 +29,18 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
 
     Returns
     -------
-    A dictionary for JSON: ``mean_power``, ``mean_positive_power``; ``braking``, the mean negative work;
-    ``cost_by_returned``, pairs of the share of negative work that is returned (-1: it costs as much as positive
-    work) and the cost; ``shares``, aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum
-    (``most``); ``spent``, what the power of all actuators is spent on, likewise: profile, induced, parasite and
-    unsteady air loads, and inertial, the rate of kinetic and potential energy; ``best_spring`` of both flap hinges
-    together with ``stiffness`` [N m/rad], ``rest_angle`` [rad], None if no spring helps, and the remaining
-    ``mean_positive_power``. All values are None if the flight diverged.
+    A dictionary for JSON; all values are None if the flight diverged. ``mean_power`` and ``mean_positive_power``
+    are those of the hinges. ``braking`` is the mean negative work. ``cost_by_returned`` holds pairs of the share of
+    negative work that is returned (-1: it costs as much as positive work) and the cost. ``shares`` has the parts
+    aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum (``most``). ``spent`` has the
+    same numbers for what the power of all actuators is spent on: profile, induced, parasite and unsteady air loads,
+    and inertial, the rate of change of kinetic and potential energy. ``best_spring`` gives, for both flap springs
+    together, ``stiffness`` [N m/rad], ``rest_angle`` [rad] (None if no spring helps) and the remaining
+    ``mean_positive_power``.
 
     Raises
     ------
-    InvalidInputError : the dataset is not an orbit, or it is of a version without shares.
+    InvalidInputError : the dataset is not an orbit, or a version of wingbeat without these parts wrote it.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
@@ -65,7 +66,7 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def spent_power(dataset: xr.Dataset) -> dict[str, np.ndarray]:
-    """Return what the power of the actuators is spent on over the beat [W]; the sum is that power.
+    """Return the time series of what the actuators' power is spent on [W]; their sum is this power.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ from wingbeat.vehicle import Air
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
-    """Return all inputs of a problem and its search, and those options of the solvers that are not the defaults."""
+    """Return all inputs of a problem and its search, and the solver options that differ from their defaults."""
     species = problem.species
     inputs = {
         "species": {
@@ -82,7 +82,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
 
 
 def own_functions(inputs: dict[str, Any]) -> list[str]:
-    """Return the names of what no file can bring back: objective, quantities and coefficients of the user's own."""
+    """Return the names of objective, quantities and coefficients of the user's own, which a file cannot restore."""
     names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
     own = [name for name in names if name.startswith(OWN)]
     aero = inputs["aero"]
@@ -90,7 +90,7 @@ def own_functions(inputs: dict[str, Any]) -> list[str]:
 
 
 def species_from(inputs: dict[str, Any]) -> Species:
-    """Set up the species of what `inputs_of` described; its reasons and alternatives are not in it.
+    """Set up the species that `inputs_of` described, without its reasons and alternatives, which are not stored.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def _asked_for(quantity: Quantity) -> str:
-    """Return the name that brings a quantity back; a user's function is in no file and gets a name that cannot."""
+    """Return the name that restores a quantity; a user's function cannot be restored and gets a name that fails."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
     except InvalidInputError:

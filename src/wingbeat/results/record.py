@@ -32,7 +32,7 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
-    """Return the vehicle of `vehicle_record`; a record without a tail has none.
+    """Return the vehicle that `vehicle_record` described; without a tail in the record, it has none.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers; the tilt of the tail only where it is one."""
+    """Return the wingbeat's numbers; the tail's tilt only if it is not zero."""
     left_out = ("tail_tilt",) if at_default(wingbeat, "tail_tilt") else ()
     return {
         name: list(value) if isinstance(value, tuple) else value
@@ -55,7 +55,7 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
 def orbit_record(solution: Solution) -> dict[str, Any]:
     """Return the record of an orbit.
 
-    What has no value (a cost of transport in hover, anything of a flight that ran off) is None, never NaN.
+    A number without a value (a cost of transport in hover, any number of a diverged flight) is None, never NaN.
     """
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
     beat = solution.beat()

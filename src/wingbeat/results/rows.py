@@ -57,7 +57,7 @@ def flight_rows(record: dict[str, Any]) -> Rows:
 
 
 def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
-    """Return each judged number with its range, and whether it is within it."""
+    """Return each judged number with its plausible range, and whether it is within the range."""
     rows = []
     for one in judged:
         factor, unit = for_people(cf(str(one["unit"])))
@@ -83,12 +83,12 @@ def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
 
 
 def change_rows(changes: list[dict[str, Any]]) -> Rows:
-    """Return the changes that fly."""
+    """Return the single changes that lead to an orbit."""
     return [("or" if i else "either", change["text"]) for i, change in enumerate(changes)]
 
 
 def wingbeat_rows(beat: dict[str, Any]) -> Rows:
-    """Return the numbers of a wingbeat, without laws that are off."""
+    """Return the numbers of a wingbeat, except those of motions that are off."""
     shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
     rows = [(name.replace("_", " "), _of(beat, name)) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
@@ -126,7 +126,7 @@ def power_rows(record: dict[str, Any]) -> Rows:
 
 
 def certificate_rows(record: dict[str, Any]) -> Rows:
-    """Return how far the orbit can be trusted."""
+    """Return the numbers of the certificate and of the search, which show how far to trust the orbit."""
     closure = record.get("closure") or {}
     rows = []
     if record.get("objective_value") is not None:
@@ -147,7 +147,7 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
 
 
 def stability_rows(record: dict[str, Any]) -> Rows:
-    """Return what the Floquet multipliers say."""
+    """Return what the Floquet multipliers say about stability."""
     pairs = record.get("floquet_multipliers") or []
     if not pairs or any(part is None for pair in pairs for part in pair):
         return []

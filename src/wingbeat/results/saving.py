@@ -23,9 +23,9 @@ _TEXTS = (
 
 
 def results_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return what the attributes of an orbit, a flight, a curve or a polar hold, as plain dictionaries and lists.
+    """Return the attributes of an orbit, a flight, a curve or a polar as plain dictionaries and lists.
 
-    All inputs together stay one JSON text, enough to find the result again.
+    All inputs together stay one JSON text, from which the result can be computed again.
     """
     found = {}
     for name, value in dataset.attrs.items():
@@ -51,7 +51,7 @@ SUFFIXES = (".nc", *_WRITERS)
 
 
 def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
-    """Note a fault unless a name ends like a file that a result can be written to."""
+    """Note a fault unless a file name has a suffix to which a result can be written."""
     if _suffix(path) not in SUFFIXES:
         fix = "end it in .nc (NetCDF, which wingbeat reads again), .csv or .mat"
         faults.add(where, os.fspath(path), "is not a format for results", fix)
@@ -60,7 +60,7 @@ def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) 
 def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
     """Write a result as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat), whole or not at all.
 
-    Only the first can be read again by wingbeat; all three hold every number, with its unit.
+    wingbeat can read only the .nc file again. All three hold every number, with its unit.
 
     Raises
     ------
@@ -89,7 +89,7 @@ class Saveable:
 
         Parameters
         ----------
-        path : of the file to write; its suffix, .nc, .csv or .mat, says which.
+        path : of the file to write; its suffix, .nc, .csv or .mat, determines the format.
 
         Raises
         ------

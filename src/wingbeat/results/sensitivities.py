@@ -67,8 +67,7 @@ class Sensitivities:
     def ranked(self, quantity: str = QUANTITIES[0]) -> list[Sensitivity]:
         """Return the sensitivities to the parameters; those that can change a quantity most come first.
 
-        They are ranked by the change over the plausible range, or, where there is none, by the change for one
-        percent.
+        They are ranked by the change over the plausible range, or, without a range, by the change for one percent.
 
         Parameters
         ----------
@@ -84,7 +83,7 @@ class Sensitivities:
     def swing(self, slope: Sensitivity, quantity: str) -> tuple[float, float]:
         """Return the change of a quantity to the low and to the high end of a parameter's plausible range.
 
-        Where there is no range, the ends are one percent below and above the value.
+        Without a range, the ends are one percent below and above the value.
 
         Parameters
         ----------
@@ -108,8 +107,8 @@ class Sensitivities:
 
         Parameters
         ----------
-        fit : the fit that the coefficients come from, read with `read_model`; without it they count as exact.
-        share : share of every range, about its value, that is used; the covariance is narrowed likewise.
+        fit : the fit from which the coefficients come, read with `read_model`; without it, they count as exact.
+        share : share of every range, around the value, that is used; the covariance is narrowed in the same way.
 
         Raises
         ------
@@ -149,9 +148,9 @@ def sensitivities(
 ) -> Sensitivities:
     """Differentiate an orbit with respect to every number it depends on, and price the bounds and limits that bind.
 
-    The derivative of the objective is that of the envelope theorem, ``dJ/dp - multipliers . dc/dp``; wingbeat and
-    other quantities follow from the conditions of the optimum (implicit function theorem; Fiacco 1983, Introduction
-    to Sensitivity and Stability Analysis in Nonlinear Programming).
+    The envelope theorem gives the derivative of the objective, ``dJ/dp - multipliers . dc/dp``. The derivatives of
+    the wingbeat and of other quantities follow from the conditions of the optimum (implicit function theorem;
+    Fiacco 1983, Introduction to Sensitivity and Stability Analysis in Nonlinear Programming).
 
     Parameters
     ----------
@@ -220,15 +219,15 @@ _BORNE_OUT = 0.9
 
 
 class Comparison(NamedTuple):
-    """A quantity's uncertainty to first order, compared with that of samples.
+    """A quantity's first-order uncertainty, compared with its uncertainty from random samples.
 
     Attributes
     ----------
     first_order : the first-order estimate.
     mean, deviation : mean and standard deviation of the samples.
-    standard_error : of that deviation.
-    explained : share of the samples' variance that the first order predicts draw by draw.
-    certified, drawn : number of draws that were certified, and of all.
+    standard_error : standard error of `deviation`.
+    explained : share of the samples' variance that the first-order estimate of each draw explains.
+    certified, drawn : number of certified draws, and number of all draws.
     """
 
     first_order: ErrorBar
@@ -241,7 +240,7 @@ class Comparison(NamedTuple):
 
     @property
     def first_order_holds(self) -> bool:
-        """Whether the samples confirm the first order; if not, it ranks the inputs but is no error bar."""
+        """Whether the samples confirm the first-order estimate; if not, use it only to rank the inputs."""
         return self.explained >= _BORNE_OUT
 
 

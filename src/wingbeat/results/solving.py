@@ -87,10 +87,10 @@ def solve_orbits(
 ) -> list[Orbit]:
     """Find and certify an orbit for each problem, in their order; similar problems help one another.
 
-    Of problems that differ in numbers only, the first are solved as by `solve_orbit`. The first start of each
-    later one begins at what their answers predict, and counts if it ends in a certified orbit. Where a problem has
-    several optima, that orbit may differ from the one that `solve_orbit` finds. The results do not depend on
-    `processes`.
+    Among problems that differ in numbers only, the first few are solved as by `solve_orbit`. For each later
+    problem, the first start is predicted from their solutions; it counts only if it leads to a certified orbit. If
+    a problem has several optima, this orbit may differ from the one that `solve_orbit` finds. The results do not
+    depend on `processes`.
 
     Records and time series are computed on demand, so you can hold thousands of orbits and look at a few.
 
@@ -101,12 +101,12 @@ def solve_orbits(
     processes : how many Python processes share the work. A script whose own functions or classes are in the
         problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
-    most_starts : starts for a problem without an orbit before the solver gives up, default 50; fewer end sooner.
+    most_starts : number of starts without an orbit after which the solver gives up; default 50. Fewer save time.
     advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does;
         this takes seconds for each.
-    in_order : the problems are a series, such as speeds in order, with the same free parameters. After its own
-        starts, each also starts from its neighbours' results, up and down the series until nothing improves. The
-        best family of orbits found anywhere thus spreads as far as it exists.
+    in_order : whether the problems are a series, such as speeds in order, with the same free parameters. Each
+        problem then also starts from its neighbours' results, up and down the series, until nothing improves. The
+        best family of orbits thus spreads over the series as far as it exists.
     options : of the solvers.
 
     Raises

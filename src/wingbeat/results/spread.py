@@ -21,8 +21,8 @@ class Spread(NamedTuple):
     Attributes
     ----------
     values : numbers of the draws that were certified, by their name in the record, shape (certified,) each.
-    estimates : the same numbers of the orbit itself.
-    asked : number of all draws.
+    estimates : the same numbers for the orbit itself.
+    asked : number of draws, certified or not.
     """
 
     values: dict[str, np.ndarray]
@@ -37,7 +37,7 @@ class Spread(NamedTuple):
     def standard_error(self, name: str) -> float | None:
         """Return the root mean square distance of the draws from the orbit; None if fewer than three are certified.
 
-        The distance is that from the orbit, not from the mean of the draws: a bias that noise adds counts too.
+        The distance is from the orbit, not from the mean of the draws, so that a bias due to noise counts too.
 
         Parameters
         ----------
@@ -57,7 +57,7 @@ def orbit_spread(
     Parameters
     ----------
     orbit : a certified orbit.
-    wingbeats : each replaces the problem's stock wingbeat; the problem's free parameters are solved for again.
+    wingbeats : each one replaces the problem's stock wingbeat; the problem's free parameters are then solved for.
     progress : called with (wingbeats done, wingbeats in all).
 
     Returns

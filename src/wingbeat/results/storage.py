@@ -33,12 +33,12 @@ _SIGNATURES = (b"\x89HDF\r\n\x1a\n",)
 
 
 def inputs_hash(inputs: dict[str, Any]) -> str:
-    """Return the SHA-256 of the inputs, the same for the same inputs whatever their order."""
+    """Return the SHA-256 of the inputs; the order of the inputs does not matter."""
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()
 
 
 def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return a record and its inputs as attributes: numbers and texts as they are, all else as JSON.
+    """Return a record and its inputs as attributes: numbers and texts unchanged, everything else as JSON.
 
     The statements on closure and plausibility are added as two texts.
     """
@@ -92,7 +92,7 @@ def _decode(name: str, value: Any) -> Any:
 
 
 def save_dataset(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
-    """Write a dataset as NetCDF-4, whole or not at all.
+    """Write a dataset as NetCDF-4, completely or not at all.
 
     Raises
     ------

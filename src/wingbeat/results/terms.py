@@ -32,10 +32,10 @@ class TermTrace:
 
     Attributes
     ----------
-    problem : with all of each term.
-    orbits : the best of each share, in order; those without a certified orbit say why.
+    problem : the problem with the full terms, at share 1.
+    orbits : the best orbit of each share, in order; one that is not certified says why.
     branches : every optimum that was found, and how they are linked.
-    seconds : that it took [s].
+    seconds : computing time [s].
     """
 
     problem: OrbitProblem
@@ -44,11 +44,11 @@ class TermTrace:
     seconds: float
 
     def record(self) -> dict[str, Any]:
-        """Return the trace as a JSON-able dictionary: SI units, radians, None for what has no value.
+        """Return the trace as a JSON-able dictionary: SI units, radians, None for missing values.
 
-        ``points`` has the best orbit of each share, with its ``family``; ``marks`` says between which shares the
-        best orbit changes branch or bounds, or is missing; ``same_family`` whether continuation leads from none of
-        the terms to all of them along the best orbits.
+        ``points`` has the best orbit of each share, with its ``family``. ``marks`` lists the shares between which
+        the best orbit changes branch or bounds, or is missing. ``same_family`` says whether continuation along the
+        best orbits leads from none of the terms to all of them.
         """
         labels = families(self.branches)
         marks = [mark._asdict() for mark in marks_of(self.branches)]
@@ -87,15 +87,15 @@ def trace_terms(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> TermTrace:
-    """Find the best orbits from none of the terms of a problem's air loads to all of them.
+    """Find the best orbits as the terms of a problem's air loads grow from none to all.
 
-    Every optimum found at a share is continued to the neighbouring shares. So the trace tells whether a term
-    changes the wingbeat step by step, or makes another family of wingbeats the best.
+    Every optimum found at a share is continued to the neighbouring shares. The trace thus shows whether a term
+    changes the wingbeat gradually, or makes another family of wingbeats the best.
 
     Parameters
     ----------
-    problem : with ``unsteady`` or ``inflow`` in its air loads, or both; they grow together. Without any inflow, at
-        share 0, the coefficients are still those of sections.
+    problem : with ``unsteady`` or ``inflow`` in its air loads, or both; they grow together. With ``inflow``, the
+        coefficients are those of sections also at share 0, where there is no induced flow.
     shares : at least two, increasing, from 0 (none) to 1 (all).
     starts : number of starts at the first and the last share; each between gets a third as many.
     seed : of the random starts.
@@ -133,5 +133,5 @@ def trace_terms(
 
 
 def found_any(trace: TermTrace) -> bool:
-    """Say whether some share has a certified orbit."""
+    """Return whether some share has a certified orbit."""
     return any(certified(optima[0]) for optima in trace.branches.optima)

@@ -31,7 +31,7 @@ _RIVAL = 0.01
 
 
 def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
-    """Return what a reader should know before trusting an orbit."""
+    """Return the warnings that a reader should see before trusting an orbit."""
     problem = solution.problem
     air = problem.air
     notes = list(problem.species.warnings)
@@ -77,7 +77,7 @@ def at_lower_bound(solution: Solution) -> list[str]:
 
 
 def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
-    """Return the species' bounds of a parameter or of the path; a user's own bounds are no guess."""
+    """Return the species' bounds of a parameter or of the path; bounds set by the user do not count as guesses."""
     species = problem.species
     return (species.path_bounds | species.bounds)[name]
 
@@ -106,7 +106,7 @@ def rivals(solution: Solution) -> list[str]:
 
 
 def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
-    """Warn of wings that pass through the plane of symmetry, and so through each other, or turn past their joints.
+    """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range.
 
     The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
     """
@@ -142,7 +142,7 @@ def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
 
 
 def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
-    """Warn where unsteady terms without the wake overstate lift: its lag grows with the reduced frequency.
+    """Warn if the unsteady terms overstate lift: they leave out the wake's lag, which grows with reduced frequency.
 
     Theodorsen's function falls to 0.69 of steady lift at a reduced frequency of 0.3, and to 0.55 at 1.
     """
@@ -152,7 +152,7 @@ def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
         return []
     return [
         f"the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of {_LAG:g} "
-        f"({'in hover' if math.isinf(reduced) else f'here {reduced:.2g}'}): they overstate lift that follows alpha"
+        f"({'in hover' if math.isinf(reduced) else f'here {reduced:.2g}'}): the lift from alpha is overstated"
     ]
 
 
@@ -193,14 +193,14 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
 
 
 def guessed(coefficients: CoefficientModel) -> list[str]:
-    """Say so where the coefficients are in part a guess."""
+    """Warn if the coefficients are in part a guess."""
     if getattr(coefficients, "grade", "") != "C":
         return []
     return [f"the coefficients of {coefficients.name} are in part a guess; wb.aero.WING_ESTIMATES says which"]
 
 
 def _beyond(coefficients: CoefficientModel) -> str:
-    """Return what gives the coefficients beyond the angles of the fit."""
+    """Return in words where the coefficients beyond the angles of the fit come from."""
     if isinstance(coefficients, CamberedCoefficients):
         return "the join to a plate, or the plate itself,"
     return f"the extension '{coefficients.extension}'"

@@ -32,18 +32,18 @@ _SMALL = 1e-3  # of the weight: a mean force below it has no ratio
 
 @dataclass(frozen=True)
 class SecondOpinion:
-    """One motion, and the loads that several codes find on it.
+    """One motion, and the air loads that two codes compute for it.
 
     Attributes
     ----------
     code : name and version of the other code.
-    species, speed : what flies, and its mean forward speed [m/s].
+    species, speed : name of the species, and its mean forward speed [m/s].
     weight : [N].
     options : of the lattice.
     phase : phases of the samples, shape (K,).
-    terms : the terms of the orbit's own loads, (unsteady, inflow).
-    ours : our loads by terms; None where the coefficients cannot have these terms.
-    refused : why, by terms.
+    terms : (unsteady, inflow), the terms with which the orbit was computed.
+    ours : our loads for each pair of terms; None if the coefficients do not allow these terms.
+    refused : for each pair of terms without loads, the reason.
     theirs : loads of the lattice.
     """
 
@@ -60,14 +60,14 @@ class SecondOpinion:
 
     @property
     def own(self) -> WingLoads:
-        """Our loads with the terms of the orbit."""
+        """Our loads with the terms with which the orbit was computed."""
         found = self.ours[self.terms]
         assert found is not None  # the orbit was solved with them
         return found
 
     @property
     def beyond(self) -> np.ndarray:
-        """Whether our strips are beyond 15 degrees of angle of attack, shape (K, N)."""
+        """Whether the angle of attack of each of our strips exceeds 15 degrees, shape (K, N)."""
         alpha = self.own.alpha
         assert alpha is not None  # our loads have strips
         return np.abs(alpha) > ATTACHED
@@ -101,7 +101,7 @@ class SecondOpinion:
 def compare_with_lattice(
     orbit: Orbit, options: LatticeOptions | None = None, progress: Callable[[int, int], None] | None = None
 ) -> SecondOpinion:
-    """Replay an orbit in a vortex lattice, and our own loads on the same motion with each term and without.
+    """Compute the loads of a vortex lattice on an orbit's motion, and our own loads with and without each term.
 
     Needs the extra ``uvlm``.
 
@@ -113,7 +113,7 @@ def compare_with_lattice(
 
     Raises
     ------
-    InvalidInputError : an orbit that does not close, or flies slower than its wake sinks.
+    InvalidInputError : an orbit that does not close, or that flies more slowly than the wake sinks in hover.
     FileError : PteraSoftware is not installed.
     """
     options = options or LatticeOptions()
@@ -137,9 +137,9 @@ def lattice_loads(
 ) -> WingLoads:
     """Return the loads of the lattice on a motion, at every second step of a beat.
 
-    The lattice differentiates places and circulation by the step before, so that its loads come late by up to a
-    step; that error, and those of the panels, are in proportion to their size. They are extrapolated to panels and
-    steps of no size from a lattice with all of them and one with half as many each way.
+    The lattice uses backward differences of position and circulation, so its loads are late by up to a step. This
+    error, and that of the panels, is proportional to the size of steps and panels. We remove both by extrapolation
+    from two lattices: the given one, and one with half as many steps and panels in each direction.
 
     Parameters
     ----------
@@ -175,8 +175,8 @@ def _check(status: str, vehicle: Any, air: Any, speed: float, climb: float) -> N
     hover = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * math.pi * vehicle.wing.semi_span**2))
     if math.hypot(speed, climb) < hover:
         rule = (
-            f"is slower than {hover:.2g} m/s, at which the wake sinks in hover; the lattice's wake stays where it "
-            "was shed and would remain between the wings"
+            f"is slower than {hover:.2g} m/s, the speed at which the wake sinks in hover. The lattice's wake does "
+            "not move after it is shed and would stay between the wings"
         )
         faults.add("speed", speed, rule, "compare an orbit at a higher speed")
     faults.raise_if_any()
@@ -197,7 +197,7 @@ def _with_each_term(
 
 
 def differences(ours: WingLoads, theirs: WingLoads, weight: float) -> dict[str, Any]:
-    """Return means, their ratios, and how the lifts differ over the beat.
+    """Return the mean loads, their ratios, and the differences between the two lifts over the beat.
 
     Parameters
     ----------
@@ -226,9 +226,9 @@ def _rms(values: np.ndarray) -> float:
 
 
 def lag(first: np.ndarray, second: np.ndarray) -> float:
-    """Return by which share of a beat the second of two periodic series comes later, between -0.5 and 0.5.
+    """Return the delay of the second of two periodic series, as a share of a beat between -0.5 and 0.5.
 
-    It is the shift at which their correlation is largest.
+    The delay is the shift at which the correlation of the two series is largest.
 
     >>> beat = np.arange(40) / 40
     >>> round(lag(np.cos(2 * np.pi * beat), np.cos(2 * np.pi * (beat - 0.1))), 3)

@@ -16,17 +16,17 @@ _CLOSE = 0.02  # of the semi-span: roots nearer to the plane of symmetry leave n
 
 @dataclass(frozen=True)
 class LatticeOptions:
-    """How fine the lattice is, and how long it flies before its loads count.
+    """The resolution of the lattice, and the number of beats that it flies.
 
-    A lattice of half these panels and steps is flown too, to extrapolate, so these are even. The page
-    `docs/second_opinion.md` has the convergence study behind the defaults.
+    For extrapolation, a lattice with half as many panels and steps is flown too, so numbers of panels and steps are
+    even. The page `docs/second_opinion.md` has the convergence study behind the defaults.
 
     Parameters
     ----------
     chordwise : number of panels along the chord.
     spanwise : number of panels along the span of one wing.
     steps : number of time steps of a beat.
-    beats : number of beats flown from rest; the loads are those of the last, and the wake holds all of them.
+    beats : number of beats flown from rest. The loads of the last beat are used; the wake of all beats is kept.
 
     Raises
     ------
@@ -60,16 +60,16 @@ class LatticeOptions:
 def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np.ndarray:
     """Return the corners of the panels of both wings [m], shape (K, C + 1, 2 S + 1 or 2, 3).
 
-    From the leading edge to the trailing edge, and from the tip of the left wing to that of the right wing, in axes
-    that fly at the mean velocity (x forward, y left, z up). Every corner is a point of the wing that our strips
-    make up. A column of panels across the body joins the wings, so that no vortex ends at their roots; no load of
-    ours stands for it, and `sum_of_panels` leaves it out. Wings whose roots come too close to the plane of symmetry
-    have no room for it: their points at the root are moved along y into that plane.
+    Corners run from leading to trailing edge and from the left tip to the right tip, in axes that fly at the mean
+    velocity (x forward, y left, z up). Every corner is a point of our strips' wing. A column of panels across the
+    body joins the wings, so that no vortex ends at their roots. Our loads have nothing to compare with this column,
+    so `sum_of_panels` leaves it out. If the roots come too close to the plane of symmetry for this column, their
+    points are moved along y into the plane.
 
     Parameters
     ----------
     motion : of the wings.
-    options : how many panels there are.
+    options : the numbers of panels.
     phase : phases of any beat, shape (K,).
     """
     along = np.linspace(0.0, 1.0, options.spanwise + 1)
@@ -85,7 +85,7 @@ def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np
 def panel_velocities(
     corners: np.ndarray, step: float, velocity: tuple[float, float]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return velocity in still air [m/s] and turning rate [rad/s] of every panel, shape (K, C, S, 3) each.
+    """Return every panel's velocity through still air [m/s] and turning rate [rad/s], shape (K, C, S, 3) each.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def sum_of_panels(
 
     Parameters
     ----------
-    spanwise : panels along the span of one wing, S; others, across the body, do not count.
+    spanwise : panels along the span of one wing, S; the panels across the body are left out.
     corners, step, velocity : as in `panel_velocities`.
     force : on the panels [N], shape (K, C, S, 3).
     moment : of these forces about the origin of the corners [N m], shape (K, C, S, 3).

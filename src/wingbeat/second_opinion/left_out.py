@@ -11,14 +11,14 @@ LATTICE = (
 
 
 def left_out(unsteady: str, inflow: str) -> dict[str, list[str]]:
-    """Return what our loads with these terms and the lattice leave out.
+    """Return the effects that our loads with these terms leave out, and those that the lattice leaves out.
 
     >>> left_out("thin-aerofoil", "momentum")["ours"]
     ['the wake of earlier parts of the beat (its lag)', 'loads of one strip on its neighbours']
     """
     ours = ["the wake of earlier parts of the beat (its lag)", "loads of one strip on its neighbours"]
     if inflow == "none":
-        ours.insert(0, "induced flow, but for what the measured coefficients hold")
+        ours.insert(0, "induced flow, except what the measured coefficients contain")
     if unsteady == "none":
         ours.insert(0, "rotation and added mass")
     return {"ours": ours, "theirs": list(LATTICE)}

@@ -22,11 +22,11 @@ _RATES = {"u": "u_rate", "w": "w_rate", "pitch_rate": "pitch_acceleration"}
 
 @dataclass(frozen=True)
 class Motion:
-    """One beat of a vehicle and its wings, which repeats.
+    """The periodic motion of a vehicle and its wings, given as one beat.
 
     Attributes
     ----------
-    vehicle, wingbeat, air : what flies, how it beats, and in what.
+    vehicle, wingbeat, air : the vehicle, its wingbeat, and the air.
     velocity : mean velocity, forward and up [m/s].
     """
 

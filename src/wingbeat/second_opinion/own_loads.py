@@ -24,7 +24,7 @@ class WingLoads(NamedTuple):
     Attributes
     ----------
     thrust, lift : force forward and up in the world [N].
-    power : that the wings give to the air, minus force times velocity in still air [W].
+    power : power that the wings give to the air: minus force times velocity relative to still air [W].
     alpha : angles of attack of the strips [rad], shape (K, N); None where the code has no strips.
     """
 
@@ -35,17 +35,17 @@ class WingLoads(NamedTuple):
 
 
 def own_loads(motion: Motion, aero: BladeElement, phase: np.ndarray) -> WingLoads:
-    """Return the loads of blade elements on a motion.
+    """Return the air loads of our blade elements for a given motion.
 
     Parameters
     ----------
-    motion : of the vehicle; its accelerations need not be those that these loads would cause.
+    motion : of the vehicle; its accelerations need not agree with these loads.
     aero : the air loads.
     phase : phases of one beat, shape (K,).
 
     Raises
     ------
-    InvalidInputError : an inflow without an answer at the mean velocity.
+    InvalidInputError : an inflow model that has no solution at the mean velocity.
     """
     model = FlightModel(motion.vehicle, aero, motion.air, motion.velocity)
     acceleration = jnp.asarray(motion.acceleration(phase))

@@ -22,7 +22,7 @@ _TO_WORLD = np.array([-1.0, -1.0, 1.0])
 
 
 class PanelLoads(NamedTuple):
-    """Loads on the panels at the steps that were asked for, shape (K, C, S, 3).
+    """Loads on the panels at the requested steps, shape (K, C, S, 3).
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ def fly_lattice(
 
 
 def _airplane(ps: Any, corners: np.ndarray) -> Any:
-    """Return an airplane whose only wing has panels with these corners, aft, right and up."""
+    """Return an airplane with one wing, whose panels have these corners (axes aft, right and up)."""
     rows, columns = corners.shape[0] - 1, corners.shape[1] - 1
     chord = float(np.linalg.norm(np.diff(corners, axis=0), axis=-1).sum(axis=0).mean())
     span = float(np.linalg.norm(np.diff(corners[0], axis=0), axis=-1).sum())
@@ -99,7 +99,7 @@ def _airplane(ps: Any, corners: np.ndarray) -> Any:
         return ps.geometry.wing_cross_section.WingCrossSection(airfoil=flat, chord=chord, **place)
 
     class GivenWing(ps.geometry.wing.Wing):
-        """A wing whose panels are given; its cross sections say no more than its mean chord and span."""
+        """A wing whose panels are given; its cross sections only serve to give its mean chord and span."""
 
         __slots__ = ()
 
@@ -138,7 +138,7 @@ def _panels(corners: np.ndarray) -> np.ndarray:
 
 def _movement(ps: Any) -> Any:
     class GivenMovement(ps.movements.movement.Movement):
-        """A movement that is its airplanes; the base class has no constructor that takes them."""
+        """A movement made from given airplanes, for which the base class has no constructor."""
 
         __slots__ = ()
 
@@ -154,7 +154,7 @@ def _movement(ps: Any) -> Any:
 
 def _solver(ps: Any, progress: Callable[[int, int], None] | None) -> Any:
     class ReportingSolver(ps.unsteady_ring_vortex_lattice_method.UnsteadyRingVortexLatticeMethodSolver):
-        """The solver as it is; it says how far it is."""
+        """The unchanged solver, which also reports its progress."""
 
         __slots__ = ()
 

@@ -8,12 +8,12 @@ _TEMPLATE = "template"
 
 
 def packaged_text(name: str) -> str:
-    """Return the text of a TOML file in the box."""
+    """Return the text of a TOML file that the package contains."""
     return resources.files("wingbeat").joinpath("data", f"{name}.toml").read_text(encoding="utf-8")
 
 
 def template() -> str:
-    """Return a complete, commented species file to start from; it loads as it is.
+    """Return a complete, commented species file to start from; it can be loaded without changes.
 
     >>> "semi_span" in template()
     True

@@ -17,7 +17,7 @@ MAX_FAULTS = 100
 
 
 class Shown(str):
-    """Words that stand in a fault in the place of a value."""
+    """Words that a fault shows in place of a value."""
 
     def __repr__(self) -> str:
         return str(self)
@@ -27,7 +27,7 @@ NOTHING = Shown("nothing")
 
 
 def shown(value: Any) -> Any:
-    """Return a value that can be printed on one line; a file may hold what Python cannot (10**5000)."""
+    """Return a value in a form that prints on one line; Python cannot print some values of a file (10**5000)."""
     flat = isinstance(value, list | tuple) and all(isinstance(item, int | float) for item in value)
     try:
         text = repr(value) if flat or not isinstance(value, dict | list | tuple) else ""
@@ -53,13 +53,13 @@ def dotted(path: Iterable[Any]) -> str:
 
 
 def spoken(path: Any) -> str:
-    """Return a path somebody typed as it is if it can be printed, else in quotes with escapes."""
+    """Return a path that the user typed: unchanged if it can be printed, else in quotes with escapes."""
     text = str(shown(path))
     return text if text.isprintable() and text.strip() and len(text) <= 80 else json.dumps(text)[:80]
 
 
 def check_shape(raw: dict[str, Any], faults: FaultList) -> None:
-    """Note every wrong key, type and shape in what a TOML file held."""
+    """Note every wrong key, type and shape in the content of a TOML file."""
     try:
         SpeciesFile.model_validate(raw)
     except ValidationError as error:
@@ -67,7 +67,7 @@ def check_shape(raw: dict[str, Any], faults: FaultList) -> None:
 
 
 def check_value(key: Key, where: str, value: Any, faults: FaultList) -> bool:
-    """Note a fault unless `value` has the shape of `key`; say whether it has."""
+    """Note a fault unless `value` has the shape of `key`; return whether it has."""
     try:
         ADAPTERS[key.shape].validate_python(value)
     except ValidationError as error:
@@ -77,7 +77,7 @@ def check_value(key: Key, where: str, value: Any, faults: FaultList) -> bool:
 
 
 def has_shape(shape: str, value: Any) -> bool:
-    """Say whether a value has one of the shapes of a `Key`."""
+    """Return whether a value has one of the shapes of a `Key`."""
     try:
         ADAPTERS[shape].validate_python(value)
     except ValidationError:
@@ -86,7 +86,7 @@ def has_shape(shape: str, value: Any) -> bool:
 
 
 def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
-    """Turn pydantic's faults, found at or below `where`, into ours."""
+    """Note pydantic's errors at or below `where` as our faults."""
     found = error.errors(include_url=False)
     for fault in found[:MAX_FAULTS]:
         value, loc = fault["input"], fault["loc"]
@@ -101,7 +101,7 @@ def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
 
 
 def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
-    """Return rule and fix for one of pydantic's kinds of fault."""
+    """Return the rule and the fix for one of pydantic's kinds of error."""
     match kind:
         case "missing":
             return "must be given", ""

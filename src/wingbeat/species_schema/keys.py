@@ -24,12 +24,12 @@ class Key(NamedTuple):
 
     @property
     def spellings(self) -> tuple[str, ...]:
-        """The paths a file may use: an angle also goes by its name in degrees."""
+        """The paths that a file may use; an angle may also have its name in degrees."""
         return (self.path, f"{self.path}_deg") if self.unit == "rad" else (self.path,)
 
 
 def _key(path: str, required: bool = True, shape: str = "number") -> Key:
-    """Return the key of a path with what the table of names says of it."""
+    """Return the key of a path, with unit and meaning from the nomenclature."""
     term = find(path)
     assert term is not None, path
     return Key(path, plain(term.unit), term.definition, required, shape)

@@ -72,9 +72,9 @@ class RangeTable(BaseModel):
 
 
 def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
-    """Return a model of optional fields whose required ones stand in the JSON schema alone.
+    """Return a model in which all fields are optional; only the JSON schema marks the required ones.
 
-    `reading` notes what is absent, since an angle may go by either of two names.
+    The module `reading` notes missing fields, because an angle may have either of two names.
     """
     rules = [{"oneOf": [{"required": [n]} for n in names.split()]} for names in required]
     schema: dict[str, Any] = ({"allOf": rules} if rules else {}) | extra
@@ -100,9 +100,9 @@ def _bounded(_: Key) -> Any:
 def _section(
     prefix: str, complete: bool, inner: dict[str, Any] | None = None, optional: tuple[str, ...] = ()
 ) -> Any:
-    """Return the field of one table; TOML has no null, so a table that is absent is simply not checked.
+    """Return the field of one table. TOML has no null, so an absent table is simply not checked.
 
-    Of the tables in `inner`, a complete one must have those that are not `optional`.
+    A complete table must have those tables of `inner` that are not `optional`.
     """
     own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
     required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]

@@ -33,9 +33,9 @@ class Bound(NamedTuple):
 
 
 class Range(NamedTuple):
-    """What is plausible of a quantity, SI and radians: None at an end that nothing is known of.
+    """The plausible range of a quantity, SI and radians; an unknown end is None.
 
-    `speeds` are the flight speeds that it holds at [m/s], all of them if None.
+    `speeds` are the lowest and highest flight speed at which it applies [m/s]; None means all speeds.
     """
 
     low: float | None = None
@@ -46,7 +46,7 @@ class Range(NamedTuple):
 
 
 class Numbers(dict[str, Number]):
-    """Numbers by path, which remember how each was written, so that a fault can quote it."""
+    """Numbers by path, with the original text of each, so that a fault can quote it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -58,7 +58,7 @@ class Numbers(dict[str, Number]):
         self.written[key.path] = (path, value)
 
     def quote(self, fault: Fault) -> Fault:
-        """Return a fault of a record's constructor in the words of the file: its path, value and unit."""
+        """Return a constructor's fault with the path, value and unit that the file uses."""
         where = fault.where if fault.where.startswith(("wingbeat.", "air.")) else f"vehicle.{fault.where}"
         for canonical, (path, value) in self.written.items():
             rest = where[len(canonical) :]
@@ -69,7 +69,7 @@ class Numbers(dict[str, Number]):
 
 
 class Alternative(NamedTuple):
-    """Numbers somebody measured or assumed in place of the defaults, and why they are worth a trial."""
+    """Measured or assumed numbers that may replace the defaults, and why they are worth a trial."""
 
     reason: str
     numbers: Numbers
@@ -77,7 +77,7 @@ class Alternative(NamedTuple):
 
 @dataclass
 class SpeciesText:
-    """What a species file says, before any physics."""
+    """The content of a species file, before any check of its physics."""
 
     name: str
     common_name: str = ""
@@ -104,13 +104,13 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
 
 
 def read_species_text(text: str, label: str, name: str, faults: FaultList) -> SpeciesText:
-    """Return what a species file says; faults are noted and what they concern is left out.
+    """Return the content of a species file; note its faults and leave out the entries that have them.
 
     Parameters
     ----------
-    text, label : the TOML text, and how to call the file in a message.
+    text, label : the TOML text, and the name of the file for messages.
     name : the name of the species if the file gives none.
-    faults : takes every fault of keys, types, shapes, units and of what is missing.
+    faults : receives every fault of keys, types, shapes and units, and every missing key.
 
     Raises
     ------
@@ -137,14 +137,14 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
 
 
 def to_si(value: Any, path: str) -> Value:
-    """Return a number or list of the right shape in SI units; `path` tells degrees from radians."""
+    """Return a number or list of the right shape in SI units; `path` shows whether it is in degrees."""
     if isinstance(value, list):
         return tuple(float(to_si(item, path)) for item in value)  # type: ignore[arg-type]
     return math.radians(value) if path.endswith("_deg") else float(value)
 
 
 def display(path: str, number: Number) -> tuple[str, Number]:
-    """Return path and number as a reader wants them: angles in degrees, named so."""
+    """Return path and number for readers: angles are in degrees, with ``_deg`` in the path."""
     if number.unit != "rad":
         return path, number
 
@@ -158,12 +158,12 @@ def display(path: str, number: Number) -> tuple[str, Number]:
 
 
 def _line(text: Any) -> str:
-    """Return a text on one line, as messages and tables want it; nothing if it is none."""
+    """Return a text on one line, as messages and tables need it; an empty text if it is no text."""
     return " ".join(text.split()) if isinstance(text, str) else ""
 
 
 def _leaf(raw: dict[str, Any], path: str) -> Any:
-    """Return what stands at a path, or None."""
+    """Return the value at a path, or None."""
     place: Any = raw
     for part in path.split("."):
         place = place.get(part) if isinstance(place, dict) else None
@@ -171,7 +171,7 @@ def _leaf(raw: dict[str, Any], path: str) -> Any:
 
 
 def _spelt(raw: dict[str, Any], key: Key, prefix: tuple[str, ...], faults: FaultList) -> Iterator[tuple[str, Any]]:
-    """Yield the path and the leaf of a key under whichever of its names the file uses."""
+    """Yield the path and the value of a key for each of its names that the file uses."""
     found = [(path, leaf) for path in key.spellings if (leaf := _leaf(raw, path)) is not None]
     if len(found) > 1:
         where = dotted((*prefix, *found[1][0].split(".")))
@@ -261,7 +261,7 @@ def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -
 
 
 def _tidy(unit: str) -> str:
-    """Return a unit without the marks that tell nothing: m^2, m² and m**2 are m2."""
+    """Return a unit in its plain form: m^2, m² and m**2 become m2."""
     for old, new in (("**", ""), ("^", ""), ("²", "2"), ("³", "3"), (" ", ""), ("·", ""), ("*", "")):
         unit = unit.replace(old, new)
     return unit

@@ -32,7 +32,7 @@ _LOOPBACK = "127.0.0.1:0"
 
 
 def check_dask(faults: FaultList, where: str, value: Any) -> None:
-    """Note a fault unless `value` is or names a Dask cluster."""
+    """Note a fault unless `value` is a Dask cluster or the address of one."""
     if isinstance(value, str):
         known = _LOCAL.fullmatch(value) or _REMOTE.fullmatch(value)
     else:
@@ -43,13 +43,13 @@ def check_dask(faults: FaultList, where: str, value: Any) -> None:
 
 
 class DaskEngine:
-    """Workers of a Dask cluster; each thread of theirs takes one batch and runs it in a process of its own.
+    """The workers of a Dask cluster; each of their threads takes one batch and runs it in its own process.
 
     Parameters
     ----------
     where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
         cluster of Dask's own, as of dask-jobqueue.
-    timeout : seconds without a word from a process that has work, after which it is ended.
+    timeout : a process with work that sends nothing for so many seconds is ended.
     told : called with notices for the user: no workers yet, other versions on the workers.
 
     Raises
@@ -84,13 +84,13 @@ class DaskEngine:
 
     @property
     def workers(self) -> int:
-        """How many batches it works on at a time; one waits for the first worker."""
+        """Number of batches that the engine works on at the same time; 1 before the first worker joins."""
         self._look()
         return max(1, sum(self._threads.values()))
 
     @property
     def free(self) -> int:
-        """How many more batches it takes now; a few wait at the scheduler, so that no worker waits for us."""
+        """Number of batches that the engine accepts now; a few wait at the scheduler to keep the workers busy."""
         if self._suspects or self._alone is not None:
             return 0
         return self.workers + self.workers // 8 + 1 - len(self._flying)
@@ -120,12 +120,12 @@ class DaskEngine:
         return ended
 
     def _watch(self, batch: int, future: Future) -> None:
-        """Wait for a future without standing still."""
+        """Remember a future, and have its batch queued as finished when it ends, without blocking."""
         self._flying[batch] = future
         future.add_done_callback(lambda _: self._done.put(batch))
 
     def _end(self, batch: int, future: Future) -> Ended | None:
-        """Return how a batch ended, None where it goes on."""
+        """Return how a batch ended; None if it is still running."""
         from distributed import KilledWorker
 
         try:
@@ -144,7 +144,7 @@ class DaskEngine:
         return None
 
     def close(self) -> None:
-        """End every process that works for this study now; a cluster of others' goes on without it."""
+        """End every process that works for this study; a cluster that we did not start goes on."""
         with suppress(Exception):  # leaving a cluster that may be half gone
             if self._client.status == "running":
                 self._client.cancel(list(self._flying.values()))
@@ -163,7 +163,7 @@ class DaskEngine:
             raise ClusterError(f"the Dask scheduler at {self._where} is gone; {fix}")
 
     def _look(self) -> None:
-        """Check from time to time which workers the scheduler has, and examine new ones."""
+        """Check from time to time which workers the scheduler has, and check the versions of new ones."""
         self._check()
         if time.monotonic() < self._looked + _LOOK:
             return
@@ -180,7 +180,7 @@ class DaskEngine:
         self._looked = time.monotonic()
 
     def _meet(self, addresses: Iterable[str]) -> list[str]:
-        """Return the new workers that answer; refuse other numerical versions, report other package versions."""
+        """Return the new workers that answer; refuse other numerical versions and report other package versions."""
         if not (new := sorted(addresses)):
             return []
         _, ours = greet()
@@ -201,7 +201,7 @@ class DaskEngine:
                     others.setdefault(f"{package} {version}, not {ours.get(package)}", []).append(name)
         for what, who in others.items():
             whose = who[0] if len(who) == 1 else f"{who[0]} and {len(who) - 1} more Dask workers"
-            self._told(f"{whose}: {what}; results agree to their certificates, not to the last digit")
+            self._told(f"{whose}: {what}; results agree within their certificates' tolerance only")
         return met
 
 
@@ -213,7 +213,7 @@ def _named(error: BaseException) -> str:
 
 
 def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
-    """Return a client, and the cluster where it is our own."""
+    """Return a client, and the cluster if we started it, else None."""
     try:
         import distributed
     except ImportError:

@@ -35,8 +35,8 @@ class Order(NamedTuple):
     batch : its number.
     units : its points.
     work : what the processes run, ``module:function``.
-    timeout : seconds without a word from a process, after which it is ended.
-    driver : name of the driver that asks.
+    timeout : a process that sends nothing for so many seconds is ended.
+    driver : name of the driver that sends the batch.
     numerical_version : of that driver.
     """
 
@@ -49,13 +49,13 @@ class Order(NamedTuple):
 
 
 def greet() -> tuple[int, dict[str, str]]:
-    """Return the numerical version, and the versions of all that an answer's last digit depends on."""
+    """Return the numerical version, and the versions of all packages that affect a result's last digits."""
     versions = {name: importlib.metadata.version(name) for name in _TOLD}
     return NUMERICAL_VERSION, {"wingbeat": __version__, "Python": platform.python_version(), **versions}
 
 
 class _Crew:
-    """The processes of this Dask worker: each lent to one batch at a time, ended when nobody asks for a while."""
+    """The processes of this Dask worker; each serves one batch at a time, and idle ones end after a while."""
 
     def __init__(self) -> None:
         self.gone: set[str] = set()
@@ -65,7 +65,7 @@ class _Crew:
 
     @contextmanager
     def lend(self, work: str, timeout: float) -> Iterator[LocalProcesses]:
-        """Lend a process; it is ended where its batch does not end in order."""
+        """Provide a process for a block; end the process if the block's batch does not end normally."""
         kind = work, timeout
         with self._lock:
             self._timer.cancel()
@@ -85,7 +85,7 @@ class _Crew:
             self._timer.start()
 
     def dismiss(self) -> None:
-        """End the processes that have no work."""
+        """End the idle processes."""
         with self._lock:
             self._timer.cancel()
             idle, self._idle = self._idle, []
@@ -97,17 +97,17 @@ _crew = _Crew()
 
 
 def dismiss(driver: str) -> None:
-    """End what works for a driver that leaves."""
+    """End the processes that work for a driver that has left."""
     _crew.gone.add(driver)
     _crew.dismiss()
 
 
 def solve_batch(order: bytes) -> Ended:
-    """Have a process solve an order, and return how it ended.
+    """Solve an order in a process, and return how it ended.
 
     Raises
     ------
-    ClusterError : this machine's wingbeat is another one, or no process can be started here.
+    ClusterError : this machine has another version of wingbeat, or no process can be started here.
     """
     asked: Order = pickle.loads(order)
     here = socket.gethostname()
@@ -134,6 +134,6 @@ def _solve(asked: Order, process: LocalProcesses) -> Ended:
 
 
 def other_numbers(who: str, theirs: int, ours: int) -> str:
-    """Return why a worker of another numerical version is refused."""
+    """Return the message that refuses a worker of another numerical version."""
     fix = "its results cannot be mixed with these: install the same wingbeat there"
     return f"{who} has a wingbeat of numerical version {theirs}, this one is of {ours}; {fix}"

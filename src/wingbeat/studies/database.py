@@ -29,11 +29,11 @@ CREATE INDEX points_status ON points (key, status, run_number);
 
 
 class DamagedStoreError(FileError):
-    """Something in a store differs from what was written there."""
+    """The content of a store differs from what was written to it."""
 
 
 def connect(path: Path, mode: str) -> sqlite3.Connection:
-    """Open a database without waiting for others longer than a moment; transactions are begun by hand."""
+    """Open a database; wait only briefly for other programs, and leave the start of transactions to the caller."""
     connection = sqlite3.connect(f"{path.absolute().as_uri()}?{mode}", uri=True, timeout=10.0, isolation_level=None)
     try:
         connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchall()
@@ -44,7 +44,7 @@ def connect(path: Path, mode: str) -> sqlite3.Connection:
 
 
 def connect_reader(path: Path) -> sqlite3.Connection:
-    """Open a database that may lie where nothing can be written, or be written to while it is read."""
+    """Open a database for reading, even in a read-only folder or while another process writes to it."""
     try:
         connection = connect(path, "mode=rw")
     except sqlite3.OperationalError:
@@ -57,7 +57,7 @@ def connect_reader(path: Path) -> sqlite3.Connection:
 
 @contextmanager
 def closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
-    """Close a connection at the end, whatever happens to it."""
+    """Close a connection at the end of a block, whatever happens in it."""
     try:
         yield connection
     finally:
@@ -65,7 +65,7 @@ def closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
 
 
 def refusal(path: Path, reason: str) -> DamagedStoreError:
-    """Return the refusal of a damaged store, which says how many of its answers can be salvaged."""
+    """Return the error for a damaged store, which says how many of its results can be salvaged."""
     count = 0
     with suppress(OSError):
         count = len(whole_answers(path))
@@ -82,7 +82,7 @@ def refusal(path: Path, reason: str) -> DamagedStoreError:
 
 @contextmanager
 def in_words(path: Path) -> Iterator[None]:
-    """Turn what SQLite raises into words.
+    """Turn errors of SQLite into a `FileError` in words.
 
     Raises
     ------

@@ -15,7 +15,7 @@ _BYTES = 16
 
 
 def _told(values: Iterable[Any]) -> bytes:
-    """Return a row as bytes, type and length of each value first, so that different rows give different bytes."""
+    """Return a row as bytes. Type and length precede each value, so that different rows give different bytes."""
     texts, heads = [], []
     for value in values:
         text = value if type(value) is str else repr(value)
@@ -46,7 +46,7 @@ def table_digest(rows: Iterable[Sequence[Any]]) -> str:
 
 
 def about_digest(about: Mapping[str, str]) -> str:
-    """Return the digest of what a store says about itself, but for the digest itself."""
+    """Return the digest of a store's information about itself, except this digest."""
     return table_digest(sorted((name, value) for name, value in about.items() if name != "digest"))
 
 
@@ -64,11 +64,11 @@ class Fingerprint(NamedTuple):
     mixed: int = 0
 
     def add(self, digest: bytes) -> Fingerprint:
-        """Return it with one more row."""
+        """Return the fingerprint with one more row."""
         return Fingerprint(self.rows + 1, self.mixed ^ int.from_bytes(digest, "big"))
 
     def remove(self, digest: bytes) -> Fingerprint:
-        """Return it without a row."""
+        """Return the fingerprint without a row."""
         return Fingerprint(self.rows - 1, self.mixed ^ int.from_bytes(digest, "big"))
 
     def __str__(self) -> str:
@@ -76,6 +76,6 @@ class Fingerprint(NamedTuple):
 
     @classmethod
     def of_text(cls, text: str) -> Fingerprint:
-        """Return the fingerprint that was written as text; of no rows if the text is empty."""
+        """Return the fingerprint that a text holds; an empty text means no rows."""
         count, _, mixed = text.partition(" ")
         return cls(int(count), int(mixed, 16)) if text else cls()

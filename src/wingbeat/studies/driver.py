@@ -27,9 +27,9 @@ GRACE = 1.0
 
 @dataclass
 class Stop:
-    """A request to stop: level 1 is soon, keeping batches that end until then, 2 is now; `by` is the signal.
+    """A request to stop: level 1 stops soon and keeps batches that end before; level 2 stops now; `by` is a signal.
 
-    Only a driver that has batches in flight is asked; at any other time signals do what they did before.
+    Signals become requests only while the driver has batches in flight; at other times they act as usual.
     """
 
     level: int = 0
@@ -38,19 +38,19 @@ class Stop:
     driving: bool = False
 
     def ask(self, level: int, by: int = signal.SIGINT) -> None:
-        """Ask to stop; an earlier request of a higher level remains."""
+        """Request a stop; an earlier request of a higher level stays in force."""
         if level > self.level:
             self.level, self.by, self.since = level, by, time.monotonic()
 
     @property
     def due(self) -> bool:
-        """Whether nothing is to be waited for any longer."""
+        """Whether the driver must no longer wait for batches."""
         return self.level >= 2 or (self.level == 1 and time.monotonic() - self.since > GRACE)
 
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Let SIGINT ask to stop soon, a second one and SIGTERM to stop now; `told` is called with the level."""
+    """Make SIGINT a request to stop soon, a second one or SIGTERM to stop now; `told` is called with the level."""
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
@@ -74,13 +74,13 @@ def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
 
 @dataclass
 class Tally:
-    """How far a run is.
+    """The progress of a run.
 
     Parameters
     ----------
     total : points of the study.
-    counts : points by status.
-    here : points that this run has solved.
+    counts : number of points by status.
+    here : number of points that this run has solved.
     begun : when it began, in seconds of a monotonic clock.
     """
 
@@ -91,26 +91,26 @@ class Tally:
 
     @property
     def done(self) -> int:
-        """Points with an answer."""
+        """Number of points with a result."""
         return sum(count for status, count in self.counts.items() if status != "waiting")
 
     def count(self, *statuses: str) -> int:
-        """Points that have one of these statuses."""
+        """Return the number of points with one of these statuses."""
         return sum(self.counts.get(status, 0) for status in statuses)
 
     @property
     def certified(self) -> int:
-        """Points with a certified orbit."""
+        """Number of points with a certified orbit."""
         return self.count(CERTIFIED)
 
     @property
     def failed(self) -> int:
-        """Points without an answer of the search: errors, crashes, time-outs."""
+        """Number of points on which the search gave no result: errors, crashes, time-outs."""
         return self.count(*FAILED)
 
     @property
     def rate(self) -> float:
-        """Points a second in this run."""
+        """Points solved per second in this run."""
         return self.here / max(time.monotonic() - self.begun, 1e-9)
 
     @property
@@ -119,7 +119,7 @@ class Tally:
         return (self.total - self.done) / self.rate if self.here else None
 
     def add(self, outcomes: list[Outcome]) -> None:
-        """Count new outcomes of points that waited."""
+        """Count new outcomes of waiting points."""
         for outcome in outcomes:
             self.counts[outcome.status] = self.counts.get(outcome.status, 0) + 1
         self.here += len(outcomes)
@@ -130,7 +130,7 @@ Progress = Callable[[Tally], None]
 
 
 class _Job(NamedTuple):
-    """A unit on its way: which of its points are asked for, and how often it was lost."""
+    """A unit to solve: which of its points are wanted, and how often it was lost."""
 
     unit: Unit
     wanted: frozenset[str]
@@ -138,7 +138,7 @@ class _Job(NamedTuple):
 
 
 class _Queue:
-    """Jobs in the order in which they are handed out: first lost ones, one by one, then those of the plan."""
+    """Jobs in the order in which the engine gets them: first lost ones, one by one, then those of the plan."""
 
     def __init__(self, waiting: Iterator[Waiting], engine: Engine, points: int) -> None:
         self._waiting = waiting
@@ -148,17 +148,17 @@ class _Queue:
         self._seconds: float | None = None
 
     def learn(self, points: int, seconds: float) -> None:
-        """Note how long points took."""
+        """Record the times that points took."""
         if points:
             mean = seconds / points
             self._seconds = mean if self._seconds is None else 0.7 * self._seconds + 0.3 * mean
 
     def give_back(self, jobs: list[_Job]) -> None:
-        """Take jobs back whose process was lost, to be handed out one by one."""
+        """Put jobs whose process was lost back into the queue, to be sent one by one."""
         self._lost.extend(jobs)
 
     def take(self) -> list[_Job]:
-        """Return the next batch, empty where nothing waits."""
+        """Return the next batch; it is empty if no job waits."""
         if self._lost:
             return [self._lost.popleft()]
         # Small ones first, to see how long a point takes; small ones last, so that all processes end together.
@@ -181,13 +181,13 @@ def drive(
     progress: Progress | None = None,
     retry_failed: bool = False,
 ) -> Tally:
-    """Solve all points of a store without an answer, and save each batch's answers at once.
+    """Solve all points of a store without a result, and save the results of each batch at once.
 
     Parameters
     ----------
     store : holds the plan; this is its only writer.
-    engine : does the work; it is closed at the end, however that comes.
-    stop : asked between batches.
+    engine : solves the points; it is always closed at the end.
+    stop : checked between batches.
     progress : called with the tally whenever it changes.
     retry_failed : points that failed before are tried again.
     """
@@ -221,7 +221,7 @@ def drive(
 
 
 def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: Tally, run: int) -> None:
-    """Save the outcomes of a batch; of a lost batch, hand out the rest again and give up points lost too often."""
+    """Save the outcomes of a batch; retry the rest of a lost batch, or give up points that were lost too often."""
     jobs.learn(len(ended.outcomes), sum(outcome.seconds for outcome in ended.outcomes))
     wanted = frozenset().union(*(job.wanted for job in batch))
     outcomes = [outcome for outcome in ended.outcomes if outcome.key in wanted]
@@ -234,7 +234,7 @@ def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: 
 
 
 def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
-    """Return the points to give up, and the jobs to hand out again.
+    """Return the points to give up, and the jobs to retry.
 
     The first point that was not reported is the one to blame. If an engine reports nothing before a batch ends,
     each unit goes into a process of its own before any is blamed.

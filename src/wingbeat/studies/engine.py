@@ -76,7 +76,7 @@ class Engine(Protocol):
 
 @dataclass(eq=False)
 class _Worker:
-    """A process, what it works on, and when it was last heard."""
+    """A process, the batch that it works on, and the time of its last message."""
 
     process: WorkerProcess = field(init=False)
     core: int | None
@@ -91,14 +91,14 @@ class _Worker:
 
 
 class LocalProcesses:
-    """Processes on this machine, each a fresh Python with one thread, fed through its own pipes.
+    """Processes on this machine, each a new Python with one thread, which gets its work through pipes of its own.
 
-    They are started when first needed, and leave when their pipe closes, however that comes.
+    They are started when first needed, and end when their pipe closes for any reason.
 
     Parameters
     ----------
     processes : how many.
-    timeout : seconds without a word from a worker that has work, after which it is ended.
+    timeout : a worker with work that sends nothing for so many seconds is ended.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class LocalProcesses:
 
     @property
     def free(self) -> int:
-        """How many more batches it takes now."""
+        """Number of further batches that the engine accepts now."""
         return self.workers - sum(worker.batch is not None for worker in self._crew)
 
     def submit(self, batch: int, units: list[Unit]) -> None:

@@ -27,7 +27,7 @@ def _listed(value: Any) -> Any:
 
 
 def _twice_listed(value: Any) -> Any:
-    """Return limits as a list of sets of limits: one text is a set of one limit, a list of texts is one set."""
+    """Return limits as a list of sets; a single text is a set of one limit, and a list of texts is one set."""
     listed = _listed(value)
     return listed if listed and all(isinstance(item, list) for item in listed) else [listed]
 
@@ -60,12 +60,12 @@ class Vary(BaseModel):
 
     @property
     def given(self) -> tuple[str, ...]:
-        """Which of the five ways are used."""
+        """The ways that are used, of the five."""
         return tuple(self.model_dump(by_alias=True, exclude_none=True))
 
     @property
     def how(self) -> str:
-        """The way that is used, once it is known to be exactly one."""
+        """The way that is used; valid only after a check that it is exactly one."""
         return self.given[0]
 
     @property
@@ -84,7 +84,7 @@ class Sample(BaseModel):
 
 
 class StudyForm(BaseModel):
-    """A study. Each key above `vary` may be a list; lists multiply. One limit set or ``free`` is a list already."""
+    """A study. Each key above `vary` may be a list, and lists multiply; ``free`` and a limit set are one value."""
 
     model_config = _STRICT
     species: _Texts
@@ -119,7 +119,7 @@ class StudyForm(BaseModel):
 
 
 def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a study file, None where its shape is wrong, and the faults of its shape.
+    """Return the form of a study file, and the faults of its shape; the form is None if there are any.
 
     Raises
     ------
@@ -129,7 +129,7 @@ def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultLi
 
 
 def check_form(raw: Mapping[str, Any]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a dictionary, None where its shape is wrong, and the faults of its shape."""
+    """Return the form of a dictionary, and the faults of its shape; the form is None if there are any."""
     faults = FaultList()
     try:
         form = StudyForm.model_validate(_plain(raw))
@@ -199,10 +199,10 @@ def _known(loc: tuple[Any, ...]) -> list[str]:
 
 
 def _check_vary(form: StudyForm, faults: FaultList) -> None:
-    """Record faults in how the study form gives values.
+    """Note faults in the values of the study form.
 
-    These are: more than one way for a parameter, repeated values, lists of unequal length, ranges without a sample
-    (and the reverse), and a chain or advice that does not fit.
+    These are: a parameter given in more than one way, repeated values, lists of unequal length, ranges without a
+    sample or a sample without ranges, and a chain or advice that the other keys do not allow.
     """
     ranged, rows = [], {}
     for path, vary in form.vary.items():
@@ -255,7 +255,7 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
 
 
 def number(value: Any) -> Any:
-    """Return a number as a float, so that 1 and 1.0 are one; anything else, and what no float holds, as it is."""
+    """Return a number as a float, so that 1 and 1.0 are equal; anything else, or too large a number, unchanged."""
     with suppress(OverflowError):
         # Adding 0 takes the sign off a zero.
         return float(value) + 0.0 if is_number(value) else value

@@ -11,7 +11,7 @@ from wingbeat.errors import FileError, system_reason
 
 
 def _take(descriptor: int) -> None:
-    """Lock a file for this process alone, or raise `OSError` where another one holds it."""
+    """Lock a file for this process alone; raise `OSError` if another process holds the lock."""
     if os.name == "nt":
         import msvcrt
 
@@ -23,7 +23,7 @@ def _take(descriptor: int) -> None:
 
 
 def is_locked(store: Path) -> bool:
-    """Say whether a process holds the lock beside a store, which stays behind where that was killed."""
+    """Return whether a process holds the lock of a store; the lock's file may remain from a killed process."""
     try:
         descriptor = os.open(_beside(store), os.O_RDONLY)
     except OSError:  # there is none
@@ -43,7 +43,7 @@ def _beside(store: Path) -> Path:
 
 @contextmanager
 def only_one(store: Path) -> Iterator[None]:
-    """Hold the lock beside a store.
+    """Hold the lock of a store during a block.
 
     Raises
     ------

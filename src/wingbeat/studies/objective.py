@@ -14,7 +14,7 @@ _MARK = ".py:"
 
 
 def as_inputs(text: str, folder: Path) -> dict[str, str]:
-    """Return all that brings an objective back on any machine; a function's file goes along as text.
+    """Return inputs that restore an objective on any machine; a function's file is included as text.
 
     Raises
     ------
@@ -29,7 +29,7 @@ def as_inputs(text: str, folder: Path) -> dict[str, str]:
 
 
 def named(text: str) -> str:
-    """Return the name of an objective as records have it; the text is one that `as_inputs` takes."""
+    """Return the name of an objective, as in records, for a text that `as_inputs` accepts."""
     return text.rpartition(":")[2] if _MARK in text else named_objective(text).name
 
 
@@ -38,7 +38,7 @@ def from_inputs(inputs: dict[str, str]) -> Quantity:
 
     Raises
     ------
-    InvalidInputError : its code cannot be run or does not hold it.
+    InvalidInputError : its code cannot be run, or does not define it.
     """
     if "code" not in inputs:
         return named_objective(inputs["name"])
@@ -47,7 +47,7 @@ def from_inputs(inputs: dict[str, str]) -> Quantity:
 
 @functools.cache
 def _run(name: str, file: str, code: str) -> Quantity:
-    """Return a quantity of a file's code, once a process: JAX compiles a function anew for each that it meets."""
+    """Return a quantity from a file's code, cached, because JAX compiles every new function object anew."""
     faults, space = FaultList(), {"__name__": Path(file).stem, "__file__": file}
     where = f"minimise {file}:{name}"
     try:

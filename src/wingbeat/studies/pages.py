@@ -27,13 +27,13 @@ _SIZES = {0: 0, 1: 1, 2: 2, 3: 3, 4: 4, 5: 6, 6: 8, 7: 8, 8: 0, 9: 0}
 
 
 def whole_answers(path: Path) -> dict[str, tuple[Any, ...]]:
-    """Return the rows of the table ``points`` whose digests are right, by key, from the files of any store.
+    """Return the rows of the table ``points`` whose digests match, by key, from the files of a store in any state.
 
-    Of two answers of one point the one that did not fail counts, else that of the later run.
+    If a point has two results, the one that did not fail is used, or else that of the later run.
 
     Parameters
     ----------
-    path : of the store; its log is read as well.
+    path : of the store; its write-ahead log is read as well.
     """
     found: dict[str, tuple[Any, ...]] = {}
     for row in _rows(path):
@@ -48,7 +48,7 @@ def _rank(row: tuple[Any, ...]) -> tuple[bool, int]:
 
 
 def _rows(path: Path) -> Iterator[tuple[Any, ...]]:
-    """Yield whatever can be read as a row, from every page of a database and of its log."""
+    """Yield everything that can be read as a row, from every page of a database and of its write-ahead log."""
     logged = _logged(path)
     latest = dict(logged)
     with open(path, "rb") as file:
@@ -66,7 +66,7 @@ def _rows(path: Path) -> Iterator[tuple[Any, ...]]:
 
 
 def _cells(page: bytes, whole: mmap.mmap, latest: Mapping[int, bytes]) -> Iterator[tuple[Any, ...]]:
-    """Yield the rows of a leaf page of a table; its type is not asked, for that may be what is damaged."""
+    """Yield the rows of a leaf page of a table; the page's type is not checked, because it may be damaged."""
     count = int.from_bytes(page[3:5], "big")
     if len(page) < PAGE or count > PAGE // 4:
         return
@@ -79,7 +79,7 @@ def _cells(page: bytes, whole: mmap.mmap, latest: Mapping[int, bytes]) -> Iterat
 
 
 def _payload(page: bytes, at: int, length: int, whole: mmap.mmap, latest: Mapping[int, bytes]) -> bytes:
-    """Return the bytes of a row, its overflow pages followed."""
+    """Return the bytes of a row, including those on its overflow pages."""
     most, least = PAGE - 35, (PAGE - 12) * 32 // 255 - 23
     if length <= most:
         return page[at : at + length]
@@ -130,7 +130,7 @@ def _value(kind: int, data: bytes) -> Any:
 
 
 def _varint(data: bytes, at: int) -> tuple[int, int]:
-    """Return a whole number of one to nine bytes, and where the next thing begins."""
+    """Return a whole number of one to nine bytes, and the position after it."""
     value = 0
     for place in range(at, at + 8):
         value = value << 7 | data[place] & 0x7F
@@ -140,7 +140,7 @@ def _varint(data: bytes, at: int) -> tuple[int, int]:
 
 
 def _frames(path: Path) -> tuple[bytes, list[bytes]]:
-    """Return the head of the log beside a database, and its whole frames."""
+    """Return the header of a database's write-ahead log, and its complete frames."""
     try:
         held = path.with_name(path.name + "-wal").read_bytes()
     except OSError:  # there is none
@@ -151,7 +151,7 @@ def _frames(path: Path) -> tuple[bytes, list[bytes]]:
 
 
 def _is_of(frame: bytes, head: bytes) -> bool:
-    """Say whether a frame is of the current log: in an older one both salts differ, a flipped bit changes one."""
+    """Return whether a frame is of the current log: an older frame differs in both salts, a flipped bit in one."""
     return frame[8:12] == head[16:20] or frame[12:16] == head[20:24]
 
 
@@ -163,9 +163,9 @@ def _logged(path: Path) -> list[tuple[int, bytes]]:
 
 
 def log_fault(path: Path) -> str | None:
-    """Say where the log beside a database is damaged; SQLite passes over the rest of such a log in silence.
+    """Return where a database's log is damaged; SQLite ignores the rest of such a log without a message.
 
-    A last frame that is not all there, as where its writer was killed, is no fault.
+    An incomplete last frame, for example of a killed writer, is not a fault.
     """
     head, frames = _frames(path)
     if len(head) < _LOG_HEAD:

@@ -39,7 +39,7 @@ _TOP = (
 
 
 class Base(NamedTuple):
-    """One combination of the top level: its recipe, the hash of the recipe's inputs, and what tells it apart."""
+    """One combination of the top-level keys: its recipe, the hash of its inputs, and what distinguishes it."""
 
     recipe: Recipe
     hash: str
@@ -48,7 +48,7 @@ class Base(NamedTuple):
 
 
 class Point(NamedTuple):
-    """A point: its key, which base it changes, which chain it is of, the changes, and the varied values."""
+    """A point: its key, its base, its chain, its changes to the base, and its varied values."""
 
     key: str
     base: int
@@ -58,7 +58,7 @@ class Point(NamedTuple):
 
 
 def canonical(value: Any) -> str:
-    """Return the one JSON text of a value: keys sorted, numbers as floats, no blanks."""
+    """Return the canonical JSON text of a value: keys sorted, numbers as floats, no spaces."""
     return json.dumps(_floats(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
@@ -72,12 +72,12 @@ def _floats(value: Any) -> Any:
 
 @dataclass(frozen=True)
 class Plan:
-    """All points of a study, made when asked for.
+    """All points of a study, generated on demand.
 
     Parameters
     ----------
     form : the study's form, without faults.
-    bases : the combinations of the top level.
+    bases : the combinations of the top-level keys.
     """
 
     form: StudyForm
@@ -85,13 +85,13 @@ class Plan:
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """The varied parameters; a chain's is the last."""
+        """The varied parameters; that of a chain is the last."""
         chain = self.form.chain
         return (*(path for path in self.form.vary if path != chain), *([] if chain is None else [chain]))
 
     @functools.cached_property
     def _kinds(self) -> dict[str, list[str]]:
-        """Paths by how their values are combined: by grid, row by row, by sample."""
+        """Paths, grouped by how their values are combined: by grid, row by row, or by sample."""
         kinds: dict[str, list[str]] = {"grid": [], "list": [], "range": []}
         for path in self.paths:
             given = self.form.vary[path].how
@@ -100,7 +100,7 @@ class Plan:
 
     @property
     def chain_length(self) -> int:
-        """Points of one unit of work: 1 without a chain."""
+        """Number of points in one unit of work; 1 without a chain."""
         return len(_values_of(self.form, self.form.chain)) if self.form.chain else 1
 
     def __len__(self) -> int:
@@ -161,7 +161,7 @@ def _values_of(form: StudyForm, path: str | None) -> list[Any]:
 
 
 def _between(low: Any, high: Any, share: float) -> Any:
-    """Return what lies a share of the way between two numbers, or lists of numbers."""
+    """Return the value at a share of the way from one number, or list of numbers, to another."""
     if isinstance(low, list):
         return [_between(*ends, share) for ends in zip(low, high, strict=True)]
     return low + (high - low) * share
@@ -180,8 +180,8 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     Parameters
     ----------
     form : the form, None where its shape is wrong.
-    faults : of its shape; those that are found are added.
-    folder : where the paths of species and coefficient files begin.
+    faults : the faults of the form's shape; further faults are added.
+    folder : the folder to which paths of species and coefficient files are relative.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
 
 
 def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-    """Return how the parts of a base are made, of which keys of the top level; each of the same keys but once."""
+    """Return functions that make the parts of a base from top-level keys; equal keys are evaluated only once."""
 
     def loads(name: str, extension: str, blend_width_deg: float, *elements: Any) -> BladeElement:
         given, reach = dict(zip(OF_ELEMENTS, elements, strict=True)), (extension, blend_width_deg)
@@ -236,7 +236,7 @@ def _base(
     makers: Mapping[str, tuple[tuple[str, ...], Callable[..., Any]]],
     faults: FaultList,
 ) -> Base | None:
-    """Return one combination of the top level, or note why there is none."""
+    """Return one combination of the top-level keys, or note why it is impossible."""
     before = len(faults.faults)
     made: dict[str, Any] = {}
     for name, (keys, make) in makers.items():
@@ -265,13 +265,13 @@ def _base(
 
 
 def _hashable(fault: Fault) -> Fault:
-    """Return a fault that can be compared with others, so that each is told once."""
+    """Return a fault in a hashable form, so that each fault is reported once."""
     value = fault.value if isinstance(fault.value, str | int | float | type(None)) else shown(fault.value)
     return Fault(fault.where, value if isinstance(value, str | int | float) else repr(value), fault.rule, fault.fix)
 
 
 def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
-    """Return the path of a file beside the study, or a name as it is."""
+    """Return a file's path relative to the study's folder; a name is returned unchanged."""
     return str(folder / name) if name.lower().endswith(suffixes) else name
 
 
@@ -281,7 +281,7 @@ def _species(form: StudyForm, name: str) -> Any:
 
 
 def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
-    """Return bounds in radians; a name in _deg holds degrees."""
+    """Return bounds in radians; those of a name that ends in _deg are given in degrees."""
     found, faults = {}, FaultList()
     for name, (low, high) in given.items():
         own = name.removesuffix("_deg")
@@ -298,7 +298,7 @@ def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
-    """Note each value that is by itself impossible at its path."""
+    """Note each value that is impossible at its path, whatever the other values are."""
     names: dict[str, str] = {}
     for path, vary in form.vary.items():
         given = vary.how
@@ -333,7 +333,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
 
 
 def _may_vary(path: str, given: str, recipe: Recipe, names: dict[str, str], faults: FaultList) -> bool:
-    """Return whether a path may be varied beside those whose `names` were met before, or note why not."""
+    """Return whether a path may be varied in addition to the earlier ones in `names`; if not, note why."""
     where, name = dotted(("vary", path)), recipe.name_of(path)
     if (other := names.setdefault(name, path)) != path:
         faults.add(where, given, f"is varied as {other} too", "keep one of the two")

@@ -39,12 +39,12 @@ _AT_REST = {"speed": 10.0, "climb": 0.0, "payload": 0.0}
 
 @dataclass(frozen=True)
 class Recipe:
-    """An orbit problem but for its point: speed, climb, payload, and whatever a study varies.
+    """An orbit problem without the values of a point: speed, climb, payload, and everything that a study varies.
 
     Parameters
     ----------
     species, aero : the animal and its air loads.
-    objective : as `objective.as_inputs` says it.
+    objective : in the form of `objective.as_inputs`.
     free, bounds : as in `OrbitProblem`.
     subject_to : limits as texts.
     search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; None for the usual number.
@@ -67,7 +67,7 @@ class Recipe:
 
         Raises
         ------
-        InvalidInputError : what species, air loads or problem refuse.
+        InvalidInputError : values that species, air loads or problem refuse.
         """
         numbers = {path: value for path, value in changes.items() if _key(path) is not None}
         species = self.species.with_values(numbers) if numbers else self.species
@@ -108,12 +108,12 @@ class Recipe:
         return self.problem(_AT_REST)
 
     def name_of(self, path: str) -> str:
-        """Return the one name of a path, which may be written with or without ``vehicle.``, an angle in degrees."""
+        """Return the standard name of a path, which may be written with or without ``vehicle.`` or ``_deg``."""
         key = _key(path)
         return path.removeprefix("vehicle.") if key is None else key.path
 
     def value(self, path: str) -> Any:
-        """Return what stands at a path before anything is varied, None where nothing does."""
+        """Return the value at a path before anything is varied; None if there is none."""
         if (key := _key(path)) is not None:
             number = self.species.numbers.get(key.path)
             value = None if number is None else number.value
@@ -131,7 +131,7 @@ class Recipe:
         return None if found is None else found.value
 
     def check(self, path: str, value: Any, faults: FaultList) -> None:
-        """Raise `InvalidInputError`, or note a fault, if a value is by itself impossible at a path."""
+        """Raise `InvalidInputError`, or note a fault, if a path cannot have a value, whatever the others are."""
         if path in MOTION:
             faults.number(path, value, **MOTION[path])
         elif _key(path) is not None:
@@ -185,14 +185,14 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
 
 
 def starts_of(recipe: Recipe, problem: OrbitProblem) -> int:
-    """Return how many searches are made for a problem of a recipe."""
+    """Return the number of starts for a problem of a recipe."""
     starts = recipe.search["starts"]
     return usual_starts(problem) if starts is None else int(starts)
 
 
 @functools.cache
 def _key(path: str) -> Key | None:
-    """Return the number of a species that a path names."""
+    """Return the species' key that a path names."""
     return settable(path, None, FaultList())
 
 
@@ -201,7 +201,7 @@ def _degrees(value: Any) -> Any:
 
 
 def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:
-    """Return a number of a problem that no species file holds: of a coefficient model, a bound, a limit."""
+    """Return a parameter of a problem that is not in species files: of a coefficient model, a bound, or a limit."""
     kind, _, rest = path.partition(".")
     if kind == "bounds":
         name, _, side = rest.rpartition(".")

@@ -17,12 +17,12 @@ _ENDS = ("", "-wal")
 
 
 class Salvaged(NamedTuple):
-    """What a salvage kept: how many answers, and where the damaged store lies now.
+    """The outcome of a salvage: the number of results kept, and the new place of the damaged store.
 
     Parameters
     ----------
-    kept : answers in the new store.
-    aside : the damaged file, unchanged; None where the store was sound and is left as it is.
+    kept : number of results in the new store.
+    aside : the damaged file, unchanged except for its name; None if the store was not damaged.
     """
 
     kept: int
@@ -30,18 +30,18 @@ class Salvaged(NamedTuple):
 
 
 def salvage(path: Path, plan: Plan) -> Salvaged:
-    """Put a new store in the place of a damaged one, with every answer of that whose digest is right.
+    """Replace a damaged store by a new one that holds every result whose digest matches.
 
-    Call it under the lock of the store. A sound store is left as it is.
+    The caller must hold the store's lock. An undamaged store is not changed.
 
     Parameters
     ----------
     path : of the store.
-    plan : what the new store holds the points of.
+    plan : the plan whose points the new store gets.
 
     Raises
     ------
-    FileError : there is no store, no answer in it is whole, or the folder cannot be written to.
+    FileError : there is no store, it has no intact result, or the folder cannot be written to.
     """
     if not path.is_file():
         raise FileError(f"there is no store {str(path)!r} to salvage; check the path, or run the study")
@@ -75,14 +75,14 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
 
 
 def _remove(path: Path) -> None:
-    """Delete a database and what SQLite keeps beside it, as far as they are there."""
+    """Delete a database and the files that SQLite keeps beside it, if they exist."""
     for end in (*_ENDS, "-shm"):
         with suppress(FileNotFoundError):
             os.unlink(f"{path}{end}")
 
 
 def _free(path: Path) -> Path:
-    """Return a name for the damaged store that nothing has: what was put aside before stays."""
+    """Return an unused name for the damaged store, so that stores put aside earlier are kept."""
     number = 1
     while True:
         aside = path.with_name(f"{path.name}.damaged" + (f"-{number}" if number > 1 else ""))

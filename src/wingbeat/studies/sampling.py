@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
     """Return points of the unit cube, shape (count, directions).
 
-    Sobol's sequence (scrambled with the seed) begins with the same points whatever the count, so that more can be
-    added. A Latin hypercube of another count has other points.
+    Sobol's sequence (scrambled with the seed) begins with the same points for every count, so that points can be
+    added later. A Latin hypercube has different points for each count.
 
     Parameters
     ----------

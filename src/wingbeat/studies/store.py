@@ -26,14 +26,14 @@ _CHUNK = 500
 
 
 class Waiting(NamedTuple):
-    """A unit that waits to be solved, and which of its points are asked for."""
+    """A unit that waits to be solved, and which of its points are wanted."""
 
     unit: Unit
     wanted: tuple[str, ...]
 
 
 class Row(NamedTuple):
-    """A point of the plan, its changes, and what is known of it; nothing of one that waits (status None)."""
+    """A point of the plan, its changes and its result; a waiting point has no result, and its status is None."""
 
     key: str
     base: int
@@ -61,11 +61,11 @@ class Store:
     @classmethod
     @contextmanager
     def open(cls, path: Path) -> Iterator[Store]:
-        """Open a store for its one writer, made if there is none.
+        """Open a store for its only writer; create the store if there is none.
 
         Raises
         ------
-        FileError : it cannot be written, is damaged, is no store, or of another numerical version.
+        FileError : the store cannot be written, is damaged, is no store, or is of another numerical version.
         """
         begun = cls.is_begun(path, mine=True)
         with in_words(path), closing(connect(path, "mode=rwc")) as connection:
@@ -89,12 +89,12 @@ class Store:
 
     @staticmethod
     def is_begun(path: Path, mine: bool = False) -> bool:
-        """Say whether there is a store, or something else in its place; an empty database is as good as none.
+        """Return whether there is a store, or another file in its place; an empty database does not count.
 
         Parameters
         ----------
         path : of the store.
-        mine : whether this process holds the store's lock, so that nobody else writes to it.
+        mine : whether this process holds the store's lock, so that no other process writes to the store.
 
         Raises
         ------
@@ -112,11 +112,12 @@ class Store:
     @classmethod
     @contextmanager
     def read(cls, path: Path) -> Iterator[Store]:
-        """Open a store for reading, while a driver writes to it or not.
+        """Open a store for reading; a driver may write to it at the same time.
 
         Raises
         ------
-        FileError : there is none, it cannot be read, is damaged, is no store, or of another numerical version.
+        FileError : the store is missing, cannot be read, is damaged, is no store, or is of another numerical
+            version.
         """
         if not cls.is_begun(path):
             raise FileError(f"there is no store {str(path)!r} yet; run the study first")
@@ -125,7 +126,7 @@ class Store:
             yield cls(path, connection)
 
     def _note(self, **about: Any) -> None:
-        """Write what the store says about itself, with its digest, inside a transaction of the caller's."""
+        """Write the store's information about itself, with its digest, inside the caller's transaction."""
         noted = self._about | {name: str(value) for name, value in about.items()}
         noted["digest"] = about_digest(noted)
         changed = {name: value for name, value in noted.items() if self._about.get(name) != value}
@@ -134,7 +135,7 @@ class Store:
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
-        """Make one transaction of a block: all of it is kept or nothing."""
+        """Make a block one transaction: either all its changes are kept, or none."""
         before = self._about
         try:
             with in_words(self.path), self._connection:
@@ -145,7 +146,7 @@ class Store:
             raise
 
     def begin_run(self) -> int:
-        """Count one more run, and return its number."""
+        """Increase the count of runs, and return the new run's number."""
         run = int(self._about["runs"]) + 1
         with self._writing():
             self._note(runs=run)
@@ -157,7 +158,7 @@ class Store:
         return self._about.get("plan_digest", "")
 
     def set_plan(self, plan: Plan) -> None:
-        """Store the points of a plan in place of those of the plan before; answers stay."""
+        """Store the points of a plan in place of the previous plan's points; results are kept."""
         if self.digest == plan.digest:
             return
         connection = self._connection
@@ -179,7 +180,7 @@ class Store:
             self._note(**about, **tables, chained=int(plan.chain_length > 1))
 
     def save(self, outcomes: Iterable[Outcome], worker: str, attempt: int, run: int) -> None:
-        """Keep outcomes of points of the plan, all or none of them; an answer is never written over.
+        """Save outcomes of points of the plan, all or none of them; a result is never overwritten.
 
         Raises
         ------
@@ -198,14 +199,14 @@ class Store:
             self._keep((*row, row_digest(row)) for row in rows)
 
     def restore(self, rows: Iterable[tuple[Any, ...]]) -> None:
-        """Keep rows of the table ``points`` that were read from another store's pages."""
+        """Write rows of the table ``points`` that were read from another store's pages."""
         with self._writing():
             held = list(rows)
             self._keep(held)
             self._note(runs=max(row[POINT_COLUMNS.index("run_number")] for row in held))
 
     def _keep(self, rows: Iterable[tuple[Any, ...]]) -> None:
-        """Write rows in place of those of their keys, inside a transaction of the caller's."""
+        """Write rows in place of those with the same keys, inside the caller's transaction."""
         held = Fingerprint.of_text(self._about.get("points", ""))
         for row in rows:
             old = self._connection.execute("SELECT digest FROM points WHERE key = ?", row[:1]).fetchone()
@@ -214,11 +215,11 @@ class Store:
         self._note(points=held)
 
     def waiting(self, retry_before: int = 0) -> Iterator[Waiting]:
-        """Yield the units that hold points without an answer, in the order of the plan.
+        """Yield the units that contain points without a result, in the order of the plan.
 
         Parameters
         ----------
-        retry_before : points that failed in runs before this one are asked for again.
+        retry_before : points that failed in runs before the run of this number are yielded again.
         """
         chained = self._about.get("chained") == "1"
         missing = f"(q.status IS NULL OR (q.status IN {_FAILED} AND q.run_number < {int(retry_before)}))"
@@ -248,7 +249,7 @@ class Store:
                 last = number
 
     def _inputs(self, base: int) -> str:
-        """Return the inputs of a base as JSON; the text of the last one is kept for its neighbours."""
+        """Return the inputs of a base as JSON; the last text is cached, because the next units often share it."""
         if base != self._last[0]:
             question = "SELECT inputs FROM plan_bases JOIN bases USING (hash) WHERE base = ?"
             with in_words(self.path):
@@ -266,7 +267,7 @@ class Store:
             )
 
     def answers(self) -> int:
-        """Return how many answers there are, of points of the plan or of a study as it was before."""
+        """Return the number of results, including those of points that are no longer in the study."""
         with in_words(self.path):
             return self._connection.execute("SELECT COUNT(*) FROM points").fetchone()[0]
 
@@ -279,13 +280,13 @@ class Store:
             return self._connection.execute(question).fetchone()[0]
 
     def spent(self) -> float:
-        """Return what the answers of the plan's points took, on one core [s]."""
+        """Return the computing time of the results of the plan's points, on one core [s]."""
         with in_words(self.path):
             question = "SELECT TOTAL(q.run_seconds) FROM plan p JOIN points q USING (key)"
             return self._connection.execute(question).fetchone()[0]
 
     def uncertified(self, most: int) -> list[Row]:
-        """Return the first points of the plan whose answer is no certified orbit, without their records."""
+        """Return the first points of the plan whose result is no certified orbit, without their records."""
         return list(self._rows("NULL", f"WHERE q.status <> 'converged' ORDER BY p.ordinal LIMIT {int(most)}"))
 
     def rows(self) -> Iterator[Row]:
@@ -308,7 +309,7 @@ class Store:
         return tuple(json.loads(self._about.get("paths", "[]")))
 
     def bases(self) -> list[tuple[dict[str, Any], dict[str, Any]]]:
-        """Return of each base of the plan what tells it apart from the others, and its inputs."""
+        """Return, for each base of the plan, the values that distinguish it from the others, and its inputs."""
         with in_words(self.path):
             found = self._connection.execute(
                 "SELECT told, inputs FROM plan_bases JOIN bases USING (hash) ORDER BY base"

@@ -47,7 +47,7 @@ class Study:
     Attributes
     ----------
     plan : the points of the study.
-    store : path of the file that keeps the answers.
+    store : path of the file that keeps the results.
     """
 
     def __init__(self, plan: Plan, store: Path) -> None:
@@ -90,24 +90,25 @@ class Study:
     ) -> Summary:
         """Solve all points without a result; every result is saved at once.
 
-        Ctrl-C keeps the batches that end within a second, a second one stops at once; another run goes on from
-        there.
+        The first Ctrl-C waits one second for batches that end, and saves them; a second one stops at once. The next
+        run resumes.
 
         Parameters
         ----------
-        processes : worker processes, as many as there are cores if not given.
-        timeout : for one point [s], after which its process is ended and tried once more.
+        processes : number of worker processes; default the number of cores.
+        timeout : time limit for one point [s]. After it, the process is ended and the point is tried once more.
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
-        dask : a Dask cluster instead of processes: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or what
-            Dask calls a cluster; see docs/clusters.md.
+        dask : a Dask cluster to use instead of processes: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or a
+            cluster object of Dask; see docs/clusters.md.
 
         Raises
         ------
-        ClusterError : Dask is not installed, its scheduler cannot be reached, its workers have another wingbeat.
+        ClusterError : Dask is not installed, its scheduler cannot be reached, its workers have another version of
+            wingbeat.
         FileError : the store cannot be written, is damaged, in use, or of another numerical version.
         InvalidInputError : processes or timeout out of range.
-        KeyboardInterrupt : Ctrl-C, after all is in order.
+        KeyboardInterrupt : Ctrl-C; it is raised after the results were saved.
         """
         engine = engine_for(processes, timeout, dask, warnings.warn)
         with listening() as stop:
@@ -142,7 +143,7 @@ class Study:
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
-        """Solve what has no answer yet on an engine of your own.
+        """Solve all points without a result, on an engine of your own.
 
         Parameters
         ----------
@@ -156,7 +157,7 @@ class Study:
             return drive(store, engine, stop, progress, retry_failed)
 
     def status(self) -> Summary:
-        """Return how far the study is.
+        """Return the progress of the study: how many points have each status.
 
         Raises
         ------
@@ -198,7 +199,7 @@ class Study:
     def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
         """Yield the varied values of each point, and its orbit, certified or not; None without a record.
 
-        Orbits come one by one in the order of the study, and fly again when you use their time series.
+        The orbits come one by one, in the order of the study. Their time series are computed when you use them.
 
         Raises
         ------
@@ -212,7 +213,7 @@ class Study:
 
     @contextmanager
     def _answers(self) -> Iterator[Store]:
-        """Open the store for reading, if what it holds are the points of this study."""
+        """Open the store for reading; refuse it if it holds the points of another study."""
         with Store.read(self.store) as store:
             if store.digest != self.plan.digest:
                 raise FileError(
@@ -230,11 +231,12 @@ class Study:
 
         Parameters
         ----------
-        path : of the file to write; its suffix says which.
+        path : of the file to write; its suffix determines the format.
 
         Raises
         ------
-        FileError, InvalidInputError : the store cannot be read, the file not be written, another suffix.
+        FileError, InvalidInputError : the store cannot be read, the file cannot be written, or it has another
+            suffix.
         """
         save_table(self.to_dataframe(), self._about(), path)
 
@@ -243,7 +245,7 @@ class Study:
 
         Parameters
         ----------
-        quantity : a column of numbers; minimised quantity if not given.
+        quantity : a column of numbers; default the minimised quantity.
         """
         frame, form = self.to_dataframe(), self.plan.form
         least, varied = form.minimise, varied_numbers(frame, self.plan.paths)
@@ -268,11 +270,11 @@ def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:
 
 
 def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:
-    """Return processes of this machine or workers of a Dask cluster; `told` is called with notices about those.
+    """Return an engine: processes of this machine or a Dask cluster, whose notices go to `told`.
 
     Raises
     ------
-    InvalidInputError : a study cannot be run so.
+    InvalidInputError : a study cannot be run with these settings.
     ClusterError : see `DaskEngine`.
     """
     check_run(processes, timeout, dask)
@@ -284,7 +286,7 @@ def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], No
 
 
 def check_run(processes: Any, timeout: Any, dask: Any = None) -> None:
-    """Raise `InvalidInputError` unless a study can be run so."""
+    """Raise `InvalidInputError` unless a study can be run with these settings."""
     faults = FaultList()
     if dask is not None and processes is not None:
         faults.add("processes", processes, "cannot be combined with a Dask cluster", "leave one of them out")

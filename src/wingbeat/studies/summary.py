@@ -1,4 +1,4 @@
-"""How far a study is."""
+"""The progress of a study."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Summary:
-    """How far a study is.
+    """The progress of a study.
 
     Parameters
     ----------
     total : points of the study.
-    counts : points by status; ``waiting`` are those without an answer.
-    kept : answers in the store of points that the study no longer asks for.
-    changed : whether the study was changed and not yet run, so that the store holds the points from before.
-    seconds : what the answers took, on one core [s].
+    counts : number of points by status; ``waiting`` are those without a result.
+    kept : number of results of points that are no longer in the study.
+    changed : whether the study was changed and not yet run again, so that the store holds the previous points.
+    seconds : computing time of the results, on one core [s].
     """
 
     total: int
@@ -25,10 +25,10 @@ class Summary:
     seconds: float = 0.0
 
     def count(self, *statuses: str) -> int:
-        """Points that have one of these statuses."""
+        """Return the number of points with one of these statuses."""
         return sum(self.counts.get(status, 0) for status in statuses)
 
     @property
     def waiting(self) -> int:
-        """Points without an answer."""
+        """Number of points without a result."""
         return self.count("waiting")

@@ -26,10 +26,11 @@ KIND = "study"
 
 
 def frame_of(store: Store) -> pd.DataFrame:
-    """Return a row for each point of a store's plan, in its order; ``status`` is ``waiting`` without an answer.
+    """Return a row for each point of a store's plan, in its order; without a result, ``status`` is ``waiting``.
 
-    Columns are the keys that multiply at the top level, the varied paths, the record's dotted names,
-    ``certificate`` and ``error``, and bookkeeping from ``run_`` on. A point without a record has its inputs only.
+    The columns are the top-level keys with several values, the varied paths, the record's dotted names,
+    ``certificate``, ``error``, and those that begin with ``run_``, about the run. A point without a record has only
+    its inputs.
     """
     import pandas as pd
 
@@ -52,7 +53,7 @@ def frame_of(store: Store) -> pd.DataFrame:
 
 
 def varied_numbers(frame: pd.DataFrame, paths: Iterable[str]) -> list[str]:
-    """Return the columns of varied parameters that hold numbers; of a list of numbers, the items that differ."""
+    """Return the columns of varied parameters that hold numbers; for lists of numbers, the items that differ."""
     names, found = [str(name) for name in frame.columns], []
     for path in paths:
         items = [name for name in names if name.startswith(f"{path}.") and name.rpartition(".")[2].isdigit()]
@@ -61,7 +62,7 @@ def varied_numbers(frame: pd.DataFrame, paths: Iterable[str]) -> list[str]:
 
 
 def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:
-    """Return of each base what tells it apart, by the columns that say so."""
+    """Return, for each base, the values that distinguish it, by column."""
     names = {"species": lambda of: of["species"]["name"], "aero": lambda of: of["aero"]["coefficients"]}
     columns = {"species": "species", "aero": "aero.coefficients"}
     # Several files may hold animals, or models, of one name: then what was given tells them apart.
@@ -113,7 +114,7 @@ def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
 
 
 def _attributes(frame: pd.DataFrame, name: str, is_text: bool) -> dict[str, str]:
-    """Return label and unit of a column; a text has no unit, nor have numbers whose rows are in several units."""
+    """Return label and unit of a column; texts have no unit, and neither have numbers whose units differ by row."""
     label = label_of(name)
     if is_text:
         return {"long_name": label}
@@ -124,13 +125,13 @@ def _attributes(frame: pd.DataFrame, name: str, is_text: bool) -> dict[str, str]
 
 
 def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
-    """Note a fault unless the name ends like a table that can be written."""
+    """Note a fault unless the name has the suffix of a table that can be written."""
     if os.path.splitext(path)[1].lower() not in SUFFIXES:
         faults.add(where, os.fspath(path), "is not a table format", f"end it in {', '.join(SUFFIXES)}")
 
 
 def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[str]) -> None:
-    """Write a table as NetCDF-4, CSV or Parquet, by the suffix, whole or not at all.
+    """Write a table as NetCDF-4, CSV or Parquet, by the suffix, completely or not at all.
 
     Raises
     ------
@@ -154,7 +155,7 @@ def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[
 
 
 def check_parquet() -> None:
-    """Raise `WingbeatError` where Parquet cannot be written."""
+    """Raise `WingbeatError` if Parquet cannot be written."""
     try:
         import pyarrow  # noqa: F401  # pyright: ignore[reportMissingImports]
     except ImportError:

@@ -13,20 +13,20 @@ STATUSES = (CERTIFIED, *UNCERTIFIED, *FAILED)
 
 
 class Task(NamedTuple):
-    """One point to solve: its key, and the values by path that it changes of its unit's recipe."""
+    """One point to solve: its key, and its values by path, which replace those of its unit's recipe."""
 
     key: str
     changes: dict[str, Any]
 
 
 class Unit(NamedTuple):
-    """Points that are solved together: one, or those of a chain in order, where answers help to find the next.
+    """Points that are solved together: one point, or those of a chain in order, each with help from the previous.
 
     Parameters
     ----------
     recipe : the base's inputs as JSON.
     tasks : the points.
-    skip : keys of points of a chain that end their process: they are passed over.
+    skip : keys of points of a chain that are left out, because they crash their process.
     """
 
     recipe: str
@@ -42,10 +42,10 @@ class Outcome(NamedTuple):
     key : of the point.
     status : one of `STATUSES`.
     record : the orbit record as JSON without its times, None where there is none.
-    certificate : largest miss of the certifier's own flight (m, rad, m/s, rad/s), None where nothing was flown
-        or the flight ran off.
-    text : what the search says of itself where nothing is certified, or the error.
-    seconds : that the point took.
+    certificate : largest residual of the certifier's flight (m, rad, m/s, rad/s); None if nothing was flown or the
+        flight diverged.
+    text : the search's message if nothing is certified, or the error.
+    seconds : computing time of the point [s].
     """
 
     key: str
@@ -57,5 +57,5 @@ class Outcome(NamedTuple):
 
 
 def failed(key: str, status: str, text: str, seconds: float = 0.0) -> Outcome:
-    """Return the outcome of a point that gave no answer."""
+    """Return the outcome of a point without a result."""
     return Outcome(key, status, None, None, text, seconds)

@@ -28,14 +28,14 @@ _PREDICTING = 8
 
 
 def solve_units(units: list[Unit], context: Context) -> None:
-    """Report the outcome of each point of some units, in order; what a worker process does with a batch."""
+    """Solve a batch of units in a worker process, and report the outcome of each point, in order."""
     for unit in units:
         for outcome in solve_unit(unit):
             context.report(outcome)
 
 
 def solve_unit(unit: Unit) -> Iterator[Outcome]:
-    """Yield the outcome of each point, in order; whatever goes wrong with a point is an outcome, too."""
+    """Yield the outcome of each point, in order; any error at a point becomes its outcome."""
     before: list[_Before] = []
     for task in unit.tasks:
         if task.key in unit.skip:
@@ -54,14 +54,14 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
 
 
 class _Before(NamedTuple):
-    """A point of a chain that was solved before: its kind and its answer."""
+    """A solved point of a chain: its kind and its result."""
 
     kind: Hashable
     known: Known
 
 
 def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> tuple[Solution, _Before]:
-    """Solve one point; of a chain, with the help of the answers before it."""
+    """Solve one point; in a chain, with the help of the earlier results."""
     made = _recipe(recipe)
     search = made.search
     problem = made.problem(changes)

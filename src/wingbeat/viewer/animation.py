@@ -77,7 +77,7 @@ def animate(
 
 
 class _Panel:
-    """One flight in its axes, seen from ahead, left and above: body, strips, air loads, the wing tips' path."""
+    """One flight in 3D axes, seen from ahead, left and above: body, strips, air loads, and the wing tips' paths."""
 
     def __init__(self, axes: Any, dataset: xr.Dataset, title: str, span: float, load: float) -> None:
         from matplotlib import colormaps
@@ -112,7 +112,7 @@ class _Panel:
         self.text = axes.text2D(0.02, 0.02, "", transform=axes.transAxes)
 
     def draw(self, phase: float) -> None:
-        """Show the beat at a phase."""
+        """Draw the flight at a phase of the beat."""
         k = int(np.argmin(np.abs(self.phase - phase)))
         mirror = np.array([1.0, -1.0, 1.0])
         nose, up = math.cos(self.pitch[k]), math.sin(self.pitch[k])

@@ -141,7 +141,7 @@ def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _arrays(dataset: xr.Dataset, weight: float) -> dict[str, tuple[np.ndarray, str]]:
-    """Return what moves, and as which kind of number: corners lie about the body, so that single precision does."""
+    """Return the moving arrays with their number types; single precision suffices for positions about the body."""
     place = np.stack([dataset["x"].values, np.zeros(dataset.sizes["phase"]), dataset["z"].values], axis=-1)
     lift, drag = strip_loads(dataset)
     alpha = dataset["alpha"]

@@ -12,10 +12,10 @@ _WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass
 
 
 def body_axes(body: Body) -> tuple[float, float]:
-    """Return half length and half depth [m] of the round ellipsoid of water with the body's mass and pitch inertia.
+    """Return half length and half depth [m] of a spheroid of water with the body's mass and pitch inertia.
 
-    The model knows no shape of the body; this is the roundest guess with the body's numbers. A body too compact for
-    such an ellipsoid is drawn as a ball.
+    The model contains no shape of the body; this is a guess for drawings. If the body is too compact for such a
+    spheroid, it is drawn as a sphere.
 
     >>> half_length, half_depth = body_axes(Body(mass=0.276, pitch_inertia=3.6e-4))
     >>> round(half_length, 3), round(half_depth, 3)
@@ -32,8 +32,8 @@ def body_axes(body: Body) -> tuple[float, float]:
 def tail_corners(tail: Tail, tilt: float = 0.0) -> np.ndarray:
     """Return root, left and right corner of a tail in body axes (forward, left, up), shape (3, 3) [m].
 
-    The triangle has the tail's area, incidence and aerodynamic centre, and the aspect ratio that gives a slender
-    tail its lift slope: ``2/pi`` times the slope. Its centre of area is the aerodynamic centre.
+    The triangle has the tail's area and incidence, and its centre of area is the tail's aerodynamic centre. Its
+    aspect ratio is that of a slender tail with the same lift slope: ``2/pi`` times the slope.
 
     Parameters
     ----------

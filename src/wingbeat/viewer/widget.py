@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class FlightWidget(anywidget.AnyWidget):
-    """One flight, or two to be compared, moving in a notebook."""
+    """A notebook widget that shows one moving flight, or two to compare."""
 
     _esm = bundle_path().read_text("utf-8")
     scene = traitlets.Unicode().tag(sync=True)

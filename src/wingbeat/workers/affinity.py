@@ -11,7 +11,7 @@ from contextlib import suppress
 
 
 def usable_cores() -> list[int]:
-    """Return the cores that this process may use; none where the system does not say (outside of Linux)."""
+    """Return the cores that this process may use; an empty list if the system does not say (outside Linux)."""
     return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 
 
@@ -21,9 +21,9 @@ def core_count() -> int:
 
 
 def cores_of(processes: int) -> list[int | None]:
-    """Return the core to pin each of so many processes to; None for each if they do not take all cores.
+    """Return the core to which to pin each process; all None unless there is one process for every core.
 
-    Two programs that run at once and take a few cores each must not end up on the same cores.
+    Otherwise two programs that each use a few cores could be pinned to the same ones.
 
     >>> cores_of(1_000_000)[0] is None
     True
@@ -33,7 +33,7 @@ def cores_of(processes: int) -> list[int | None]:
 
 
 def pin_to(core: int | None) -> None:
-    """Pin this thread, and those that it will start, to a core; None or a core no longer there changes nothing."""
+    """Pin this thread, and threads that it will start, to a core; None or a missing core changes nothing."""
     if core is not None:
         with suppress(OSError):
             os.sched_setaffinity(0, {core})

@@ -36,13 +36,13 @@ class Event(NamedTuple):
 
     @property
     def ends(self) -> bool:
-        """Whether nothing follows."""
+        """Whether this event is the last one of its job."""
         return self.kind in ("done", "stopped", "failed", "lost", "late")
 
 
 @dataclass(eq=False)
 class Job:
-    """Something to do for a session; made by `FairPool.submit`."""
+    """A piece of work for a session; made by `FairPool.submit`."""
 
     session: str
     what: Any
@@ -56,7 +56,7 @@ class Job:
 
 @dataclass(eq=False)
 class _Desk:
-    """A place for one worker process, and the thread that looks after it."""
+    """A slot for one worker process, and the thread that manages it."""
 
     wake: threading.Condition
     worker: WorkerProcess | None = None
@@ -71,13 +71,13 @@ class _Desk:
 
 @dataclass
 class _Turns:
-    """The order of the jobs: sessions take turns, first come first served."""
+    """The order of jobs: sessions take turns, and each session's jobs run in the order submitted."""
 
     now: int = 0
     last: dict[str, int] = field(default_factory=dict)
 
     def of(self, session: str) -> int:
-        """Return the turn of a session's next job."""
+        """Return the number by which a session's next job is ordered."""
         turn = self.last[session] = max(self.now, self.last.get(session, -1) + 1)
         return turn
 
@@ -87,10 +87,10 @@ class FairPool:
 
     Parameters
     ----------
-    work : what a worker does with a job, ``MODULE:FUNCTION``, called with the job and a `main.Context`.
+    work : the function that does a job, as ``MODULE:FUNCTION``; called with the job and a `main.Context`.
     processes : how many workers.
-    most_waiting : jobs of one session that may wait at a time.
-    seconds : a job that takes longer is ended, and so is its process.
+    most_waiting : largest number of waiting jobs of one session.
+    seconds : time limit of a job; after it, the job's process is ended.
     memory : resident memory [bytes] beyond which a worker is replaced after a job.
     """
 
@@ -115,7 +115,7 @@ class FairPool:
 
     @property
     def workers(self) -> list[int]:
-        """The numbers of the worker processes that run."""
+        """The process ids of the running workers."""
         with self._lock:
             return [desk.worker.pid for desk in self._desks if desk.worker is not None and desk.worker.alive]
 
@@ -125,7 +125,7 @@ class FairPool:
         Parameters
         ----------
         session : whose job it is.
-        what : what the worker's function gets; it can be pickled.
+        what : the argument for the worker's function; it must be picklable.
         tell : called with each `Event`, from another thread.
         """
         with self._lock:
@@ -137,7 +137,7 @@ class FairPool:
             return job
 
     def cancel(self, job: Job) -> None:
-        """Drop a job: out of the queue, or ended at its next step, or with its process where it takes too long."""
+        """Cancel a job: remove it from the queue, or stop it at its next step, or end its process if it goes on."""
         with self._lock:
             if job.unwanted:
                 return
@@ -153,7 +153,7 @@ class FairPool:
                     self._later(_GRACE, desk, job, late=False)
 
     def leave(self, session: str) -> None:
-        """Drop every job of a session that is gone."""
+        """Cancel every job of a session that was closed."""
         with self._lock:
             working = [desk.job for desk in self._desks if desk.job is not None]
             for job in [*self._waiting, *working]:
@@ -162,7 +162,7 @@ class FairPool:
             self._turns.last.pop(session, None)
 
     def close(self) -> None:
-        """End every worker now, whatever it does."""
+        """End every worker immediately."""
         with self._lock:
             self._open = False
             self._waiting.clear()
@@ -175,7 +175,7 @@ class FairPool:
                 desk.thread.join(5.0)
 
     def _assign(self) -> None:
-        """Give waiting jobs to idle workers, a session's to the worker that served it last where that is idle."""
+        """Assign waiting jobs to idle workers, if possible to the worker that served the same session last."""
         self._waiting.sort(key=lambda job: (job.turn, job.number))
         while self._waiting and (idle := [desk for desk in self._desks if desk.job is None]):
             job = self._waiting.pop(0)
@@ -206,7 +206,7 @@ class FairPool:
         return timer
 
     def _look_after(self, desk: _Desk) -> None:
-        """Keep a process at a desk, and see its jobs through, one after the other."""
+        """Keep a process running in a slot, and follow its jobs, one after the other."""
         while self._open:
             if desk.worker is None:
                 self._seat(desk)
@@ -227,7 +227,7 @@ class FairPool:
             desk.worker.bury()
 
     def _seat(self, desk: _Desk) -> None:
-        """Start a process and wait until it is ready; one that cannot start is left for the next job to try."""
+        """Start a process and wait until it is ready; if it cannot start, the next job tries again."""
         # The libraries keep the threads they have on the command line: with others they add up in another order,
         # and the tenth digit of an answer would not be the command line's.
         worker = WorkerProcess(self._work, desk.heard.put, memory=self._memory)
@@ -246,7 +246,7 @@ class FairPool:
             desk.heard.put(None)  # the next job hears it again
 
     def _see_through(self, desk: _Desk, job: Job) -> Event | None:
-        """Return how a job ended, or None where its process was gone before it took it."""
+        """Return how a job ended; None if its process had ended before it took the job."""
         worker = desk.worker
         assert worker is not None
         desk.late, took, leaves, ending = False, False, False, None
@@ -276,7 +276,7 @@ class FairPool:
         return Event("stopped") if ending is not None and job.unwanted else ending
 
     def _loss(self, desk: _Desk, job: Job, took: bool, how: str) -> Event | None:
-        """Say what became of a job whose process ended."""
+        """Return the last event of a job whose process ended."""
         if desk.late:
             return Event("late", self._seconds)
         job.tries += 1

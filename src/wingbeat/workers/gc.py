@@ -10,5 +10,5 @@ _SELDOM = 50_000
 
 
 def collect_seldom() -> None:
-    """Make this process look for garbage seldom, because the objects that a solver leaves have few cycles."""
+    """Make garbage collection rare in this process, because the solver's objects rarely form cycles."""
     gc.set_threshold(_SELDOM)

@@ -10,13 +10,13 @@ _LEFTOVERS: list[Leftover] = []
 
 
 class Leftover:
-    """A block whose traces are cleared if the process ends at once, inside of it.
+    """A block whose traces, such as temporary files, are cleared if the process is ended inside it.
 
     A block that ends by itself, or by an exception, clears its own traces.
 
     Parameters
     ----------
-    clear : clears them; it may be called in any thread, at any time within the block.
+    clear : function that clears the traces; it may be called in any thread, at any time within the block.
     """
 
     def __init__(self, clear: Callable[[], object]) -> None:
@@ -30,7 +30,7 @@ class Leftover:
 
 
 def clear_leftovers() -> None:
-    """Clear what every open block would leave behind, the innermost first."""
+    """Clear the traces of every open block, the innermost first."""
     for leftover in reversed(list(_LEFTOVERS)):
         try:
             leftover.clear()

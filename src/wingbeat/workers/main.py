@@ -28,7 +28,7 @@ _NO_MEMORY_WORDS = ("RESOURCE_EXHAUSTED", "can't start new thread", "Cannot allo
 
 
 class Message(NamedTuple):
-    """What a worker process says.
+    """A message from a worker process.
 
     Parameters
     ----------
@@ -43,16 +43,16 @@ class Message(NamedTuple):
 
 
 class StoppedError(Exception):
-    """The request is no longer wanted."""
+    """Raised because the request is no longer wanted."""
 
 
 class Context:
-    """Work gets it beside its request: to report what it has so far, and to learn whether it is still wanted.
+    """The second argument of work: it reports progress, and says whether the request is still wanted.
 
     Parameters
     ----------
-    report : sends a value to whoever asked, in a ``progress`` message.
-    stopped : says whether the request is no longer wanted.
+    report : sends a value to the process that made the request, in a ``progress`` message.
+    stopped : returns whether the request is no longer wanted.
     """
 
     def __init__(self, report: Callable[[Any], None], stopped: Callable[[], bool]) -> None:
@@ -64,13 +64,13 @@ class Context:
             raise StoppedError
 
     def progress(self, done: int, total: int) -> None:
-        """Report how much is done; raise `StoppedError` if the request is no longer wanted."""
+        """Report the progress; raise `StoppedError` if the request is no longer wanted."""
         self.check()
         self.report([done, total])
 
 
 class _Requests:
-    """The requests of this process: a thread reads pickles of ``(what,)``, or of None to stop those before."""
+    """The requests to this process. A thread reads them as pickles of ``(what,)``; None stops all earlier ones."""
 
     def __init__(self) -> None:
         self._waiting: queue.SimpleQueue[tuple[Any]] = queue.SimpleQueue()
@@ -84,7 +84,7 @@ class _Requests:
         return what
 
     def stopped(self) -> bool:
-        """Say whether the request that was taken last is no longer wanted."""
+        """Return whether the request that was taken last is no longer wanted."""
         return self._taken <= self._stopped
 
     def _listen(self) -> None:
@@ -106,12 +106,12 @@ class _Requests:
 
 
 class _Speaker:
-    """Writes messages to where stdout was; what the work prints goes to stderr from now on.
+    """Writes messages to the original stdout; from now on, prints of the work go to stderr.
 
     Parameters
     ----------
-    silence : seconds without a message, while there is work, after which the process ends; None for any time. It
-        ends from below, also where it hangs and no thread of Python runs any more.
+    silence : the process ends after so many seconds without a message while it has work; None for no limit. A
+        timer outside Python does this, even if the process hangs and no Python thread runs.
     """
 
     def __init__(self, silence: float | None) -> None:
@@ -122,7 +122,7 @@ class _Speaker:
         os.dup2(2, 1)
 
     def say(self, kind: str, value: Any = None) -> None:
-        """Send a message amid work."""
+        """Send a message while the work goes on."""
         if self._silence is not None:
             faulthandler.dump_traceback_later(self._silence, exit=True, file=self._nowhere)
         self.send(pickle.dumps(Message(kind, value)))
@@ -143,7 +143,7 @@ class _Speaker:
 
 
 def main() -> None:
-    """Work until the pipe closes; the program's argument holds the settings that `process.WorkerProcess` takes."""
+    """Work until the pipe closes; the program's argument holds the settings of `process.WorkerProcess`."""
     settings = json.loads(sys.argv[1])
     pin_to(settings["core"])  # before there are threads, which inherit it
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whoever started this process
@@ -165,7 +165,7 @@ def main() -> None:
 
 
 def _do(work: Callable[[Any, Context], Any], what: Any, context: Context) -> bytes:
-    """Do a request, and return the pickled message that says how it ended."""
+    """Carry out a request, and return the pickled message that says how it ended."""
     try:
         return pickle.dumps(Message("done", work(what, context)))
     except StoppedError:
@@ -177,7 +177,7 @@ def _do(work: Callable[[Any, Context], Any], what: Any, context: Context) -> byt
 
 
 def _pickled_failure(error: Exception) -> bytes:
-    """Return a message of an exception, with its traceback as a note; in words if it cannot be pickled itself."""
+    """Return an exception's message with its traceback as a note; as text if the exception cannot be pickled."""
     error.add_note(f"in a worker process:\n{traceback.format_exc()}")
     try:
         pickled = pickle.dumps(Message("failed", error))
@@ -190,7 +190,7 @@ def _pickled_failure(error: Exception) -> bytes:
 
 
 def _memory() -> int:
-    """Return the resident memory [bytes], 0 where the system does not tell."""
+    """Return the resident memory [bytes]; 0 if the system does not say."""
     try:
         with open("/proc/self/statm", "rb") as numbers:
             return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")

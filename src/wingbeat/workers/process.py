@@ -25,17 +25,17 @@ _WITHOUT_MEMORY = (signal.SIGABRT, *([signal.SIGKILL] if hasattr(signal, "SIGKIL
 
 
 class WorkerProcess:
-    """A fresh Python that does requests one after the other; it ends with its owner, however that ends.
+    """A new Python process that carries out requests in order; it ends when its owner ends, for any reason.
 
     Parameters
     ----------
-    work : what it does with a request, ``MODULE:FUNCTION``; called with the request and a `main.Context`.
-    hear : called with each `Message` in a thread of its own, at last with None when the process has ended.
-    core : the core that it keeps to; None for any.
-    silence : seconds without a word, while it has work, after which it ends itself; None for any time.
+    work : the function that does a request, as ``MODULE:FUNCTION``; called with the request and a `main.Context`.
+    hear : called with each `Message`, in a thread of its own; finally with None when the process has ended.
+    core : the core to which the process is pinned; None for any.
+    silence : the process ends itself after so many seconds without a message while it has work; None for no limit.
     memory : resident memory [bytes] beyond which the process ends after a request, because compiled programs
         accumulate; None for any.
-    environment : variables that differ from this process's.
+    environment : environment variables that differ from those of this process.
     """
 
     def __init__(
@@ -75,20 +75,20 @@ class WorkerProcess:
         return self._process.poll() is None
 
     def request(self, what: Any) -> None:
-        """Ask for something that can be pickled; a process that has died is heard to have ended."""
+        """Send a picklable request; if the process has died, `hear` is called with None."""
         self._send((what,))
 
     def stop(self) -> None:
-        """Tell the process that its requests are no longer wanted; work that looks for it ends."""
+        """Tell the process that its requests are no longer wanted; work that checks for this ends."""
         self._send(None)
 
     def kill(self) -> None:
-        """End the process now, whatever it does; safe to call twice."""
+        """End the process immediately; a second call does nothing."""
         with suppress(OSError):
             self._process.kill()
 
     def bury(self) -> str:
-        """Wait a little for the process to end, else end it; return how it ended, in words."""
+        """Wait briefly for the process to end, or end it; return in words how it ended."""
         try:
             code = self._process.wait(_LEAVING)
         except subprocess.TimeoutExpired:
@@ -121,7 +121,7 @@ class WorkerProcess:
 
 
 def _ending(code: int) -> str:
-    """Return in words how a process ended, with the exit code that a shell would tell."""
+    """Return in words how a process ended, with the exit code that a shell would show."""
     if code == NO_MEMORY:
         return f"exit code {code}: out of memory"
     if code >= 0:

@@ -31,13 +31,13 @@ def in_processes(
     processes: int,
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[R]:
-    """Yield what `work` makes of each item, in their order, as they come.
+    """Yield the result of `work` for each item, in the order of the items, as soon as it is ready.
 
     Parameters
     ----------
     work : a function that can be pickled; its JAX programs run in the process it is called in.
     items : what to work on.
-    processes : how many Python processes share the items; with 1 it is done in this one.
+    processes : number of Python processes that share the items; 1 means this process.
     progress : called with (items done, items in all).
 
     Raises
@@ -53,7 +53,7 @@ def in_processes(
 
 @contextmanager
 def process_map(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
-    """Give a `map` over so many processes, as many as there is work for at most; with 1 it is Python's own."""
+    """Yield a `map` that uses `processes` processes, at most one per item; for 1 it is Python's own `map`."""
     if processes == 1:
         yield map
         return
@@ -71,7 +71,7 @@ def process_map(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R
 
 
 class _Caller:
-    """A place for a process, on a core of its own if there is one for each."""
+    """A slot for a process, on a core of its own if there is one for each process."""
 
     def __init__(self, core: int | None) -> None:
         self.core = core
@@ -80,7 +80,7 @@ class _Caller:
 
 
 class _Callers:
-    """Processes that call functions, each lent to one thread at a time; that used last is lent first."""
+    """Processes that call functions; each serves one thread at a time, and the one used last is used next."""
 
     def __init__(self, count: int) -> None:
         self.count = count
@@ -95,7 +95,7 @@ class _Callers:
         self._open = True
 
     def call(self, work: Callable[[T], R], item: T) -> R:
-        """Return what a process makes of an item."""
+        """Return the result of `work` for an item, computed in a process."""
         pickled = pickle.dumps((work, item))
         caller = self._idle.get()
         ending = ""
@@ -109,12 +109,12 @@ class _Callers:
                     if message.kind == "failed":
                         raise message.value
                 ending, caller.process = process.bury(), None
-            raise WorkerError(f"a worker process ended with {ending}, and so did another one over the same work")
+            raise WorkerError(f"two worker processes died over the same work; the last one ended with {ending}")
         finally:
             self._idle.put(caller)
 
     def close(self) -> None:
-        """End every process now, whatever it does."""
+        """End every process immediately."""
         with self._lock:
             self._open = False
             processes = [caller.process for caller in self._all if caller.process is not None]
@@ -133,7 +133,7 @@ class _Callers:
 
 
 def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) -> Any:
-    """Call a function with an item in a worker process; the request holds both, pickled, and a core."""
+    """Call a function with an item in a worker process; the request contains both, pickled, and a core."""
     main, pickled, core = request
     work, item = _Unpickler(main, pickled).load()
     # After the imports: a BLAS that sees one core has one thread, and adds up in another order than in the process
@@ -143,9 +143,10 @@ def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) ->
 
 
 class _Unpickler(pickle.Unpickler):
-    """Imports the main module of the process that asks, though only where something of it is needed.
+    """Imports the main module of the requesting process, but only if something in it is needed.
 
-    A script that gives nothing of its own to the workers may so leave out ``if __name__ == "__main__":``.
+    A script that sends none of its own functions or classes to workers therefore needs no ``if __name__ ==
+    "__main__":``.
     """
 
     def __init__(self, main: dict[str, Any], pickled: bytes) -> None:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 class Beat(NamedTuple):
     """One beat from phase 0 to 1, both ends included, at K equal phases.
 
-    Names and units are those of a dataset. Torques and powers are of both wings together.
+    Names and units are those of `Orbit.dataset`. Torques and powers are those of both wings together.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Beat(NamedTuple):
     wing_pitch, wing_pitch_rate : at the root, leading edge up positive [rad, rad/s], shape (K,).
     flap_torque, pitch_torque : of the hinges [N m], shape (K,).
     hinge_power, actuator_power : of the hinges, and of all actuators [W], shape (K,).
-    aerodynamic_power, inertial_power, body_power : shares of the hinge power [W], shape (K,).
+    aerodynamic_power, inertial_power, body_power : parts of the hinge power [W], shape (K,).
     alpha : angle of attack of the strips of one wing [rad], shape (K, strips).
     strip_reynolds : Reynolds number of their chords, shape (K, strips).
     lift, drag : of these strips [N], shape (K, strips).
@@ -105,7 +105,7 @@ class Beat(NamedTuple):
         return jnp.mean(0.5 * (values[:-1] + values[1:]))
 
     def mean_positive(self, values: Samples) -> Scalar:
-        """Return the mean of the positive part of a series, with straight lines between its samples.
+        """Return the mean of the positive part of a series, taken as linear between its samples.
 
         Parameters
         ----------
@@ -115,10 +115,10 @@ class Beat(NamedTuple):
 
 
 def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
-    """Return the mean of the positive part of samples at equal phases, with straight lines between them.
+    """Return the mean of the positive part of a piecewise linear curve through samples at equal phases.
 
-    Unlike the mean of the samples' positive parts, it has a derivative where a sample passes zero. `xp` is the
-    array module of the samples.
+    Unlike the mean of the samples' positive parts, it is differentiable when a sample passes through zero. `xp` is
+    the array module of the samples.
     """
     before, after = values[:-1], values[1:]
     crosses = before * after < 0.0
@@ -134,7 +134,7 @@ BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
 
 
 class _Tables(NamedTuple):
-    """The wing's motion at given phases, which does not depend on the body's motion."""
+    """Tables of the wing's motion at given phases; the body's motion does not affect them."""
 
     phase: Samples
     motion: WingMotion
@@ -211,7 +211,7 @@ def _part(
     *,
     free: tuple[str, ...],
 ) -> tuple[Beat, Beat]:
-    """Return the beat between two phases, and its derivatives, directions first."""
+    """Return the beat between two phases, and its derivatives; their first axis is the unknowns."""
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
@@ -225,9 +225,9 @@ def _part(
 def beat_reader(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], mean_velocity: tuple[float, float]
 ) -> Callable[[np.ndarray, Flown], tuple[Beat, Beat]]:
-    """Return a function of a flight: the beat, and its derivatives by the unknowns (first axis).
+    """Return a function that computes a flight's beat and its derivatives by the unknowns (first axis).
 
-    The function takes the values of the parameters named in `free`, and the flight that `flier` made with them.
+    The function takes the values of the parameters named in `free`, and the flight that `flier` computed from them.
     """
     part = _part.bind(model, wingbeat, free=free)
     velocity = np.array(mean_velocity)

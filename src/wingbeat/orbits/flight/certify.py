@@ -55,7 +55,7 @@ def certify(
     model, wingbeat : the flight model and its wingbeat.
     pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
     rtol : relative tolerance of the flight.
-    rough : sample the path at a few phases only, which takes half the time.
+    rough : whether to sample the path at only a few phases, which takes half the time.
     """
     # A rough flight has the same number of phases, the last ones all at the end. One compiled program thus serves
     # both kinds of flight.

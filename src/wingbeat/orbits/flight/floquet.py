@@ -35,9 +35,9 @@ _LANES = 64
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
-    """Return, for each stretch, the derivative of its last pitch state by its first, shape (K, 4, 4).
+    """Return the derivative of each stretch's last pitch state by its first, shape (K, 4, 4).
 
-    Each stretch is flown from its start on the path, shape (K, 4), and from starts beside the path.
+    Each stretch is flown from its start on the path, shape (K, 4), and from disturbed starts near the path.
     """
     length = (end - begin) / _STEPS
     seconds = length / wingbeat.frequency
@@ -68,8 +68,8 @@ def _state_maps(
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
     """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
 
-    They are the eigenvalues of the monodromy matrix, the derivative of the pitch state after a period with
-    respect to that before. Not-a-number if the flight diverges.
+    They are the eigenvalues of the monodromy matrix: the derivative of the pitch state at the end of a period by
+    the pitch state at its start. Not-a-number if the flight diverges.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
 
 
 def _chained(maps: np.ndarray) -> np.ndarray:
-    """Return the product of linear maps, shape (K, 4, 4), the first applied first; all pairs at a time."""
+    """Return the product of linear maps, shape (K, 4, 4), the first applied first, by pairwise multiplication."""
     while len(maps) > 1:
         last = maps[len(maps) // 2 * 2 :]
         maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])

@@ -20,16 +20,17 @@ PARTS = 4
 
 
 def highest(series: SampledSeries) -> Quarters:
-    """Return the largest sample in each quarter, ends included, along the first axis."""
+    """Return the largest sample in each quarter of the beat, ends included, along the first axis."""
     part = (series.shape[0] - 1) // PARTS
     return jnp.stack([jnp.max(series[i * part : (i + 1) * part + 1], axis=0) for i in range(PARTS)])
 
 
 def peaks(series: SampledSeries) -> Quarters:
-    """Return the peak in each quarter of a smooth curve through the samples of a closed path, along the first axis.
+    """Return the peak in each quarter of the beat of a smooth curve through a closed path's samples (first axis).
 
-    The highest sample has a kink where two samples are equal, and optima that lower a peak, or are at a bound of
-    the path, end in that kink. The curve between two samples is a Catmull-Rom cubic.
+    The highest sample, as a function of the unknowns, has a kink where two samples are equal. A search that lowers
+    a peak, or that is at a bound of the path, would end in this kink. The curve between two samples is a
+    Catmull-Rom cubic.
     """
     part = (series.shape[0] - 1) // PARTS
     around = [_samples_around(series, i * part, (i + 1) * part) for i in range(PARTS)]
@@ -38,7 +39,7 @@ def peaks(series: SampledSeries) -> Quarters:
 
 
 def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
-    """Return the indices of four samples; in a quarter, the curve peaks between the middle two."""
+    """Return the indices of four samples for each quarter; the curve peaks between the middle two."""
     count = series.shape[0] - 1
     top = begin + jnp.argmax(series[begin : end + 1], axis=0)
 
@@ -54,7 +55,7 @@ def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
 def peak_weights(path: np.ndarray) -> np.ndarray:
     """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`.
 
-    The same weights give the peak's derivative: the phase of the peak does not matter to first order.
+    The same weights give the peak's derivative, because a shift of the peak's phase has no first-order effect.
     """
     count = len(path) - 1
     begin = np.arange(PARTS) * (count // PARTS)
@@ -94,7 +95,7 @@ def _weights(samples: Quarters, xp: Any) -> Quarters:
 
 
 def spread(series: SampledSeries) -> Columns:
-    """Return a series minus its least value in each quarter, shape (phases, quarters).
+    """Return a series minus its least value in each quarter of the beat, shape (phases, quarters).
 
     The largest of these numbers is the series' range. If we subtracted only the least value of the whole beat, the
     range would have a kink where two minima are equal.

@@ -50,9 +50,9 @@ STEPS = 32
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
-    `end` has shape (6,). `path` is body pitch, or the whole pitch state, at the start and after each step, shape
-    (K, components). The last axis of a Jacobian is the unknowns. `stroke`, the distances of the stroke from its
-    limits, and its derivative by the free parameters are None unless requested.
+    `end` is the last state, shape (6,). `path` is body pitch, or the whole pitch state, at the start and after each
+    step, shape (K, components). The last axis of each Jacobian is the unknowns. `stroke` holds the distances of the
+    stroke from its limits; it and its derivative by the free parameters are None unless requested.
     """
 
     end: StateVector
@@ -68,7 +68,7 @@ def _tabulate(
 ) -> tuple[tuple[TableRows, Scalar], WingMotion]:
     """Tabulate the wing at the ends of the steps, then at their middles.
 
-    Returns the table in rows and the length of a step [s], and the table itself.
+    Returns the table as one array of rows, the length of a step [s], and the table itself.
     """
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
@@ -77,12 +77,12 @@ def _tabulate(
 
 
 def _in_rows(table: WingMotion) -> TableRows:
-    """Return a table as one array, (rows, times), which costs less to slice than many."""
+    """Return a table as one array, (rows, times), because one array is faster to slice than many."""
     return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
 
 
 def _from_rows(rows: TableRows, like: Any) -> WingMotion:
-    """Return a table from its rows; `like` is a table at any times."""
+    """Return a table from its rows; `like` is a table with the same structure."""
     leaves, tree = jax.tree_util.tree_flatten(like)
     sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
     parts = jnp.split(rows, sizes[:-1])
@@ -130,9 +130,10 @@ def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start:
 def _stage_tangents(
     model: FlightModel, table: TableRows, tangents: TableTangents, like: Any, states: Stages
 ) -> tuple[StateTangents, FreeTangents]:
-    """Differentiate the rates of every stage of every step, each a lane of one right-hand side.
+    """Differentiate the rates of every stage of every step; one vectorised right-hand side handles all stages.
 
-    Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, ..).
+    Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, 4 rates,
+    stages, steps).
     """
 
     def in_lanes(rows: Any) -> Any:
@@ -219,8 +220,8 @@ def fly_part(
 ) -> Flown:
     """Fly `STEPS` steps between two phases with the free parameters at `values`, and differentiate.
 
-    The part that starts at phase 0 also returns the least distances of the stroke over the whole beat. A separate
-    program for them would cost as much again.
+    The part that starts at phase 0 also returns the least distances of the stroke from its limits over the whole
+    beat, because a separate program for them would double the cost.
     """
 
     def by_values(at: Any) -> Any:
@@ -252,11 +253,11 @@ def fly_part(
 def flier(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False, stroke: bool = False
 ) -> Callable[..., Flown]:
-    """Return the flight of one period as a function of free parameters, pitch state at x = z = 0, and blocks.
+    """Return a function that flies one period, given free parameters, pitch state at x = z = 0, and `blocks`.
 
-    It flies `blocks` times `STEPS` steps and differentiates them. The path is that of body pitch, or with
-    `whole_path` that of the whole pitch state, whose derivatives take a tenth of a batch's time. With `stroke` it
-    also returns the distances of the stroke from its limits.
+    It flies `blocks` times `STEPS` steps and differentiates them. The path is that of body pitch. With
+    `whole_path`, it is that of the whole pitch state, whose derivatives take a tenth of a batch's time. With
+    `stroke`, the function also returns the distances of the stroke from its limits.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 

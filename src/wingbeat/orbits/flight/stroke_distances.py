@@ -39,17 +39,17 @@ _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 
 
 def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -> StrokeSeries:
-    """Return the series whose minima are the rows: corners over the wing's length, angles; shape (4 N + 4, K)."""
+    """Return the series whose minima are the rows: corner distances in wing lengths, and angles; (4 N + 4, K)."""
     corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, strips)]
     angles = flap_angles(wingbeat, phase)
     return jnp.concatenate([*corners, angles, -angles])
 
 
 def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIndices]:
-    """Return the index of the series with the least value in each row, and of its sample.
+    """Return, for each row, the index of the series with the least value, and the index of that sample.
 
-    The sample comes first, from the minimum over all corners at each: XLA on CPU vectorises a minimum, but not the
-    search for its index.
+    The sample is found first, from the minimum over all corners at each phase. XLA on CPU vectorises a minimum, but
+    not the search for its index.
     """
     part = (sampled.shape[1] - 1) // PARTS
     quarters = np.arange(PARTS)[:, None] * part + np.arange(part + 1)
@@ -64,7 +64,8 @@ def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIn
 def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
     """Return the least distance of each row, shape (12,).
 
-    Derivatives hold corner and phase fixed: at a minimum the derivative by phase is 0.
+    Derivatives are taken at fixed corner and phase; this is exact, because the derivative by phase is 0 at a
+    minimum.
     """
     samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
     series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)

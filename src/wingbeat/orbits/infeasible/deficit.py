@@ -63,7 +63,7 @@ class Unbalanced:
     scaled : its unknowns, in the optimiser's scale.
     shares : the deficit of each balance that may fail, as a share.
     keeps_the_rest : whether all other conditions hold.
-    negligible : a smaller root of the sum of squares of the shares counts as zero.
+    negligible : if the root of the sum of squares of the shares is smaller than this, it counts as zero.
     """
 
     scaled: np.ndarray
@@ -104,7 +104,7 @@ class Balance:
     def nearest(
         self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int | None = None
     ) -> Unbalanced:
-        """Return the beat closest to an orbit if only these balances may fail, from scaled unknowns."""
+        """Search from scaled unknowns for the beat closest to an orbit if only these balances may fail."""
         options, weight = self._options, self._options.violation_weight
         least = options.deficit if evaluations is None else replace(options.deficit, evaluations=evaluations)
         programme, broken = self._programme, tuple(broken)
@@ -138,11 +138,11 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes; else the closest one with one failed balance; else the one with all failed.
+        """Return a beat that closes; else the closest one that fails a single balance; else one that fails all.
 
-        If each of several balances alone may fail, the one with the smallest deficit counts. An excess of force
-        counts only if no deficit suffices, because excess force can mostly be shed at the expense of another
-        balance.
+        If several balances would each suffice alone, the one with the smallest deficit is reported. An excess of
+        force is reported only if no deficit suffices, because excess force can mostly be removed at the expense of
+        another balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []

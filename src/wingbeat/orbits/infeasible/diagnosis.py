@@ -32,7 +32,7 @@ class Nearest:
 
 
 class LeastChange(NamedTuple):
-    """A change, its least amount as a share of its scale, and the unknowns of a beat that then closes."""
+    """A change, its least amount (as a share of the change's scale), and the unknowns of a beat that closes."""
 
     change: Change
     share: float
@@ -66,7 +66,7 @@ def least_changes(
     threads: int,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[LeastChange]:
-    """Return the single changes with which beats close, each as small as possible, the smallest first.
+    """Return the single changes that let a beat close, each as small as possible, the smallest first.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _plainly(programme: Transcription) -> Transcription:
 
 
 def bounds_near(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
-    """Yield (name, sign) of the bounds that a beat is near, and of the limits of the whole path that it is near."""
+    """Yield (name, sign) of each bound, and of each limit along the path, that a beat is near."""
     share = programme.options.diagnosis.near_bound
     names, reach = programme.unknowns.names, share * (programme.upper - programme.lower)
     for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):

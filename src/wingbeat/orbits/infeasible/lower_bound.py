@@ -29,7 +29,7 @@ def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: fl
 
 
 def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
-    """Return whether least frequency may end at its bound: in a descent, or if a beat at the bound closed."""
+    """Return whether the lowest frequency may be its bound: in a descent, or if a beat at the bound closed."""
     problem, tolerance = programme.problem, programme.options.search.bound_tolerance
     if problem.minimise.parameter != "frequency":
         return False
@@ -37,7 +37,7 @@ def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray
 
 
 def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxation, Corrected] | None:
-    """Return the least raise of the lower bound of frequency at which an orbit is certified, and that orbit."""
+    """Return the least increase of the lower frequency bound with which an orbit is certified, and that orbit."""
     problem, options = unsolved.problem, unsolved.options
     raised, tolerance = options.diagnosis.raised_bounds, options.search.bound_tolerance
     low, high = (float(bound) for bound in problem.bounds["frequency"])
@@ -56,10 +56,10 @@ def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxatio
 
 
 def words_of_raise(problem: OrbitProblem, change: Relaxation) -> str:
-    """Return why starts failed if an orbit was certified only at a raised bound, and what to do."""
+    """Return the message for an orbit certified only at a raised bound: why starts failed, and what to do."""
     return (
-        f"the lowest frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, where an "
-        "orbit was certified; no lower one could be certified. The wings hardly need to beat here: the problem "
-        "ends at the lower bound of frequency, and more starts will hardly help. Raise that bound "
+        f"the lowest frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, "
+        "the lowest frequency at which an orbit was certified. The wings hardly need to beat here: the optimum is "
+        "at the lower bound of frequency, and more starts will hardly help. Raise that bound "
         f"({change.text}), minimise a power, or see `wingbeat glide {problem.species.name}`"
     )

@@ -47,7 +47,7 @@ WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 
 @dataclass(frozen=True)
 class Change:
-    """A number of a problem that may move, one way only.
+    """A number of a problem that may be changed, in one direction only.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
 
     Parameters
     ----------
-    problem, change : what changes.
+    problem, change : the problem, and the number that changes.
     value : the least change that is needed leads to this value, SI.
     more : further steps of the last digit.
     """
@@ -194,7 +194,8 @@ def possible_changes(
     problem : the problem.
     at_bounds : (name, sign) of the bounds that the closest wingbeat is at, including those along the path.
     short : that wingbeat's deficit of each balance, as a share of the weight, or of weight times chord. A vehicle
-        lighter by the missing lift, or one that sinks by the missing thrust, is close to an orbit.
+        that is lighter by the missing lift, or that descends to make up for the missing thrust, is close to an
+        orbit.
     options : how far each number may move, and which changes are tried first.
     """
     towards = functools.partial(_towards, large_angle=options.large_angle)
@@ -247,7 +248,7 @@ def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[floa
 
 
 def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: float) -> float:
-    """Return the farthest value, up or down, of a number of the wingbeat with which a wingbeat is possible."""
+    """Return the farthest value, up or down, of a wingbeat parameter for which a wingbeat is still possible."""
     reach = _HARMONIC if harmonic_place(name) else _REACH.get(name, _ANY_ANGLE)
     far = reach[upper]
     if name == "frequency":
@@ -269,20 +270,20 @@ def _tries(short: float | None, others: tuple[float, ...], beyond: float) -> tup
 def _towards(
     name: str, sign: str, old: float, reach: float, tries: tuple[float, ...], large_angle: float
 ) -> Iterator[Change]:
-    """Yield the change from old to reach, if reach is on the side that relaxes the problem."""
+    """Yield the change from `old` to `reach`, if `reach` is on the side that relaxes the problem."""
     scale = large_angle if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
     if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
         yield Change(name, sign, old, reach, scale, tries)
 
 
 def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
-    """Return a value that can be printed: rounded away from `old` to two digits of the change.
+    """Return a printable value: rounded away from `old`, to two digits of the change.
 
     Parameters
     ----------
     change : of which number.
     value : the least change that is needed leads to this value, SI.
-    factor : from SI to the unit in which it is printed.
+    factor : conversion factor from SI to the printed unit.
     more : further steps of the last digit.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor

@@ -18,11 +18,11 @@ _REMEMBERED = 8
 
 
 class RelaxedProgramme:
-    """A programme with one more unknown, the last, which it minimises: how far a number is moved, over its scale.
+    """A programme with an additional last unknown: the change of one number, over its scale, which is minimised.
 
     Parameters
     ----------
-    programme : of the problem, with the number at its reach or not moved.
+    programme : of the problem, with the number either at its reach or unchanged.
     change : the number, and which way it moves.
     """
 
@@ -33,7 +33,7 @@ class RelaxedProgramme:
         self.upper = np.append(programme.upper, change.widest)
 
     def start(self, unknowns: np.ndarray, share: float) -> np.ndarray:
-        """Return a beat that closes, with the number moved back as far as the same beat allows."""
+        """Return a beat that closes, with the number moved back as far as this beat allows."""
         scaled = np.clip(np.append(unknowns / self._programme.unknowns.scale, share), self.lower, self.upper)
         slope = self.inequalities_jacobian(scaled)[:, -1]
         spare = (self.inequalities(scaled)[slope > 0] / slope[slope > 0]).min()
@@ -77,7 +77,7 @@ def _with_zeros(jacobian: np.ndarray) -> np.ndarray:
 
 
 class _RelaxedBound(RelaxedProgramme):
-    """A bound of a free parameter moves; this needs one more inequality."""
+    """The programme in which a bound of a free parameter moves; it has one more inequality."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         programme = Transcription(with_change(problem, change.name, change.sign, change.reach), options)
@@ -99,7 +99,7 @@ class _RelaxedBound(RelaxedProgramme):
 
 
 class _RelaxedLimit(RelaxedProgramme):
-    """A limit along the beat moves: of body pitch, of the flap angle, or of a constraint."""
+    """The programme in which a limit along the beat moves: that of body pitch, flap angle, or a constraint."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         programme = Transcription(with_change(problem, change.name, change.sign, change.reach), options)
@@ -128,7 +128,7 @@ class _RelaxedLimit(RelaxedProgramme):
 
 
 class _RelaxedNumber(RelaxedProgramme):
-    """A number of vehicle, flight or wingbeat moves; derivatives by it are difference quotients."""
+    """The programme in which a number of vehicle, flight or wingbeat moves, with difference quotients by it."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         super().__init__(Transcription(problem, options), change)
@@ -175,7 +175,7 @@ def relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> Re
 def least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
 ) -> tuple[float, np.ndarray] | None:
-    """Return the least move of a number, over its scale, with which beats close, and the unknowns of one, if any.
+    """Return the least change of a number, over its scale, that lets a beat close, and this beat, or None.
 
     First the number is moved far, until a beat closes; then it is moved back as far as possible.
 

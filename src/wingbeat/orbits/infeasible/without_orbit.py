@@ -17,7 +17,7 @@ from wingbeat.orbits.status import Status
 
 @dataclass(frozen=True)
 class Ending:
-    """How the solver ended; without an orbit, the closest wingbeat's deficits and the changes that fly."""
+    """How the solver ended; without an orbit, the closest wingbeat's deficits and changes that lead to orbits."""
 
     status: Status
     message: str
@@ -39,7 +39,7 @@ def without_orbit(
     programme : of the problem.
     found : where the local searches ended, none of them an orbit.
     threads : changes tried at a time.
-    advise : whether to look for changes that fly.
+    advise : whether to search for changes that lead to an orbit.
     progress : called with (starts done, starts in all); each change counts as one more.
     """
     nearest = nearest_beat(programme, found)

@@ -16,8 +16,8 @@ class Along(NamedTuple):
     Attributes
     ----------
     name, unit : of the number.
-    of : reads it off a problem.
-    moved : returns a problem with another value of it.
+    of : function that returns the number of a problem.
+    moved : function that returns a problem with another value of the number.
     steps : first and smallest step of the continuation, from its options.
     """
 

@@ -26,7 +26,7 @@ _MOST_PROCESSES = 1024
 
 
 class Part(NamedTuple):
-    """Problems of one kind that are solved in sequence, and solutions of others to begin with."""
+    """Problems of one kind that are solved in sequence, and known solutions that predict the first of them."""
 
     problems: list[OrbitProblem]
     known: list[Known]
@@ -148,7 +148,7 @@ def best_of_guesses(
     guesses: Sequence[tuple[np.ndarray, ReducedHessian | None]],
     options: SolverOptions = DEFAULTS,
 ) -> Solution | None:
-    """Return the best certified orbit next to predicted unknowns, or None."""
+    """Return the best certified orbit that corrections of the predicted unknowns lead to, or None."""
     near = (correct_guess(problem, guess, like, options) for guess, like in guesses)
     return min((found for found in near if found is not None), key=lambda found: found.objective, default=None)
 

@@ -26,7 +26,7 @@ R = TypeVar("R")
 
 
 class BranchLink(NamedTuple):
-    """Optimum `lower` of one problem and `upper` of the next are one branch, `steps` steps apart."""
+    """Optimum `lower` of one problem and `upper` of the next belong to one branch, `steps` steps apart."""
 
     interval: int
     lower: int
@@ -87,9 +87,9 @@ def trace_along(
 
     Parameters
     ----------
-    along : the number in which they differ.
+    along : the number in which the problems differ.
     problems : in the order of that number.
-    starts, seed, progress, threads, options : as in `trace`, with its speeds the numbers.
+    starts, seed, progress, threads, options : as in `trace`, with this number in place of the speed.
     """
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
@@ -233,7 +233,7 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
     ----------
     optimum : a certified orbit.
     problem : the same problem with another value of one number, such as the speed.
-    along : that number.
+    along : the number that differs.
 
     Returns
     -------
@@ -271,7 +271,7 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
 def _next_to(
     programme: Transcription, guess: np.ndarray, like: ReducedHessian | None
 ) -> tuple[Candidate | None, ReducedHessian | None]:
-    """Return the optimum next to a guess, by Newton's method or else a local search, and its curvature if known."""
+    """Return the optimum near a guess, from Newton's method or else a local search, and its curvature if known."""
     scaled = programme.scaled(guess)
     newton = NewtonKKT(programme, scaled, like)
     near = newton.converge(programme, scaled)
@@ -284,7 +284,7 @@ def _next_to(
 
 
 def unknowns_at(place: np.ndarray, problem: OrbitProblem) -> np.ndarray:
-    """Return the unknowns of a problem at a `Solution.place`."""
+    """Return the unknowns of a problem from a `Solution.place`."""
     unknowns = place * problem.unknowns().scale
     unknowns[1:3] += problem.speed, problem.climb
     return unknowns

@@ -75,7 +75,7 @@ def find_series(
 
 
 def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return a problem's own solution, or a better one from a neighbour's, and whether it is better."""
+    """Return a problem's own solution, or a better one found from a neighbour's, and whether it is better."""
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - own.options.continuation.improvement * abs(own.objective)

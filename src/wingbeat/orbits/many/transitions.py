@@ -24,8 +24,8 @@ class Mark(NamedTuple):
 def marks_of(branches: Branches) -> list[Mark]:
     """Return the changes of the best orbit from problem to problem.
 
-    ``gap``: one side has no certified orbit. ``branch``: no continuation leads from the best orbit of one side to
-    that of the other, so that unknowns jump. ``bounds``: other bounds are active.
+    ``gap``: one of the two problems has no certified orbit. ``branch``: no continuation leads from the best orbit
+    of one problem to that of the next, so the unknowns jump. ``bounds``: different bounds are active.
     """
     marks = []
     for interval, (below, above) in enumerate(_neighbours(branches)):
@@ -46,8 +46,8 @@ def marks_of(branches: Branches) -> list[Mark]:
 def families(branches: Branches) -> list[list[int]]:
     """Return the family number of each optimum of each problem; families are in the order of their best rank.
 
-    A family has one optimum of a problem. Where two families lead to one optimum, the family with fewer steps
-    continues.
+    A family contains at most one optimum of each problem. If two families lead to the same optimum, the family with
+    fewer steps continues.
     """
     labels = [[-1] * len(optima) for optima in branches.optima]
     count = 0
@@ -82,7 +82,7 @@ def _link_of_best(branches: Branches, interval: int) -> BranchLink | None:
 
 
 def _how_it_changes(branches: Branches, interval: int) -> str:
-    """Return whether two families cross, and where, or one of them ends."""
+    """Return in words whether two families cross, and where, or whether one of them ends."""
     ways = {j.lower: j.upper for j in branches.links if j.interval == interval}
     back = {upper: lower for lower, upper in ways.items()}
     below, above = branches.optima[interval : interval + 2]

@@ -148,7 +148,7 @@ def sample_orbits(
     ----------
     problem, unknowns : the orbit problem and its optimum.
     slopes : its sensitivities by the spreads' parameters.
-    spreads : what to draw from.
+    spreads : distributions of the parameters.
     quantities : computed for each certified orbit; not-a-number without one.
     count : number of draws.
     seed : of the draws, and of the starts.

@@ -111,9 +111,9 @@ class Known(NamedTuple):
 
     Parameters
     ----------
-    numbers : that distinguish it from others of its kind.
+    numbers : the numbers that distinguish it from others of its kind.
     unknowns : of its optimum.
-    active : the bounds active there.
+    active : the bounds that are active at the optimum.
     reduced_hessian : the curvature at the optimum.
     """
 

@@ -18,7 +18,7 @@ from wingbeat.orbits.nlp.transcription import Transcription
 
 @dataclass(frozen=True)
 class Corrected:
-    """A candidate corrected until the certifier closes it, as far as possible, and its certificate."""
+    """A candidate, corrected so that it closes in the certifier's flight if possible, and its certificate."""
 
     scaled: np.ndarray
     wingbeat: Wingbeat
@@ -50,9 +50,9 @@ class Corrected:
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The optimum of the solver's coarse flight is slightly wrong. First, the closure takes the derivative and the
-    value of a finer flight. Then, in each round, it takes the value that the certifier finds. Newton's method
-    follows the optimum.
+    The solver's coarse flight makes the optimum slightly wrong. First, value and derivative of the closure are
+    replaced by those of a finer flight. Then, in each round, its value is replaced by that of the certifier's
+    flight. Newton's method follows the optimum.
     """
     programme = programme.uncorrected()
     return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)
@@ -110,7 +110,7 @@ def first_certified(programme: Transcription, found: list[Candidate]) -> Correct
 def _optimum(
     programme: Transcription, newton: NewtonKKT, scaled: np.ndarray, step_tolerance: float | None = None
 ) -> np.ndarray:
-    """Return the optimum next to a point by Newton's method, or else by SLSQP."""
+    """Return the optimum near a point, from Newton's method or else from SLSQP."""
     options = programme.options.certificate
     found = newton.converge(programme, scaled, step_tolerance)
     return optimise(programme, scaled, options.iterations, options.tolerance)[0] if found is None else found
@@ -129,7 +129,7 @@ def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -
 
 
 def certified(programme: Transcription, scaled: np.ndarray) -> Corrected:
-    """Fly unknowns with the certifier, without correcting them."""
+    """Return unknowns with their certificate, without correction."""
     wingbeat, certificate = _fly(programme, scaled)
     residual = programme.problem.closure(certificate.end, programme.physical(scaled), wingbeat.frequency)
     return Corrected(scaled, wingbeat, certificate, residual, programme)

@@ -14,7 +14,7 @@ from wingbeat.orbits.problem.problem import CLOSURE_SCALE, PATH_NAMES
 
 
 class Programme(Protocol):
-    """A nonlinear programme in scaled unknowns, as SLSQP takes it."""
+    """The interface of a nonlinear programme in scaled unknowns, as SLSQP needs it."""
 
     lower: np.ndarray
     upper: np.ndarray
@@ -141,7 +141,7 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
 
 @dataclass(frozen=True)
 class Patience:
-    """The rule that a local search has diverged: in so many flights, its violation always exceeded `closure`."""
+    """The rule that a local search has diverged: the violation in all of so many flights exceeded `closure`."""
 
     flights: int
     closure: float
@@ -164,7 +164,7 @@ def optimise(
     tolerance: float,
     patience: Patience | None = None,
 ) -> tuple[np.ndarray, bool]:
-    """Minimise the objective on closed orbits with SLSQP; return where it ended and whether it converged.
+    """Minimise the objective over closed orbits with SLSQP; return where SLSQP ended and whether it converged.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class ReducedHessian(NamedTuple):
 
     Parameters
     ----------
-    free : which unknowns are at no bound, shape (n,).
+    free : flags of the unknowns that are at no bound, shape (n,).
     active : which inequalities are active.
     basis : directions of the free unknowns that change no active condition, in columns.
     matrix : the Lagrangian's second derivative along them.
@@ -38,8 +38,8 @@ class NewtonKKT:
     ----------
     programme : the first problem.
     scaled : its optimum.
-    like : curvature of an optimum nearby. It is used if that optimum has the same active set; else the curvature is
-        measured.
+    like : curvature at a nearby optimum. It is used if that optimum has the same active set; otherwise the
+        curvature is computed from differences.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class NewtonKKT:
 
     @property
     def reduced_hessian(self) -> ReducedHessian | None:
-        """The curvature, for a problem nearby; None if the method does not fit."""
+        """The curvature, for use with similar problems; None if the method is not applicable."""
         return ReducedHessian(self.free, self.active, self._basis, self._hessian) if self.fits else None
 
     def _has_active_set_of(self, other: ReducedHessian) -> bool:

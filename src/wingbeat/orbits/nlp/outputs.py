@@ -12,7 +12,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 class Outputs:
-    """Objective and constraints of a problem as outputs of a wingbeat, over their scales.
+    """Those values of objective and constraints that depend on the flown wingbeat, divided by their scales.
 
     A quantity that is a series has several values: its peaks.
 
@@ -59,7 +59,7 @@ class Outputs:
         return range(sum(counts[:index]), sum(counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
-        """Return the constraints with an active value; `active` flags the inequalities after those of the path."""
+        """Return indices of constraints with an active value; `active` flags the inequalities after the path's."""
         return [i for i in range(len(self._problem.subject_to)) if active[self.values_of(i)].any()]
 
     def active_constraints(self, active: np.ndarray) -> list[str]:

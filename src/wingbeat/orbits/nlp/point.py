@@ -25,7 +25,7 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Correction:
-    """Correction by a finer flight near one point: subtract an offset, add a slope away from the point."""
+    """Correction from a finer flight near one point: an offset to subtract, and a slope to add off the point."""
 
     anchor: np.ndarray
     closure_offset: np.ndarray

@@ -18,12 +18,12 @@ _UPRIGHT = 0.5 * math.pi
 class StrokeLimits:
     """Margins of a problem's stroke within its limits, as rows of the inequalities.
 
-    There are no rows if no free parameter shapes the stroke, or if the wings may cross.
+    There are no rows if no free parameter affects the stroke, or if the wings may cross.
 
     Parameters
     ----------
     problem : the orbit problem.
-    clearance : of strip corners from the plane of symmetry, in wing lengths.
+    clearance : smallest distance of strip corners from the plane of symmetry, in wing lengths.
 
     Attributes
     ----------

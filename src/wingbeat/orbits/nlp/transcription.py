@@ -33,17 +33,17 @@ class _Clock:
 
 
 class Transcription:
-    """Closure, inequalities and objective of a problem as functions of scaled unknowns, each flight flown once.
+    """Closure, inequalities and objective of a problem as functions of scaled unknowns; flights are cached.
 
-    To minimise the largest value of a series, the last unknown is the epigraph variable, an upper limit of the
-    series' peaks. A programme does not change; `linearised_at` and `matched_to` return the corrected one.
+    If the objective is the largest value of a series, the last unknown is the epigraph variable: an upper limit of
+    the series' peaks. A programme is immutable; `linearised_at` and `matched_to` return a corrected one.
 
     Parameters
     ----------
     problem : the orbit problem.
     options : of the solvers.
-    blocks : a flight has this multiple of `STEPS` steps.
-    unknowns : replace the problem's own bounds and scales, for a point just outside of them.
+    blocks : a flight has this many times `STEPS` steps.
+    unknowns : bounds and scales that replace the problem's own, for a point just outside the bounds.
 
     Attributes
     ----------
@@ -234,7 +234,7 @@ class Transcription:
         return values, np.concatenate([self.closure_jacobian(scaled), by_inequalities])
 
     def linearised_at(self, scaled: np.ndarray, blocks: int) -> Transcription:
-        """Return the programme with values and derivatives of a flight of more blocks at this point."""
+        """Return the programme, corrected to values and derivatives of a flight with more blocks at this point."""
         here, unknowns = self.point(scaled), self.physical(scaled)
         fine = self._point_of(self.fly(unknowns[4:], unknowns[:4], blocks), unknowns)
         return self._corrected(
@@ -249,7 +249,7 @@ class Transcription:
         )
 
     def matched_to(self, scaled: np.ndarray, certificate: Certificate) -> Transcription:
-        """Return the programme with the values of closure, path and outputs that the certifier finds here."""
+        """Return the programme, corrected to the certifier's values of closure, path and outputs at this point."""
         unknowns, by = self.physical(scaled), self._correction
         residual = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         path_offset = by.path_offset.copy()

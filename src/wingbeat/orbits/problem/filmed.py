@@ -45,8 +45,8 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
     """Return the free parameters, those of the species that were not filmed, and their bounds.
 
-    Two free parameters are needed, for forward and for vertical speed. If fewer are left, the mean of wing pitch,
-    and then its amplitude, may move from the filmed value within the bounds returned.
+    Two free parameters are needed to control forward and vertical speed. If fewer are left, the mean wing pitch is
+    freed too, and then its amplitude; the bounds returned limit their distance from the filmed values.
     """
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):

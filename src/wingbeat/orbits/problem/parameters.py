@@ -29,7 +29,7 @@ class Parameter(NamedTuple):
     path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
     unit : of the value, ``1`` if it has none.
     value : SI and radians, but as published where the name ends in ``_deg``.
-    size : size of a large change: the magnitude of the value, or a typical magnitude if the value is 0.
+    size : magnitude of the value, or a typical magnitude if the value is 0; a change by this much is large.
     place : path from the problem to the number.
     plausible : lowest and highest plausible value, where the species file gives them.
     """
@@ -71,7 +71,7 @@ def with_number(record: Any, place: Place, value: float) -> Any:
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
-    It leaves out the wrist, which has no effect until it crosses a strip, parameters of motions that are off, and
+    Left out are the wrist, which has no effect until it crosses a strip; parameters of motions that are off; and
     the numbers of coefficient models that are not formulas.
 
     >>> from wingbeat.species import load_species
@@ -92,9 +92,9 @@ def _with_plausible(problem: OrbitProblem, parameter: Parameter) -> Parameter:
 
 
 def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, float] | None:
-    """Return the species file's range. The body's range is that of the vehicle's mass, minus the wings' mass.
+    """Return the species file's range; the body's mass has the range of the vehicle's mass minus the wings' mass.
 
-    A parameter that the species leaves free and the user fixes counts as measured, so that it has no range.
+    If the species leaves a parameter free and the user fixes it, it counts as measured and has no range.
     """
     numbers = problem.species.numbers
     last = str(parameter.place[-1])

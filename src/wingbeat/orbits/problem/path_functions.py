@@ -70,7 +70,7 @@ class OutputFunctions:
         self.limits = np.repeat(limits, self.constraint_counts)
 
     def values(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
-        """Return the values; of a series, the peaks of a smooth curve through it, or its highest samples.
+        """Return the values; for a series, the peaks of a smooth curve through it, or its highest samples.
 
         Raises
         ------
@@ -98,7 +98,7 @@ def value_count(function: Callable[[Beat], Any], strips: int) -> int:
 # Tracing a function takes 2.5 ms, and every problem of a curve or study asks.
 @functools.lru_cache(256)
 def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
-    """Return what a quantity's function returns, as shapes without numbers."""
+    """Return the shapes of the arrays that a quantity's function returns."""
     return jax.eval_shape(function, _any_beat(strips))
 
 

@@ -57,8 +57,8 @@ class OrbitProblem:
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
-    wings_may_cross : let each wing leave its side of the plane of symmetry, and flap angles their range. A stroke
-        whose parameters are all fixed may do so anyway, with a warning.
+    wings_may_cross : whether a wing may cross the plane of symmetry, and flap angles may leave their range. A
+        stroke whose parameters are all fixed may do so anyway, with a warning.
 
     Raises
     ------
@@ -184,7 +184,7 @@ class OrbitProblem:
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
-        """Return the problem at another speed; with plausible bounds, the limits are those of that speed.
+        """Return the problem at another speed; plausible bounds become those at that speed.
 
         Parameters
         ----------
@@ -270,7 +270,7 @@ class OrbitProblem:
 
     @functools.cached_property
     def model(self) -> FlightModel:
-        """The flight model of vehicle, air loads and air; cached: its coefficients take as long as a flight."""
+        """The flight model of vehicle, air loads and air; cached, because making it takes as long as a flight."""
         return FlightModel(self.vehicle, self.aero, self.air, (self.speed, self.climb))
 
     def unknowns(self) -> Unknowns:

@@ -24,7 +24,7 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number computed from one wingbeat, or a series along it; of a series, the largest value counts.
+    """A number computed from one wingbeat, or a series along it, whose largest value then counts.
 
     Parameters
     ----------
@@ -33,9 +33,9 @@ class Quantity:
         (K, m) of K phases.
     unit : of the value.
     scale : a difference that matters, so that the optimiser sees numbers near one.
-    parameter : the wingbeat parameter that the quantity is, if it is one. As an objective, the quantity then needs
-        no flight.
-    in_hover : what to ask for instead in hover, if the quantity is undefined at speed 0.
+    parameter : name of the wingbeat parameter that equals the quantity, if any. As an objective, the quantity then
+        needs no flight.
+    in_hover : advice, in words, on what to use instead in hover, if the quantity is undefined at speed 0.
 
     Raises
     ------

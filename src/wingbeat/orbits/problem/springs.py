@@ -21,7 +21,7 @@ _FARTHEST_REST = math.pi
 
 @dataclass(frozen=True)
 class SpringCost:
-    """The mean positive power that springs leave to the hinges' actuators; slack in mid-stroke by default."""
+    """The actuators' mean positive power at the hinges with springs, which are slack in mid-stroke by default."""
 
     stiffness: float
     rest_angle: float | None = None
@@ -33,7 +33,7 @@ class SpringCost:
 
 
 class Spring(NamedTuple):
-    """Springs of both flap hinges together: stiffness [N m/rad], rest angle [rad], the power that they leave [W].
+    """Both flap springs together: stiffness [N m/rad], rest angle [rad], and the actuators' remaining power [W].
 
     Stiffness 0 means no spring; the rest angle is then None.
     """
@@ -54,7 +54,7 @@ def _left(spring: Any, flap: Any, flap_rate: Any, power: Any) -> Any:
 
 
 def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
-    """Return the springs that leave the least mean positive power to the actuators, for one closed beat.
+    """Return the springs with which the actuators need the least mean positive power, for one closed beat.
 
     The power is linear in stiffness and in stiffness times rest angle, so its mean positive part is convex in both,
     and SciPy's SLSQP finds the global minimum. If many springs are equally good, it returns one of them. The rest

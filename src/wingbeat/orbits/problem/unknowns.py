@@ -28,7 +28,7 @@ class Unknowns:
 
 
 def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
-    """Note a fault for each free tilt that this vehicle flies the same with.
+    """Note a fault for each free tilt that has no effect on this vehicle's flight.
 
     Parameters
     ----------

@@ -109,12 +109,12 @@ def _section(found: Validation, figure: str) -> str:
             rows = [_cells(row, getattr(row, axis)) for row in found.rows]
             lines += [f"{label}; the recommended row is bold:", "", *_table(_COLUMNS, rows), ""]
     said = found.to_dict()
-    for axis in ("fz", "fx"):
+    for axis, force in (("fz", "upward"), ("fx", "forward")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            text = f"The best sine for {axis} has an rms of {sine['rms']:.2f} weights"
+            text = f"The best sine differs from the measured {force} force by an rms of {sine['rms']:.2f} weights"
             about = sine["rms_about_mean"]
-            text += "." if about is None else f", {about:.2f} of the measured spread."
+            text += "." if about is None else f"; without both means, by {about:.2f} of the measured rms."
             text += "" if noise is None else f" The measurement's own standard error is {noise:.2f} weights."
             lines += [text, ""]
     lines += [f"Note: {note}." for note in found.notes]

@@ -48,7 +48,7 @@ def experiment_claims() -> list[Claim]:
             "repeats",
             where,
             "three repeats agree and their standard deviations are small, so the forces are steady (ours: the "
-            "number of runs in the sweep and its repeats)",
+            "number of runs of the whole experiment with its repeats)",
             "reproducible",
             "1",
             4 * 3 * (110 / 2 + 1),

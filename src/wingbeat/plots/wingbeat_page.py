@@ -127,5 +127,5 @@ def _note(dataset: xr.Dataset) -> str:
     """Return the line below the panels."""
     mean = mean_power(dataset)
     power = "" if mean is None else f" c: mean hinge power {mean:.3g} W."
-    strips = f"h, i: one of {dataset.sizes['station']} equal strips, both wings together."
+    strips = f"h, i: force on one of the {dataset.sizes['station']} equal strips of a wing, sum of both wings."
     return f"Downstroke shaded.{power} g: effective angle. {strips}"

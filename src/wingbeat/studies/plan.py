@@ -271,7 +271,7 @@ def _hashable(fault: Fault) -> Fault:
 
 
 def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
-    """Return a file's path relative to the study's folder; a name is returned unchanged."""
+    """Return the path of a file in the study's folder; a name without one of the suffixes stays as it is."""
     return str(folder / name) if name.lower().endswith(suffixes) else name
 
 

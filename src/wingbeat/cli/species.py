@@ -183,7 +183,7 @@ def _print_list(everyone: list[Species]) -> None:
     console.print(table)
     if outside:
         names = ", ".join(outside)
-        line = f"warning: at {_SPEED:g} m/s these are outside 2e4 to 5e4, the Reynolds numbers of Su et al.: {names}"
+        line = f"warning: at {_SPEED:g} m/s these leave the Reynolds numbers of Su et al., 2e4 to 5e4: {names}"
         console.print(line, style="yellow")
     console.print(
         "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."

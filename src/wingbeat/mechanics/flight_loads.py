@@ -10,7 +10,7 @@ from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, s
 from wingbeat.mechanics.air_forces import air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, is_unsteady, motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
-from wingbeat.mechanics.wing_motion import strips_of, time_rates
+from wingbeat.mechanics.wing_motion import air_chord, strips_of, time_rates
 from wingbeat.mechanics.wing_points import point_motion
 
 if TYPE_CHECKING:
@@ -155,7 +155,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) 
         strip_position=points.position.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
-        strip_reynolds=model.air.reynolds(air.strips.speed, strips.chord),
+        strip_reynolds=model.air.reynolds(air.strips.speed, air_chord(wingbeat, strips.chord, phase)),
         alpha=air.strips.alpha,
         lift=air.strips.lift,
         drag=air.strips.drag,

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import Wingbeat, chord_ratio, tip_twist
 from wingbeat.mechanics.flight_loads import Loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
-from wingbeat.nomenclature.series import SERIES
+from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,6 +55,8 @@ def flight_dataset(
     import xarray as xr
 
     by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
+    laws = {"chord_ratio": chord_ratio(wingbeat, phase), "tip_twist": tip_twist(wingbeat, phase)}
+    by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
     by_name["time"] = phase / wingbeat.frequency
     by_name |= {name: value for name, value in found._asdict().items()}
     corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
@@ -72,8 +74,8 @@ def flight_dataset(
     return xr.Dataset(
         {
             term.name: (_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
-            for term in SERIES
-            if term.name not in coordinates
+            for term in (*SERIES, *SERIES_WHERE_ON)
+            if term.name in by_name
         },
         {name: (name, value, attributes_of(NOMENCLATURE[name])) for name, value in coordinates.items()},
         {"Conventions": "CF-1.11", **attributes},

@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.film import FILMED, Film
 from wingbeat.harmonics import HIGHEST_ORDER
-from wingbeat.kinematics import FREE_NAMES, Wingbeat
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, span_ratio
+from wingbeat.vehicle import Vehicle
 
 # Mean, cosine and sine of order 1 are free of the penalty.
 _PLAIN = 3
@@ -29,6 +30,8 @@ _PLAIN = 3
 _WEIGHTS = (1e-12, 1e8)
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
+# Chi squared of four numbers that noise alone exceeds in one film of a hundred.
+_CHANCE = 13.28
 Array = NDArray[np.float64]
 
 
@@ -107,26 +110,81 @@ def _from(shift: float, coefficients: Array) -> Array:
     return np.concatenate([coefficients[:1], waves])
 
 
-def _numbers(laws: Mapping[str, Array]) -> dict[str, Any]:
-    """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0."""
+def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[str, Any]:
+    """Return mean, amplitude, phase and harmonics of a law ``mean + sign amplitude sin(2 pi phase + lead)``."""
+    return {
+        f"{law}_mean": mean,
+        f"{law}_amplitude": math.hypot(*waves[:2]),
+        f"{law}_phase": math.atan2(sign * waves[0], sign * waves[1]),
+        f"{law}_harmonics": tuple(waves[2:]),
+    }
+
+
+def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
+    """Return retraction and harmonics of span or chord.
+
+    The law of retraction has a mean and a sine; the harmonics make up for the rest.
+    """
+    retraction = max(2.0 * (1.0 - mean), 0.0)
+    harmonics = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
+    return {f"{law}_retraction": retraction, f"{law}_harmonics": harmonics}
+
+
+def _chord_of(area: Array, span: Array) -> Array:
+    """Return the coefficients of area over span, over the same phases; both are series."""
+    # Sixteen samples in the highest harmonic's period: what lies beyond it is not folded back.
+    columns = _design(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
+    ratio = (columns @ area) / (columns @ span)
+    return np.asarray(np.linalg.lstsq(columns, ratio, rcond=None)[0], dtype=np.float64)
+
+
+def _span_of(wingbeat: Wingbeat) -> Array:
+    """Return the coefficients of a wingbeat's span law, in the phase of an even beat, as a film's is."""
+    wingbeat = dataclasses.replace(wingbeat, downstroke_fraction=0.5)
+    phase = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
+    found = np.linalg.lstsq(_design(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
+    return np.asarray(found, dtype=np.float64)
+
+
+def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> dict[str, Any]:
+    """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0.
+
+    The chord law needs a span law: the film's, or if it shows none that of the species.
+    """
     flap = laws.get("flap_deg")
     shift = 0.0 if flap is None else math.atan2(flap[2], flap[1]) / (2 * math.pi)
     fields: dict[str, Any] = {"downstroke_fraction": 0.5}
-    for name, coefficients in laws.items():
-        moved = _from(shift, coefficients)
-        moved = np.radians(moved) if FILMED[name] == "deg" else moved
-        mean, *waves = moved.tolist()
+    series = {name: _from(shift, coefficients) for name, coefficients in laws.items()}
+    series |= {name: np.radians(moved) for name, moved in series.items() if FILMED[name] == "deg"}
+    span = series.get("span_fraction", species_span)
+    for name, (mean, *waves) in ((name, moved.tolist()) for name, moved in series.items()):
         if name == "flap_deg":
             fields |= {"flap_mean": mean, "flap_amplitude": waves[0], "flap_harmonics": tuple(waves[2:])}
         elif name == "pitch_deg":
-            fields |= {"pitch_mean": mean, "pitch_amplitude": math.hypot(*waves[:2])}
-            fields |= {"pitch_phase": math.atan2(-waves[0], -waves[1]), "pitch_harmonics": tuple(waves[2:])}
-        else:
-            # The law of retraction has a mean and a sine; the harmonics make up for the rest.
-            retraction = max(2.0 * (1.0 - mean), 0.0)
-            fields["span_retraction"] = retraction
-            fields["span_harmonics"] = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
+            fields |= _swinging("pitch", mean, waves, sign=-1.0)
+        elif name == "sweep_deg":
+            fields |= _swinging("sweep", mean, waves, sign=1.0)
+        elif name == "span_fraction":
+            fields |= _drawn_in("span", mean, waves)
+    if "tip_pitch_deg" in series:
+        mean, *waves = (series["tip_pitch_deg"] - series["pitch_deg"]).tolist()
+        # Each was tracked up to whole turns.
+        fields |= {
+            "twist_ratio": 1.0,
+            "twist_mean": math.remainder(mean, 2 * math.pi),
+            "twist_harmonics": tuple(waves),
+        }
+    if "area_fraction" in series and span is not None:
+        mean, *waves = _chord_of(series["area_fraction"], span).tolist()
+        fields |= _drawn_in("chord", mean, waves)
     return fields
+
+
+# The parameters of a wingbeat that each column settles, by how their names begin.
+_SETTLED = {
+    **{"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"},
+    **{"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"},
+}
 
 
 @dataclass(frozen=True)
@@ -144,14 +202,67 @@ class FilmedBeat:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """The fields of a `Wingbeat` that the film gives, SI and radians."""
+        """The fields of a `Wingbeat` that the film gives without its species, SI and radians.
+
+        The tilt of the stroke plane, and a chord whose span was not filmed, need the species: see `numbers_of`.
+        """
+        return self._numbers(None)
+
+    def _numbers(self, span: Array | None) -> dict[str, Any]:
         known = {} if self.film.frequency is None else {"frequency": self.film.frequency}
-        return known | _numbers({name: law.coefficients for name, law in self.laws.items()})
+        return known | _numbers({name: law.coefficients for name, law in self.laws.items()}, span)
+
+    def numbers_of(self, vehicle: Vehicle, wingbeat: Wingbeat) -> dict[str, Any]:
+        """Return all fields of a `Wingbeat` that the film gives, SI and radians.
+
+        Parameters
+        ----------
+        vehicle : gives the angle of the stroke plane, to which the tilt adds.
+        wingbeat : gives the span law, if it was not filmed.
+
+        Raises
+        ------
+        InvalidInputError : a chord that is on average above the full one or below half of it.
+        """
+        fields = self._numbers(_span_of(wingbeat))
+        if "area_fraction" in self.laws:
+            self._check_chord(wingbeat)
+        if "stroke_plane_deg" in self.laws:
+            angle = math.radians(self.laws["stroke_plane_deg"].coefficients[0]) - vehicle.wing.stroke_plane_angle
+            fields["stroke_plane_tilt"] = math.remainder(angle, 2 * math.pi)
+        return fields
+
+    def _check_chord(self, wingbeat: Wingbeat) -> None:
+        area, span = self.laws["area_fraction"], self.laws.get("span_fraction")
+        mean = _chord_of(area.coefficients, _span_of(wingbeat) if span is None else span.coefficients)[0]
+        error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
+        faults = FaultList()
+        if not 0.5 < mean <= 1.0 + _NOISE * error:
+            rule = "is the mean of area over span and must be above 0.5 and at most 1"
+            fix = "divide by the area of the species' whole wing, span and chord spread"
+            faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
+        faults.raise_if_any()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader of the fit must know."""
+        law = self.laws.get("stroke_plane_deg")
+        if law is None:
+            return self.film.notes
+        waves = law.coefficients[1:5]
+        if waves @ np.linalg.solve(law.covariance[1:5, 1:5], waves) <= _CHANCE:
+            return self.film.notes
+        swing = float(np.ptp(law.curve(np.linspace(0.0, 1.0, 97))[0]))
+        return (
+            *self.film.notes,
+            f"{self.film.name}, column stroke_plane_deg: it varies by {swing:.2g} degrees over the beat, more than "
+            "its noise; the stroke plane of a wingbeat is fixed, so its mean is used",
+        )
 
     @property
     def held(self) -> frozenset[str]:
         """The parameters of a wingbeat that the film gives; an orbit may choose none of them."""
-        filmed = tuple(f"{name.partition('_')[0]}_" for name in self.laws)
+        filmed = tuple(_SETTLED[name] for name in self.laws)
         return frozenset(name for name in FREE_NAMES if name.startswith(filmed)) | self.numbers.keys()
 
     def draws(self, wingbeat: Wingbeat, count: int = 32, seed: int = 0) -> list[Wingbeat]:
@@ -159,16 +270,19 @@ class FilmedBeat:
 
         Parameters
         ----------
-        wingbeat : holds what was not filmed.
+        wingbeat : the fitted one, which holds what was not filmed.
         count : number of wingbeats; an impossible one, such as one without amplitude, is left out.
         seed : the same seed gives the same wingbeats.
         """
-        random, found = np.random.default_rng(seed), []
+        random, found, span = np.random.default_rng(seed), [], _span_of(wingbeat)
         for _ in range(count):
             drawn = {
                 n: random.multivariate_normal(law.coefficients, law.covariance) for n, law in self.laws.items()
             }
-            fields = _numbers(drawn)
+            fields = _numbers(drawn, span)
+            if "stroke_plane_deg" in drawn:
+                moved = drawn["stroke_plane_deg"] - self.laws["stroke_plane_deg"].coefficients
+                fields["stroke_plane_tilt"] = wingbeat.stroke_plane_tilt + math.radians(moved[0])
             if self.film.frequency is not None:
                 fields["frequency"] = random.normal(self.film.frequency, self.film.frequency_se)
             try:

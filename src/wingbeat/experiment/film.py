@@ -29,10 +29,13 @@ FILMED = {
     **{"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""},
     **{"sweep_deg": "deg", "tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""},
 }
+# The body, for a film that gives times.
+BODY = {"body_x_m": "m", "body_z_m": "m", "body_pitch_deg": "deg"}
+COLUMNS = FILMED | BODY
 # Of what a fraction is one.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
 # Angles that a tracker may give anywhere on the circle.
-_WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg")
+_WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg", "body_pitch_deg")
 _CLOCKS = {"phase": "", "time": "s"}
 _CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz"}
 _FEWEST = 8
@@ -52,7 +55,8 @@ class Film:
         normal), ``span_fraction`` (of the semi-span), ``sweep_deg`` (span ahead of the stroke plane),
         ``tip_pitch_deg`` (as pitch, at the tip), ``stroke_plane_deg`` (from the body axis, as the species'
         `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where it was
-        not seen. Pitch and stroke plane may jump by whole turns.
+        not seen. Pitch and stroke plane may jump by whole turns. Besides, of the body: ``body_x_m`` (forward),
+        ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
     frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
     synthetic : whether it was made by a random generator.
 
@@ -79,9 +83,12 @@ class Film:
         if self.frequency is not None:
             faults.number(f"{self.name}, frequency", self.frequency, above=0, unit="Hz")
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
-        if not self.columns or set(self.columns) - set(FILMED):
+        if not set(self.columns) & set(FILMED) or set(self.columns) - set(COLUMNS):
             shown = ", ".join(self.columns) or "nothing"
-            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(FILMED)}")
+            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(COLUMNS)}")
+        if set(self.columns) & set(BODY) and self.frequency is None:
+            rule = "needs the frequency: the path of the body is one of time"
+            faults.add(f"{self.name}, frequency", None, rule, "give it in Hz")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
@@ -95,6 +102,11 @@ class Film:
         if self.synthetic:
             notes.insert(0, f"{self.name} is synthetic: made by a random generator, not filmed")
         object.__setattr__(self, "notes", tuple(notes))
+
+    @property
+    def shows_body(self) -> bool:
+        """Whether it shows the path of the body."""
+        return bool(set(self.columns) & set(BODY))
 
     def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return phases and values of the frames in which a column was seen.
@@ -123,13 +135,13 @@ class Film:
             faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
         notes = self._unwrap(name, phase, faults) if name in _WRAPPED else []
         largest = float(np.abs(values).max())
-        if FILMED[name] == "deg" and 0 < largest < 3.0:
+        if FILMED.get(name) == "deg" and 0 < largest < 3.0:
             notes.append(
                 f"{where}: no angle exceeds {largest:.2g} degrees; if these are radians, multiply them by 57.29578"
             )
-        if FILMED[name] == "deg" and name not in _WRAPPED and largest > 180:
+        if FILMED.get(name) == "deg" and name not in _WRAPPED and largest > 180:
             faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
-        if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
+        if name in WHOLE and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
             faults.add(
                 where,
@@ -195,12 +207,15 @@ def read_film(path: str | Path) -> Film:
     if "time" in names and "frequency" not in constants:
         fix = "add the line '# frequency = ...' [Hz] above the table, or give phases"
         faults.add(f"{sheet.file}, frequency", "", "is missing: times need it to become phases", fix)
-    numbers = parse_numbers(faults, sheet, names, blank=frozenset(FILMED)) if names else np.empty((0, 0))
+    if set(names) & set(BODY) and "time" not in names:
+        rule = "has the path of a body but no times"
+        faults.add(f"{sheet.file} row {sheet.header_row}", ",".join(sheet.header), rule, "give time [s], not phase")
+    numbers = parse_numbers(faults, sheet, names, blank=frozenset(COLUMNS)) if names else np.empty((0, 0))
     faults.raise_if_any()
     by_name = {name: numbers[:, k].copy() for k, name in enumerate(names)}
     frequency = constants.get("frequency")
     phase = by_name["phase"] if "phase" in by_name else by_name["time"] * (frequency or 0.0)
-    columns = {name: by_name[name] for name in FILMED if name in by_name}
+    columns = {name: by_name[name] for name in COLUMNS if name in by_name}
     return Film(
         sheet.file, phase, columns, frequency, constants.get("frequency_se", 0.0), "synthetic" in sheet.constants
     )
@@ -208,12 +223,12 @@ def read_film(path: str | Path) -> Film:
 
 def _names(faults: FaultList, sheet: Sheet) -> list[str]:
     names: list[str] = []
-    units = _CLOCKS | FILMED
+    units = _CLOCKS | COLUMNS
     for k, cell in enumerate(sheet.header):
         name, unit = split_unit(cell)
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         if name not in units:
-            angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke"))
+            angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke", "body_pitch"))
             fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:

@@ -1,10 +1,7 @@
-"""From a film to a wingbeat: periodic smoothing splines, as Fourier series, with their errors.
+"""From a film to a wingbeat: a periodic spline for each column, and from them the laws with their errors.
 
-The penalty is the square of (third derivative plus (2 pi)^2 times first derivative) of the spline. It is zero for a
-mean and a plain sine (Ramsay and Silverman 2005, doi 10.1007/b98888): order k pays ``k^2 (k^2 - 1)^2``. Restricted
-maximum likelihood chooses its weight. The errors are those of the posterior whose mean is the spline (Wahba 1983,
-doi 10.1111/j.2517-6161.1983.tb01239.x), so they include the spline's bias. The result is a `Wingbeat` with
-harmonics up to order 8, even if they are zero, so that one compiled program serves all films.
+The result is a `Wingbeat` with harmonics up to order 8, even if they are zero, so that one compiled program serves
+all films.
 """
 
 from __future__ import annotations
@@ -13,101 +10,21 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.film import FILMED, Film
+from wingbeat.experiment.periodic_spline import Array, FilmedLaw, fit_law, fourier_columns, from_phase
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, span_ratio
 from wingbeat.vehicle import Vehicle
 
-# Mean, cosine and sine of order 1 are free of the penalty.
-_PLAIN = 3
-# Range in which the weight of the penalty is searched, times the number of frames.
-_WEIGHTS = (1e-12, 1e8)
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
 # Chi squared of four numbers that noise alone exceeds in one film of a hundred.
 _CHANCE = 13.28
-Array = NDArray[np.float64]
-
-
-def _design(phase: Any) -> Array:
-    """Return the columns 1, cos, sin, .. of a Fourier series, shape (n, 17)."""
-    turns = 2 * math.pi * np.asarray(phase)[:, None] * np.arange(1, HIGHEST_ORDER + 1)
-    waves = np.stack([np.cos(turns), np.sin(turns)], axis=-1).reshape(len(turns), 2 * HIGHEST_ORDER)
-    return np.hstack([np.ones((len(turns), 1)), waves])
-
-
-class FilmedLaw(NamedTuple):
-    """One column of a film as a Fourier series of the film's phase, in the unit of the column.
-
-    Attributes
-    ----------
-    coefficients : mean, cosine and sine of order 1, of order 2 and so on up to 8, shape (17,).
-    covariance : of the coefficients, shape (17, 17).
-    residual_sd : standard deviation of a frame from the series.
-    degrees : effective number of parameters of the spline; a mean and a plain sine are 3.
-    frames : number of frames.
-    """
-
-    coefficients: Array
-    covariance: Array
-    residual_sd: float
-    degrees: float
-    frames: int
-
-    def curve(self, phase: Any) -> tuple[Array, Array]:
-        """Return the series at phases of the film, and its standard error.
-
-        Parameters
-        ----------
-        phase : phases of the film, shape (n,).
-        """
-        columns = _design(phase)
-        return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
-
-
-def _fit_law(phase: Array, values: Array) -> FilmedLaw:
-    """Fit a periodic smoothing spline; restricted maximum likelihood chooses its weight."""
-    from scipy.optimize import minimize_scalar
-
-    count, columns = len(values), _design(phase)
-    orders = np.repeat(np.arange(2, HIGHEST_ORDER + 1), 2)
-    penalty = np.concatenate([np.zeros(_PLAIN), orders**2 * (orders**2 - 1.0) ** 2])
-    square, right = columns.T @ columns, columns.T @ values
-    rounding = count * (1e-9 * np.abs(values).max()) ** 2
-
-    def solved(log_weight: float) -> tuple[Array, Array, float]:
-        stiff = square + np.diag(count * math.exp(log_weight) * penalty)
-        found = np.asarray(np.linalg.solve(stiff, right), dtype=np.float64)
-        rest = values - columns @ found
-        return stiff, found, float(rest @ rest + found @ (stiff - square) @ found) + rounding
-
-    def unlikely(log_weight: float) -> float:
-        stiff, _, left = solved(log_weight)
-        return float((count - _PLAIN) * math.log(left) + np.linalg.slogdet(stiff)[1] - orders.size * log_weight)
-
-    # The likelihood may have two maxima, so a grid comes first.
-    grid = np.linspace(math.log(_WEIGHTS[0]), math.log(_WEIGHTS[1]), 81)
-    best = int(np.argmin([unlikely(at) for at in grid]))
-    around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, grid.size - 1)])
-    finest: Any = minimize_scalar(unlikely, bounds=around, method="bounded")
-    stiff, found, left = solved(float(finest.x))
-    variance, inverse = left / (count - _PLAIN), np.asarray(np.linalg.inv(stiff), dtype=np.float64)
-    return FilmedLaw(found, variance * inverse, math.sqrt(variance), float(np.trace(inverse @ square)), count)
-
-
-def _from(shift: float, coefficients: Array) -> Array:
-    """Return the coefficients of a series whose phase begins at `shift` of the old one."""
-    cosines, sines = coefficients[1::2], coefficients[2::2]
-    turns = 2 * math.pi * shift * np.arange(1, len(cosines) + 1)
-    c, s = np.cos(turns), np.sin(turns)
-    waves = np.stack([cosines * c + sines * s, sines * c - cosines * s], axis=-1).ravel()
-    return np.concatenate([coefficients[:1], waves])
 
 
 def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[str, Any]:
@@ -133,7 +50,7 @@ def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
 def _chord_of(area: Array, span: Array) -> Array:
     """Return the coefficients of area over span, over the same phases; both are series."""
     # Sixteen samples in the highest harmonic's period: what lies beyond it is not folded back.
-    columns = _design(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
+    columns = fourier_columns(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
     ratio = (columns @ area) / (columns @ span)
     return np.asarray(np.linalg.lstsq(columns, ratio, rcond=None)[0], dtype=np.float64)
 
@@ -142,8 +59,14 @@ def _span_of(wingbeat: Wingbeat) -> Array:
     """Return the coefficients of a wingbeat's span law, in the phase of an even beat, as a film's is."""
     wingbeat = dataclasses.replace(wingbeat, downstroke_fraction=0.5)
     phase = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
-    found = np.linalg.lstsq(_design(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
+    found = np.linalg.lstsq(fourier_columns(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
     return np.asarray(found, dtype=np.float64)
+
+
+def _top_of(laws: Mapping[str, Array]) -> float:
+    """Return the phase of the film at which the flap's first harmonic is highest, 0 without a flap."""
+    flap = laws.get("flap_deg")
+    return 0.0 if flap is None else math.atan2(flap[2], flap[1]) / (2 * math.pi)
 
 
 def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> dict[str, Any]:
@@ -151,10 +74,9 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
 
     The chord law needs a span law: the film's, or if it shows none that of the species.
     """
-    flap = laws.get("flap_deg")
-    shift = 0.0 if flap is None else math.atan2(flap[2], flap[1]) / (2 * math.pi)
+    shift = _top_of(laws)
     fields: dict[str, Any] = {"downstroke_fraction": 0.5}
-    series = {name: _from(shift, coefficients) for name, coefficients in laws.items()}
+    series = {name: from_phase(shift, coefficients) for name, coefficients in laws.items()}
     series |= {name: np.radians(moved) for name, moved in series.items() if FILMED[name] == "deg"}
     span = series.get("span_fraction", species_span)
     for name, (mean, *waves) in ((name, moved.tolist()) for name, moved in series.items()):
@@ -207,6 +129,11 @@ class FilmedBeat:
         The tilt of the stroke plane, and a chord whose span was not filmed, need the species: see `numbers_of`.
         """
         return self._numbers(None)
+
+    @property
+    def shift(self) -> float:
+        """The phase of the film that is phase 0 of the wingbeat."""
+        return _top_of({name: law.coefficients for name, law in self.laws.items()})
 
     def _numbers(self, span: Array | None) -> dict[str, Any]:
         known = {} if self.film.frequency is None else {"frequency": self.film.frequency}
@@ -313,9 +240,9 @@ def fit_film(film: Film) -> FilmedBeat:
     (0.8, 1.0)
     """
     faults, laws = FaultList(), {}
-    for name in film.columns:
+    for name in (name for name in FILMED if name in film.columns):
         phase, values = film.seen(name)
-        laws[name] = _fit_law(phase, values)
+        laws[name] = fit_law(phase, values)
     if "flap_deg" in laws:
         flap = laws["flap_deg"].coefficients
         if math.hypot(flap[1], flap[2]) < 1.0:

@@ -58,9 +58,12 @@ SERIES = (
     Term("kinetic_energy", "J", "kinetic energy of body and wings", "E_kin"),
     Term("potential_energy", "J", "potential energy of body and wings", "E_pot"),
 )
-# Series of laws that most wingbeats do not have; a data set holds them only where they are on.
+# Series that most flights do not have: laws that are off, and what a body takes that moves as filmed.
 SERIES_WHERE_ON = (
     Term("chord_ratio", "1", "chord that meets the air over full chord", "c/c₀"),
+    Term("missing_force_x", "N", "forward force missing to the prescribed motion of the body"),
+    Term("missing_force_z", "N", "upward force missing to the prescribed motion of the body"),
+    Term("missing_moment", "N m", "moment missing to the prescribed motion of the body, nose up positive"),
     Term("tip_twist", "rad", "angle that the twist law adds to the pitch at the tip"),
 )
 GLIDE = (

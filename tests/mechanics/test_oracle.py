@@ -69,11 +69,11 @@ def richer(uniform):
         "flap_harmonics": tuple(uniform(-0.1, 0.1, 4).tolist()),
         "pitch_harmonics": tuple(uniform(-0.1, 0.1, 6).tolist()),
         "span_harmonics": tuple(uniform(-0.05, 0.05, 4).tolist()),
-        "chord_retraction": uniform(0.0, 0.4),
-        "twist_mean": uniform(-0.3, 0.3),
-        "sweep_harmonics": tuple(uniform(-0.1, 0.1, 4).tolist()),
-        "chord_harmonics": tuple(uniform(-0.1, 0.1, 4).tolist()),
-        "twist_harmonics": tuple(uniform(-0.2, 0.2, 4).tolist()),
+        "chord_retraction": 0.2,
+        "twist_mean": -0.1,
+        "sweep_harmonics": (0.03, -0.08, 0.05, 0.02),
+        "chord_harmonics": (0.08, 0.05, -0.03, 0.06),
+        "twist_harmonics": (0.1, -0.2, 0.05, 0.15),
     }
 
 

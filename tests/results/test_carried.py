@@ -12,8 +12,8 @@ import wingbeat as wb
 from tests.helpers.unsteady_flights import flown_with, states_at
 from wingbeat.cli.app import main
 from wingbeat.experiment import BodyPath, Film, fit_body_path, fit_film, read_film, synthetic_film
-from wingbeat.mechanics.flight_loads import carried_loads
 from wingbeat.results.carried import carry
+from wingbeat.results.dataset import evaluate, evaluate_carried
 
 PHASES = np.linspace(0.0, 1.0, 9)[:-1]
 SERIES = np.zeros((3, 17))
@@ -29,16 +29,15 @@ def flown():
 def test_a_body_that_flies_freely_misses_nothing_and_any_other_its_share(flown):
     """With the free acceleration the loads are those of a flight; another needs mass times the difference."""
     model, beat = flown
-    states = states_at(PHASES)
-    free = wb.flight_loads(model, beat, states, PHASES)
-    loads, missing = carried_loads(model, beat, states, PHASES, np.asarray(free.acceleration))
+    states = np.transpose(states_at(PHASES))
+    free = evaluate(model, beat, PHASES, states)
+    loads, missing = evaluate_carried(model, beat, PHASES, states, free.acceleration)
     weight = model.vehicle.mass * model.air.gravity
     for part in missing:
         np.testing.assert_allclose(part, 0.0, atol=1e-9 * weight)
     for name in ("air_force", "flap_torque", "hinge_power", "actuator_power", "air_power", "momentum"):
         np.testing.assert_allclose(getattr(loads, name), getattr(free, name), rtol=1e-9, atol=1e-11, err_msg=name)
-    other = np.asarray(free.acceleration) + np.array([1.0, -2.0, 30.0])
-    _, needed = carried_loads(model, beat, states, PHASES, other)
+    _, needed = evaluate_carried(model, beat, PHASES, states, free.acceleration + np.array([1.0, -2.0, 30.0]))
     assert np.all(np.abs(needed.force_z) > 1e-3 * weight)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json as json_format
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,16 +14,18 @@ from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus
 from wingbeat.errors import FaultList
 from wingbeat.experiment import BodyPath, FilmedBeat, fit_body_path
 from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.carried import CarriedFlight, carry
 from wingbeat.species import Species
 
+# Numbers of the summary: what they are called, and what in the table of names has their unit.
 _NAMES = {
-    "mean_u": ("mean velocity forward", "m/s", 1.0),
-    "mean_w": ("mean velocity up", "m/s", 1.0),
-    "mean_body_pitch": ("mean body pitch", "deg", math.degrees(1.0)),
-    "mean_power": ("mean power of the hinges", "W", 1.0),
-    "mean_positive_power": ("mean positive power of the hinges", "W", 1.0),
-    "mean_actuator_power": ("mean power of all actuators", "W", 1.0),
+    "mean_u": ("mean forward velocity", "u"),
+    "mean_w": ("mean upward velocity", "w"),
+    "mean_body_pitch": ("mean body pitch", "body_pitch"),
+    "mean_power": ("mean power of the hinges", "hinge_power"),
+    "mean_positive_power": ("mean positive power of the hinges", "hinge_power"),
+    "mean_actuator_power": ("mean power of all actuators", "actuator_power"),
 }
 _MISSING = {
     "missing_force_x": ("missing force forward", "of the weight"),
@@ -95,8 +96,8 @@ def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], be
         print(json_format.dumps(record | {"kinematics": film_record(beat)}, indent=2, allow_nan=False))
         return
     print("the body moves as filmed; it is not integrated")
-    for name, (label, unit, factor) in _NAMES.items():
-        error = errors[name]
+    for name, (label, series) in _NAMES.items():
+        (factor, unit), error = for_people(NOMENCLATURE[series].unit), errors[name]
         print(f"{label}: {plus_minus(factor * told[name], None if error is None else factor * error)} {unit}")
     for name, (label, unit) in _MISSING.items():
         mean = plus_minus(told[f"{name}_mean"], errors[f"{name}_mean"])

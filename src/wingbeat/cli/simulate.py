@@ -71,8 +71,8 @@ def simulate(
     The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from a film (--kinematics;
     the species gives what was not filmed) or from an orbit (--from). If the film shows the path of the body
     (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed and the missing force is reported. To disturb an
-    orbit, give --u, --w, --body-pitch-deg or --pitch-rate: each replaces that number of its initial state. For a film, power is printed
-    with the error due to the noise of the film.
+    orbit, give --u, --w, --body-pitch-deg or --pitch-rate: each replaces that number of its initial state. For a
+    film, power is printed with the error due to the noise of the film.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)

@@ -30,7 +30,7 @@ FILMED = {
     **{"sweep_deg": "deg", "tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""},
 }
 # The body, for a film that gives times.
-BODY = {"body_x_m": "m", "body_z_m": "m", "body_pitch_deg": "deg"}
+BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
 COLUMNS = FILMED | BODY
 # Of what a fraction is one.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 # The lowest order of each law's harmonics: what is below it has a name of its own.
-FIRST_ORDER = {"flap": 2, "pitch": 2, "span": 1}
+FIRST_ORDER = {"flap": 2, "pitch": 2, "span": 1, "sweep": 2, "chord": 1, "twist": 1}
+# Laws that are a share of a length; the others are angles.
+SHARES = ("span", "chord")
 HIGHEST_ORDER = 8
 HARMONIC_NAMES = tuple(
     f"{law}_{part}_{order}"

@@ -17,14 +17,15 @@ import numpy as np
 from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementary import atan2, cos, sin
 from wingbeat.errors import FaultList
-from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, harmonic_place
+from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, harmonic_place
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Free, Phases, Scalar
 
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
-_OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt", "tail_tilt")
+_CHORD_AND_TWIST = ("chord_retraction", "twist_mean")
+_OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt", "tail_tilt", *_CHORD_AND_TWIST)
 
 
 @register_record(optional=_OPTIONAL)
@@ -49,11 +50,17 @@ class Wingbeat:
     tail_tilt : added to the tail's incidence [rad]; without a tail it has no effect.
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
+    chord_retraction : share of the chord lost at mid-upstroke, 0 to below 1. Only what meets the air shrinks: the
+        wing's mass stays where the full chord puts it, and quarter chords stay on their line.
+    twist_mean : angle that adds to the pitch in proportion to the span fraction, full at the tip [rad].
+    sweep_harmonics : cosine and sine of order 2, of order 3 and so on [rad].
+    chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord over the full chord.
+    twist_harmonics : cosine and sine of order 1, 2 and so on, of the angle whose mean is `twist_mean` [rad].
 
     Raises
     ------
     InvalidInputError : frequency not positive, an amplitude negative, retraction, wrist or downstroke fraction
-        outside 0..1, a sweep that reaches a right angle, harmonics not in pairs, a span that vanishes.
+        outside 0..1, a sweep that reaches a right angle, harmonics not in pairs, a span or a chord that vanishes.
 
     >>> Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3).twist_ratio
     1.0
@@ -78,6 +85,11 @@ class Wingbeat:
     flap_harmonics: tuple[float, ...] = ()
     pitch_harmonics: tuple[float, ...] = ()
     span_harmonics: tuple[float, ...] = ()
+    chord_retraction: float = 0.0
+    twist_mean: float = 0.0
+    sweep_harmonics: tuple[float, ...] = ()
+    chord_harmonics: tuple[float, ...] = ()
+    twist_harmonics: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -97,8 +109,11 @@ class Wingbeat:
         faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
         faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
         faults.number("wingbeat.tail_tilt", self.tail_tilt, unit="rad")
+        faults.number("wingbeat.chord_retraction", self.chord_retraction, at_least=0, below=1)
+        faults.number("wingbeat.twist_mean", self.twist_mean, unit="rad")
         self._check_sweep(faults)
-        self._check_harmonics(faults)
+        if self._check_harmonics(faults) and not faults.faults:
+            self._check_extremes(faults)
         faults.raise_if_any()
 
     def _check_sweep(self, faults: FaultList) -> None:
@@ -108,7 +123,8 @@ class Wingbeat:
             rule = "must stay below a right angle together with sweep_mean"
             faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "in rad")
 
-    def _check_harmonics(self, faults: FaultList) -> None:
+    def _check_harmonics(self, faults: FaultList) -> bool:
+        """Note lists that are none of pairs; say whether all hold numbers."""
         sound = True
         for law, first in FIRST_ORDER.items():
             where, given = f"wingbeat.{law}_harmonics", getattr(self, f"{law}_harmonics")
@@ -121,15 +137,26 @@ class Wingbeat:
             if len(given) % 2 or len(given) > 2 * (HIGHEST_ORDER + 1 - first):
                 faults.add(where, tuple(given), rule, "give the numbers in pairs")
             sound &= all([faults.number(f"{where}[{i}]", value) for i, value in enumerate(given)])
-        if sound and self.span_harmonics and not faults.faults and self._least_span() <= 0:
-            least = f"makes the span vanish: its minimum is {self._least_span():.2g} of the full span"
-            faults.add("wingbeat.span_harmonics", self.span_harmonics, least, "make them smaller")
+        return sound
 
-    def _least_span(self) -> float:
+    def _check_extremes(self, faults: FaultList) -> None:
+        """Note a span or a chord that vanishes somewhere in the beat, and a sweep of a right angle."""
         turn = np.linspace(0.0, 2 * math.pi, 721)
-        orders = 1 + np.arange(len(self.span_harmonics) // 2)[:, None]
-        swing = self.span_harmonics[::2] @ np.cos(orders * turn) + self.span_harmonics[1::2] @ np.sin(orders * turn)
-        return float((1.0 - self.span_retraction * 0.5 * (1.0 - np.sin(turn)) + swing).min())
+        for law, retraction in (("span", self.span_retraction), ("chord", self.chord_retraction)):
+            harmonics = getattr(self, f"{law}_harmonics")
+            least = float((1.0 - retraction * 0.5 * (1.0 - np.sin(turn)) + self._waves(law, turn)).min())
+            if harmonics and least <= 0:
+                rule = f"makes the {law} vanish: its minimum is {least:.2g} of the full {law}"
+                faults.add(f"wingbeat.{law}_harmonics", harmonics, rule, "make them smaller")
+        swing = self.sweep_amplitude * np.sin(turn + self.sweep_phase) + self._waves("sweep", turn)
+        if self.sweep_harmonics and np.abs(self.sweep_mean + swing).max() >= 0.5 * math.pi:
+            rule = "must keep the sweep below a right angle"
+            faults.add("wingbeat.sweep_harmonics", self.sweep_harmonics, rule, "make them smaller")
+
+    def _waves(self, law: str, turn: np.ndarray) -> np.ndarray:
+        pairs = np.reshape(getattr(self, f"{law}_harmonics"), (-1, 2))
+        angles = (FIRST_ORDER[law] + np.arange(len(pairs))[:, None]) * turn
+        return pairs[:, 0] @ np.cos(angles) + pairs[:, 1] @ np.sin(angles)
 
 
 WINGBEAT_NAMES = tuple(field.name for field in dataclasses.fields(Wingbeat))
@@ -137,8 +164,8 @@ WINGBEAT_NAMES = tuple(field.name for field in dataclasses.fields(Wingbeat))
 PARAMETER_NAMES = (*(name for name in WINGBEAT_NAMES if not name.endswith("_harmonics")), *HARMONIC_NAMES)
 # The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
 FREE_NAMES = tuple(name for name in PARAMETER_NAMES if name != "wrist")
-_PLAIN = ("frequency", "span_retraction", "twist_ratio", "downstroke_fraction")
-ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith("span_"))
+_PLAIN = ("frequency", "twist_ratio", "downstroke_fraction")
+ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith(SHARES))
 
 
 def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
@@ -204,10 +231,33 @@ def fold_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
 def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     """Return the angle by which the span points ahead of the stroke plane [rad], None for a wing without sweep."""
-    if at_default(wingbeat, "sweep_mean") and at_default(wingbeat, "sweep_amplitude"):
+    still = at_default(wingbeat, "sweep_mean") and at_default(wingbeat, "sweep_amplitude")
+    if still and not wingbeat.sweep_harmonics:
         return None
-    turn = 2 * math.pi * stroke_phase(wingbeat, phase) + wingbeat.sweep_phase
-    return wingbeat.sweep_mean + wingbeat.sweep_amplitude * sin(turn)
+    at = stroke_phase(wingbeat, phase)
+    base = wingbeat.sweep_mean + wingbeat.sweep_amplitude * sin(2 * math.pi * at + wingbeat.sweep_phase)
+    return with_harmonics(base, wingbeat.sweep_harmonics, FIRST_ORDER["sweep"], at)
+
+
+def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
+    """Return the chord that meets the air over the full chord, None where it stays the full chord."""
+    if at_default(wingbeat, "chord_retraction") and not wingbeat.chord_harmonics:
+        return None
+    at = stroke_phase(wingbeat, phase)
+    base = 1.0 - wingbeat.chord_retraction * recovery(at)
+    return with_harmonics(base, wingbeat.chord_harmonics, FIRST_ORDER["chord"], at)
+
+
+def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
+    """Return the angle that the twist law adds to the pitch at the tip [rad], None where it is off.
+
+    It adds to ``twist_ratio`` times the pitch of the root, and at a span fraction s/L it is s/L of this.
+    """
+    if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
+        return None
+    at = stroke_phase(wingbeat, phase)
+    base = wingbeat.twist_mean + jnp.zeros_like(at)
+    return with_harmonics(base, wingbeat.twist_harmonics, FIRST_ORDER["twist"], at)
 
 
 def in_use(wingbeat: Wingbeat, name: str) -> bool:

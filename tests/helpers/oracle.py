@@ -6,7 +6,7 @@ coordinates. SI units and radians throughout. World axes: x forward, y to the le
 first and the world axis last; they describe the left wing, while every total counts both wings.
 
 `state` is (x, z, body_pitch, u, w, pitch_rate); `phase` counts wingbeats from the top of the stroke;
-`q` is (x, z, psi, phi, theta) and `t` a time in seconds that moves the prescribed span and fold only.
+`q` is (x, z, psi, phi, theta) and `t` a time in seconds that moves span, fold, sweep, twist and chord only.
 `coefficients(alpha)` returns (c_l, c_d, x_cp); `force_at_cp` puts the air load at x_cp; with `full_airspeed` its
 size goes with the square of the strip's whole velocity, the spanwise part included.
 """
@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from tests.helpers.oracle_laws import prescribed, wing_angles
+from tests.helpers.oracle_laws import chord_ratio, prescribed, wing_angles
 from tests.helpers.tail_oracle import moment, tail_load
 
 X, Y, Z = np.eye(3)
@@ -96,15 +96,16 @@ class Wing:
         wing = vehicle["wing"]
         x, z, psi, phi, theta = q
 
-        # What time prescribes: the recovery law that drives the fold, the half span, the sweep.
+        # What time prescribes: the recovery law that drives the fold, the half span, the sweep, the tip's twist.
         laws = prescribed(wingbeat, wingbeat["frequency"] * t, frozen)
-        (law, law_d, law_dd), ratios, (sweep, sweep_d, sweep_dd) = laws
+        (law, law_d, law_dd), ratios, (sweep, sweep_d, sweep_dd), twists = laws
         span, span_d, span_dd = (wing["semi_span"] * ratio for ratio in ratios)
 
         # Per-strip constants, as columns where they multiply vectors.
         eta = (np.arange(strips) + 0.5) / strips
         stations = np.atleast_1d(np.asarray(wing["chord"], float))
         self.chord = np.interp(eta, np.linspace(0.0, 1.0, len(stations)), stations)
+        self.air_chord = self.chord * chord_ratio(wingbeat, wingbeat["frequency"] * t)
         share = (1.0 - eta) ** wing["mass_exponent"]
         self.mass = wing["mass"] * share / share.sum()
         self.width = span / strips
@@ -113,6 +114,7 @@ class Wing:
         outer = np.where(hand, eta - wingbeat["wrist"], 0.0)[:, None]
         fold = np.where(hand, wingbeat["fold_amplitude"], 0.0)[:, None]
         self.ratio = (1.0 + (wingbeat["twist_ratio"] - 1.0) * eta)[:, None]
+        twist, twist_d, twist_dd = (eta[:, None] * angle for angle in twists)
 
         # Axes in the world. Flap turns about e_c0, sweep about -e_n0, pitch about -e_s, body pitch about -y.
         x_b = np.array([math.cos(psi), 0.0, math.sin(psi)])
@@ -124,7 +126,7 @@ class Wing:
         n_arm = cross(self.e_c0, e_arm)
         own = phi - fold * law
         e_own = np.cos(own) * Y + np.sin(own) * up
-        e_n0, tilt = cross(self.e_c0, e_own), theta * self.ratio
+        e_n0, tilt = cross(self.e_c0, e_own), theta * self.ratio + twist
         e_arm = math.cos(sweep) * e_arm + math.sin(sweep) * self.e_c0
         self.e_s = math.cos(sweep) * e_own + math.sin(sweep) * self.e_c0
         level = cross(self.e_s, e_n0)
@@ -144,7 +146,8 @@ class Wing:
         spin_own = _spin_up(spin_body, self.e_c0, q_dot[3] - fold * law_d, q_ddot[3] - fold * law_dd)
         spin_arm = _spin_up(spin_arm, -n_arm, sweep_d, sweep_dd)
         spin_own = _spin_up(spin_own, -e_n0, sweep_d, sweep_dd)
-        self.spin = _spin_up(spin_own, -self.e_s, self.ratio * q_dot[4], self.ratio * q_ddot[4])
+        turning, turning_rate = self.ratio * q_dot[4] + twist_d, self.ratio * q_ddot[4] + twist_dd
+        self.spin = _spin_up(spin_own, -self.e_s, turning, turning_rate)
         self.w_body, self.w_own = spin_body[0], spin_own[0]
         body = (np.array([q_dot[0], 0.0, q_dot[1]]), np.array([q_ddot[0], 0.0, q_ddot[1]]))
         at_shoulder = _carry(body, spin_body, hang)
@@ -205,13 +208,13 @@ class Wing:
             alpha[i] = math.atan2(-vn, vc)
             c_l, c_d, x_cp = coefficients(alpha[i])
             squared = v[i] @ v[i] if full_airspeed else speed**2
-            pressure_area = 0.5 * air["density"] * squared * self.chord[i] * self.width
+            pressure_area = 0.5 * air["density"] * squared * self.air_chord[i] * self.width
             lift[i], drag[i] = pressure_area * c_l, pressure_area * c_d
             along = (vc * self.e_c[i] + vn * self.e_n[i]) / speed
             across = (-vn * self.e_c[i] + vc * self.e_n[i]) / speed
             force[i] = lift[i] * across - drag[i] * along
             if force_at_cp:
-                xi[i] = self.chord[i] * (0.25 - x_cp)
+                xi[i] = self.air_chord[i] * (0.25 - x_cp)
         place, velocity, _ = self.point(xi)
         return place, velocity, force, alpha, lift, drag
 

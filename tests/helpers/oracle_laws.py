@@ -44,13 +44,20 @@ def wing_angles(wingbeat, phase):
 
 
 def prescribed(wingbeat, phase, frozen):
-    """What time prescribes, each with its two time derivatives, none if frozen: recovery, span ratio, sweep."""
+    """What time prescribes, each with its two time derivatives, none if frozen: recovery, span, sweep, twist."""
     shrink, swing, ahead = wingbeat["span_retraction"], wingbeat["sweep_amplitude"], wingbeat["sweep_phase"]
     spans = [(1, 0.0, 0.5 * shrink), *harmonics(wingbeat, "span", 1)]
-    sweeps = [(1, swing * math.sin(ahead), swing * math.cos(ahead))]
+    sweeps = [(1, swing * math.sin(ahead), swing * math.cos(ahead)), *harmonics(wingbeat, "sweep", 2)]
     laws = (
         series(wingbeat, phase, 0.5, [(1, 0.0, -0.5)]),
         series(wingbeat, phase, 1.0 - 0.5 * shrink, spans),
         series(wingbeat, phase, wingbeat["sweep_mean"], sweeps),
+        series(wingbeat, phase, wingbeat["twist_mean"], harmonics(wingbeat, "twist", 1)),
     )
     return [(value, 0.0, 0.0) for value, *_ in laws] if frozen else laws
+
+
+def chord_ratio(wingbeat, phase):
+    """The chord that meets the air over the full chord."""
+    lost = wingbeat["chord_retraction"]
+    return series(wingbeat, phase, 1.0 - 0.5 * lost, [(1, 0.0, 0.5 * lost), *harmonics(wingbeat, "chord", 1)])[0]

@@ -30,6 +30,11 @@ EVERY_LAW = {
     "flap_harmonics": (0.05, 0.02),
     "pitch_harmonics": (0.03, -0.04),
     "span_harmonics": (0.02, 0.01),
+    "chord_retraction": 0.2,
+    "twist_mean": -0.1,
+    "sweep_harmonics": (0.04, -0.03),
+    "chord_harmonics": (0.05, 0.1, -0.04, 0.03),
+    "twist_harmonics": (0.1, -0.2, 0.03, 0.05),
 }
 TAIL = wb.Tail(0.005, 0.15, 3.0, drag_coefficient=0.03, height=0.02, incidence=-0.1)
 SHOULDER, CHORD, TILTED, DRAG_AREA = (0.02, 0.01, 0.03), (0.12, 0.13, 0.06), 1.3, 1e-3

@@ -75,7 +75,7 @@ def strip_loads(flier, state, phase, acceleration):
     wing = _wing(flier, state, phase, acceleration)
     # An even wind that does not change is a frame that moves: seen from it, the air is still.
     seen = _wing(flier, state, phase, acceleration, flier.wind)
-    density, c, dr = flier.air["density"], wing.chord, wing.width
+    density, c, dr = flier.air["density"], wing.air_chord, wing.width
     loads = seen.air_loads(flier.air, flier.coefficients, flier.force_at_cp, flier.full_airspeed)
     place, steady = loads[0], loads[2]
     ahead = _dots(place - wing.station, wing.e_c)

@@ -69,6 +69,11 @@ def richer(uniform):
         "flap_harmonics": tuple(uniform(-0.1, 0.1, 4).tolist()),
         "pitch_harmonics": tuple(uniform(-0.1, 0.1, 6).tolist()),
         "span_harmonics": tuple(uniform(-0.05, 0.05, 4).tolist()),
+        "chord_retraction": 0.2,
+        "twist_mean": -0.1,
+        "sweep_harmonics": (0.03, -0.08, 0.05, 0.02),
+        "chord_harmonics": (0.08, 0.05, -0.03, 0.06),
+        "twist_harmonics": (0.1, -0.2, 0.05, 0.15),
     }
 
 
@@ -296,6 +301,11 @@ def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
         ("beat", "flap_harmonics", 1 + 1e-7),
         ("beat", "pitch_harmonics", 1 + 1e-7),
         ("beat", "span_harmonics", 1 + 1e-7),
+        ("beat", "chord_retraction", 1 + 1e-7),
+        ("beat", "twist_mean", 1 + 1e-7),
+        ("beat", "sweep_harmonics", 1 + 1e-7),
+        ("beat", "chord_harmonics", 1 + 1e-7),
+        ("beat", "twist_harmonics", 1 + 1e-7),
     ],
 )
 def test_the_comparison_sees_a_ten_millionth(part, key, change):

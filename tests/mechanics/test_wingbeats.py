@@ -16,22 +16,27 @@ from wingbeat._jax.config import jax
 from wingbeat.harmonics import HARMONIC_NAMES
 from wingbeat.kinematics import (
     FREE_NAMES,
+    chord_ratio,
     flap_angle,
     parameter,
     pitch_angle,
     span_ratio,
     stroke_phase,
     sweep_angle,
+    tip_twist,
     unpack,
     with_parameters,
 )
+from wingbeat.mechanics.clearance import lateral_corners
 from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.mechanics.wing_points import strip_corners
 from wingbeat.orbits.flight.shooting import flier
 from wingbeat.species_schema import template
 
 PLAIN = wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, 0.3, 1.6, 0.4, 0.45)
 OFF = {
     **dict.fromkeys(("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt"), 0.0),
+    **dict.fromkeys(("chord_retraction", "twist_mean"), 0.0),
     "downstroke_fraction": 0.5,
 }
 NEW = {
@@ -47,6 +52,13 @@ NEW = {
     "pitch_sin_2": -0.06,
     "span_cos_1": 0.02,
     "span_sin_2": -0.03,
+    "chord_retraction": 0.2,
+    "chord_cos_1": 0.05,
+    "chord_sin_2": -0.08,
+    "twist_mean": -0.1,
+    "twist_sin_1": -0.2,
+    "twist_cos_2": 0.05,
+    "sweep_sin_2": 0.04,
 }
 RICH = with_parameters(PLAIN, NEW)
 PHASES = np.linspace(-0.5, 2.0, 41)
@@ -62,13 +74,13 @@ def test_what_is_off_is_no_part_of_a_program():
     leaves, tree = jax.tree.flatten(PLAIN)
     assert len(leaves) == 9
     assert jax.tree.unflatten(tree, leaves) == PLAIN
-    assert len(jax.tree.leaves(RICH)) == 9 + 6 + 4 + 4 + 4
+    assert len(jax.tree.leaves(RICH)) == 9 + 8 + 4 + 4 + 4 + 2 + 4 + 4
 
 
 def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
     """The programs differ, so their answers may differ by rounding."""
-    free = (*OFF, "flap_cos_2", "flap_sin_3", "pitch_sin_2", "span_cos_1")
-    values = np.array([*OFF.values(), 0.0, 0.0, 0.0, 0.0])
+    waves = "flap_cos_2", "flap_sin_3", "pitch_sin_2", "span_cos_1", "sweep_cos_2", "chord_sin_1", "twist_cos_1"
+    free, values = (*OFF, *waves), np.array([*OFF.values(), *[0.0] * len(waves)])
     model = model_of("bat")
     on = jax.jit(lambda values: motion_table(model, unpack(free, PLAIN, values), PHASES))(values)
     off = table(model, PLAIN, PHASES)
@@ -126,7 +138,37 @@ def test_harmonics_and_phases_are_those_of_their_names():
     span = 1 - 0.15 * (1 - np.sin(turn)) + 0.02 * np.cos(turn) - 0.03 * np.sin(2 * turn)
     for law, wanted in ((flap_angle, flap), (pitch_angle, pitch), (span_ratio, span)):
         np.testing.assert_allclose(law(beat, PHASES), wanted, atol=1e-14)
-    np.testing.assert_allclose(sweep_angle(beat, PHASES), 0.1 + 0.2 * np.sin(turn - 0.4), atol=1e-14)
+    sweep = 0.1 + 0.2 * np.sin(turn - 0.4) + 0.04 * np.sin(2 * turn)
+    chord = 1 - 0.1 * (1 - np.sin(turn)) + 0.05 * np.cos(turn) - 0.08 * np.sin(2 * turn)
+    twist = -0.1 - 0.2 * np.sin(turn) + 0.05 * np.cos(2 * turn)
+    for law, wanted in ((sweep_angle, sweep), (chord_ratio, chord), (tip_twist, twist)):
+        np.testing.assert_allclose(law(beat, PHASES), wanted, atol=1e-14)
+    assert chord_ratio(PLAIN, PHASES) is tip_twist(PLAIN, PHASES) is sweep_angle(PLAIN, PHASES) is None
+
+
+def test_a_chord_law_moves_the_trailing_and_the_leading_edge_and_no_mass():
+    """Area, corners and pressure offset take the chord of the moment; quarter chords and masses stay."""
+    model, chord = model_of("bat"), {"chord_retraction": 0.4, "chord_harmonics": (0.1, -0.05)}
+    lost = dataclasses.replace(PLAIN, **chord)
+    states = wb.State(*np.zeros((6, PHASES.size)))
+    found, plain = table(model, lost, PHASES), table(model, PLAIN, PHASES)
+    ratio = np.asarray(chord_ratio(lost, PHASES))
+    np.testing.assert_allclose(found.area, plain.area * ratio, rtol=1e-13)
+    for name in ("ahead", "above", "first_moment", "inertia", "acceleration_moment", "flapping_speed"):
+        np.testing.assert_allclose(getattr(found, name), getattr(plain, name), rtol=1e-9, atol=1e-11)
+    here, there = (np.asarray(strip_corners(model, beat, states, PHASES)) for beat in (lost, PLAIN))
+    leading, trailing = here[:, :, 0], here[:, :, 3]
+    np.testing.assert_allclose(
+        np.linalg.norm(leading - trailing, axis=-1),
+        np.linalg.norm(there[:, :, 0] - there[:, :, 3], axis=-1) * ratio[:, None],
+        rtol=1e-12,
+    )
+    np.testing.assert_allclose(
+        0.75 * leading + 0.25 * trailing, 0.75 * there[:, :, 0] + 0.25 * there[:, :, 3], atol=1e-14
+    )
+    sides = np.concatenate(lateral_corners(model.vehicle, lost, PHASES, 4))
+    wanted = np.concatenate([here[:, :, corner, 1] for corner in (0, 1, 3, 2)], axis=1).T
+    np.testing.assert_allclose(sides, wanted, atol=1e-14)
 
 
 def test_end_of_a_period_by_every_new_parameter():
@@ -190,6 +232,10 @@ def test_tilting_the_stroke_plane_is_turning_the_wing():
         ({"pitch_harmonics": (0.01,) * 16}, "up to 8"),
         ({"pitch_harmonics": (0.01, "x")}, "must be a number"),
         ({"span_harmonics": (0.0, 0.9)}, "makes the span vanish"),
+        ({"chord_harmonics": (0.0, 1.1)}, "makes the chord vanish"),
+        ({"chord_retraction": 1.0}, "must be >= 0 and < 1"),
+        ({"twist_mean": float("inf")}, "finite"),
+        ({"sweep_mean": 1.0, "sweep_harmonics": (0.6, 0.0)}, "right angle"),
     ],
 )
 def test_what_no_wing_can_do_is_refused(change, rule):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.experiment import FilmedBeat
+from wingbeat.experiment.film import WHOLE
 from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit
 from wingbeat.results.rows import power_label
 
@@ -33,19 +34,19 @@ def film_record(beat: FilmedBeat) -> dict[str, Any]:
         name: {"frames": law.frames, "residual_sd": law.residual_sd, "degrees_of_freedom": law.degrees}
         for name, law in beat.laws.items()
     }
-    return {"film": beat.film.name, "synthetic": beat.film.synthetic, "laws": laws, "notes": list(beat.film.notes)}
+    return {"film": beat.film.name, "synthetic": beat.film.synthetic, "laws": laws, "notes": list(beat.notes)}
 
 
 def film_lines(beat: FilmedBeat) -> list[str]:
     """Return what the film gave in words, a line for each column."""
     lines = []
     for name, law in beat.laws.items():
-        unit = "deg" if name.endswith("_deg") else "of the semi-span"
+        unit = f"of the {WHOLE[name]}" if name in WHOLE else "deg"
         lines.append(
             f"{beat.film.name}, {name}: {law.frames} frames, residual {law.residual_sd:.2g} {unit}, spline "
             f"with {law.degrees:.3g} degrees of freedom"
         )
-    return [*lines, *(f"note: {note}" for note in beat.film.notes)]
+    return [*lines, *(f"note: {note}" for note in beat.notes)]
 
 
 def spread_record(spread: Spread) -> dict[str, Any]:

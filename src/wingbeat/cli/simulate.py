@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.carried import carried, report_carried
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
 from wingbeat.cli.options import (
     DEFAULT_AIR_LOADS,
@@ -68,7 +69,9 @@ def simulate(
     """Fly an initial state for some wingbeats with the wings prescribed.
 
     The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from an orbit (--from), or
-    from a film (--kinematics; the species gives the motions that were not filmed). To disturb an orbit, give --u,
+    from a film (--kinematics; the species gives the motions that were not filmed). If the film shows the
+    path of the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the missing force is
+    reported. To disturb an orbit, give --u,
     --w, --body-pitch-deg or --pitch-rate; each replaces this number in the orbit's initial state. With a film,
     power is printed with the error due to the noise of the film.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
@@ -100,6 +103,15 @@ def simulate(
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = filmed_species(beat, animal)
+            if beat.film.shows_body:
+                check_outputs(output, plot_kinematics)
+                flown, errors = carried(beat, animal, air.loads(), given, beats, samples)
+                if output:
+                    flown.save(output)
+                if plot_kinematics:
+                    save_figure(film_page(beat), plot_kinematics)
+                report_carried(flown, errors, beat, json)
+                return EXIT_GOOD
         wingbeat, start = animal.wingbeat, State(u=10.0)._replace(**disturbed)
         model = FlightModel(animal.vehicle, air.loads(), animal.air, velocity=(float(start.u), float(start.w)))
     check_outputs(output, plot_kinematics)

@@ -1,5 +1,6 @@
 """From load-cell records to a coefficient model, and from a film to a wingbeat, with their uncertainty."""
 
+from wingbeat.experiment.body_path import BodyPath, fit_body_path
 from wingbeat.experiment.campaign import Campaign, save_runs, synthetic_runs
 from wingbeat.experiment.drawing import draw
 from wingbeat.experiment.film import Film, read_film, synthetic_film
@@ -13,6 +14,7 @@ from wingbeat.experiment.wing_fit import WingFit, fit_wing
 
 __all__ = [
     "FORMS",
+    "BodyPath",
     "Campaign",
     "CoefficientTable",
     "CurveFit",
@@ -24,6 +26,7 @@ __all__ = [
     "WingFit",
     "WingForm",
     "draw",
+    "fit_body_path",
     "fit_curve",
     "fit_film",
     "fit_wing",

@@ -5,18 +5,37 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
 from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
+from wingbeat.experiment.wrapping import unwrapped
 from wingbeat.files import write_atomically
-from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.kinematics import (
+    Wingbeat,
+    chord_ratio,
+    flap_angle,
+    pitch_angle,
+    span_ratio,
+    sweep_angle,
+    tip_twist,
+)
 
-# What can be filmed, and its unit; the laws of the wingbeat in these units.
-FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""}
-_LAWS = {"flap_deg": flap_angle, "pitch_deg": pitch_angle, "span_fraction": span_ratio}
+# What can be filmed, and its unit.
+FILMED = {
+    **{"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""},
+    **{"sweep_deg": "deg", "tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""},
+}
+# The body, for a film that gives times.
+BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
+COLUMNS = FILMED | BODY
+# Of what a fraction is one.
+WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
+# Angles that a tracker may give anywhere on the circle.
+_WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg", "body_pitch_deg")
 _CLOCKS = {"phase": "", "time": "s"}
 _CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz"}
 _FEWEST = 8
@@ -33,7 +52,11 @@ class Film:
     name : its name, such as that of its file.
     phase : beats since any moment, or since the top of the stroke where flap was not filmed, shape (n,).
     columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
-        normal) and ``span_fraction`` (of the semi-span), shape (n,) each; NaN in frames where it was not seen.
+        normal), ``span_fraction`` (of the semi-span), ``sweep_deg`` (span ahead of the stroke plane),
+        ``tip_pitch_deg`` (as pitch, at the tip), ``stroke_plane_deg`` (from the body axis, as the species'
+        `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where it was
+        not seen. Pitch and stroke plane may jump by whole turns. Besides, of the body: ``body_x_m`` (forward),
+        ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
     frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
     synthetic : whether it was made by a random generator.
 
@@ -43,7 +66,8 @@ class Film:
 
     Raises
     ------
-    InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat.
+    InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat, a pitch at
+        the tip without one at the root.
     """
 
     name: str
@@ -59,18 +83,30 @@ class Film:
         if self.frequency is not None:
             faults.number(f"{self.name}, frequency", self.frequency, above=0, unit="Hz")
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
-        if not self.columns or set(self.columns) - set(FILMED):
+        if not set(self.columns) & set(FILMED) or set(self.columns) - set(COLUMNS):
             shown = ", ".join(self.columns) or "nothing"
-            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(FILMED)}")
+            faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(COLUMNS)}")
+        if set(self.columns) & set(BODY) and self.frequency is None:
+            rule = "needs the frequency: the path of the body is one of time"
+            faults.add(f"{self.name}, frequency", None, rule, "give it in Hz")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
+        if "tip_pitch_deg" in self.columns and "pitch_deg" not in self.columns:
+            rule = "needs pitch_deg: the twist is the pitch at the tip less that at the root"
+            faults.add(f"{self.name}, columns", "tip_pitch_deg", rule, "add the column pitch_deg")
         faults.raise_if_any()
+        object.__setattr__(self, "columns", dict(self.columns))
         notes = [note for name in self.columns for note in self._check(name, faults)]
         faults.raise_if_any()
         if self.synthetic:
             notes.insert(0, f"{self.name} is synthetic: made by a random generator, not filmed")
         object.__setattr__(self, "notes", tuple(notes))
+
+    @property
+    def shows_body(self) -> bool:
+        """Whether it shows the path of the body."""
+        return bool(set(self.columns) & set(BODY))
 
     def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return phases and values of the frames in which a column was seen.
@@ -97,22 +133,35 @@ class Film:
             start = place[gaps.argmax()]
             rule = f"has no frame from phase {start:.2f} to {(start + gaps.max()) % 1.0:.2f}"
             faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
+        notes = self._unwrap(name, phase, faults) if name in _WRAPPED else []
         largest = float(np.abs(values).max())
-        if FILMED[name] == "deg" and 0 < largest < 3.0:
-            return [
+        if FILMED.get(name) == "deg" and 0 < largest < 3.0:
+            notes.append(
                 f"{where}: no angle exceeds {largest:.2g} degrees; if these are radians, multiply them by 57.29578"
-            ]
-        if FILMED[name] == "deg" and largest > 180:
+            )
+        if FILMED.get(name) == "deg" and name not in _WRAPPED and largest > 180:
             faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
-        if FILMED[name] == "" and (values.min() <= 0 or values.max() > 2):
+        if name in WHOLE and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
             faults.add(
                 where,
                 worst,
-                "is not a fraction of the semi-span",
-                "divide the span by the semi-span; do not use percent",
+                f"is not a fraction of the {WHOLE[name]}",
+                f"divide it by the {WHOLE[name]}; do not use percent",
             )
-        return []
+        return notes
+
+    def _unwrap(self, name: str, phase: NDArray[np.float64], faults: FaultList) -> list[str]:
+        """Take the jumps of whole turns out of a column, and say so."""
+        where, column = f"{self.name}, column {name}", self.columns[name].astype(float)
+        there = np.isfinite(column)
+        column[there], moved = unwrapped(faults, where, phase, column[there])
+        if not moved:
+            return []
+        self.columns[name] = column
+        return [
+            f"{where}: {moved} of {len(phase)} frames were moved by whole turns, for the angle jumps by 360 degrees"
+        ]
 
     def save(self, path: str | Path) -> None:
         """Write the film as a CSV file that `read_film` reads.
@@ -140,7 +189,7 @@ def read_film(path: str | Path) -> Film:
     """Read a filmed wingbeat from CSV.
 
     One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
-    the others are any of flap_deg, pitch_deg and span_fraction. A cell is empty where the wing was not seen.
+    the others are any of those of `Film`. A cell is empty where the wing was not seen.
     Other columns are refused.
 
     Parameters
@@ -158,12 +207,15 @@ def read_film(path: str | Path) -> Film:
     if "time" in names and "frequency" not in constants:
         fix = "add the line '# frequency = ...' [Hz] above the table, or give phases"
         faults.add(f"{sheet.file}, frequency", "", "is missing: times need it to become phases", fix)
-    numbers = parse_numbers(faults, sheet, names, blank=frozenset(FILMED)) if names else np.empty((0, 0))
+    if set(names) & set(BODY) and "time" not in names:
+        rule = "has the path of a body but no times"
+        faults.add(f"{sheet.file} row {sheet.header_row}", ",".join(sheet.header), rule, "give time [s], not phase")
+    numbers = parse_numbers(faults, sheet, names, blank=frozenset(COLUMNS)) if names else np.empty((0, 0))
     faults.raise_if_any()
     by_name = {name: numbers[:, k].copy() for k, name in enumerate(names)}
     frequency = constants.get("frequency")
     phase = by_name["phase"] if "phase" in by_name else by_name["time"] * (frequency or 0.0)
-    columns = {name: by_name[name] for name in FILMED if name in by_name}
+    columns = {name: by_name[name] for name in COLUMNS if name in by_name}
     return Film(
         sheet.file, phase, columns, frequency, constants.get("frequency_se", 0.0), "synthetic" in sheet.constants
     )
@@ -171,12 +223,12 @@ def read_film(path: str | Path) -> Film:
 
 def _names(faults: FaultList, sheet: Sheet) -> list[str]:
     names: list[str] = []
-    units = _CLOCKS | FILMED
+    units = _CLOCKS | COLUMNS
     for k, cell in enumerate(sheet.header):
         name, unit = split_unit(cell)
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         if name not in units:
-            angle = name.startswith(("flap", "pitch"))
+            angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke", "body_pitch"))
             fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
@@ -214,6 +266,22 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, float]:
     return found
 
 
+def _true(name: str, wingbeat: Wingbeat, phase: NDArray[np.float64], stroke_plane: float) -> Any:
+    """Return what a perfect film of a wingbeat shows, in radians or as a fraction."""
+    if name == "flap_deg":
+        return flap_angle(wingbeat, phase)
+    if name == "sweep_deg":
+        sweep = sweep_angle(wingbeat, phase)
+        return np.zeros_like(phase) if sweep is None else sweep
+    if name == "stroke_plane_deg":
+        return np.full_like(phase, stroke_plane + wingbeat.stroke_plane_tilt)
+    if name in ("pitch_deg", "tip_pitch_deg"):
+        root, twist = np.asarray(pitch_angle(wingbeat, phase)), tip_twist(wingbeat, phase)
+        return root if name == "pitch_deg" else wingbeat.twist_ratio * root + (0.0 if twist is None else twist)
+    chord = chord_ratio(wingbeat, phase) if name == "area_fraction" else None
+    return np.asarray(span_ratio(wingbeat, phase)) * (1.0 if chord is None else np.asarray(chord))
+
+
 def synthetic_film(
     wingbeat: Wingbeat,
     frames: int = 60,
@@ -221,6 +289,7 @@ def synthetic_film(
     seed: int = 0,
     columns: tuple[str, ...] = ("flap_deg",),
     start: float = 0.0,
+    stroke_plane: float = 0.5 * math.pi,
 ) -> Film:
     """Return a film of a known wingbeat with white noise, labelled synthetic; the same seed gives the same film.
 
@@ -228,17 +297,18 @@ def synthetic_film(
     ----------
     wingbeat : the wingbeat to film, one period in equal steps.
     frames : number of frames.
-    noise_deg : standard deviation of the angles' noise [deg]; a hundredth of it is that of the span fraction.
+    noise_deg : standard deviation of the angles' noise [deg]; a hundredth of it is that of fractions.
     seed : of the noise.
     columns : the columns that the film shows.
     start : phase of the first frame, which the film calls 0 if it sees the flap.
+    stroke_plane : angle of the vehicle's stroke plane from the body axis [rad], to which the wingbeat's tilt adds.
     """
     random = np.random.default_rng(seed)
     phase = np.arange(frames) / frames
     at = phase + (start if "flap_deg" in columns else 0.0)
     seen = {}
     for name in columns:
-        true = np.asarray(_LAWS[name](wingbeat, at))
+        true = np.asarray(_true(name, wingbeat, at, stroke_plane))
         angle = FILMED[name] == "deg"
         noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
         seen[name] = (np.degrees(true) if angle else true) + noise

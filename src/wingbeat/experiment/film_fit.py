@@ -1,10 +1,7 @@
-"""From a film to a wingbeat: periodic smoothing splines, as Fourier series, with their errors.
+"""From a film to a wingbeat: a periodic spline for each column, and from them the laws with their errors.
 
-The penalty is the square of (third derivative plus (2 pi)^2 times first derivative) of the spline. It is zero for a
-mean and a plain sine (Ramsay and Silverman 2005, doi 10.1007/b98888): order k pays ``k^2 (k^2 - 1)^2``. Restricted
-maximum likelihood chooses its weight. The errors are those of the posterior whose mean is the spline (Wahba 1983,
-doi 10.1111/j.2517-6161.1983.tb01239.x), so they include the spline's bias. The result is a `Wingbeat` with
-harmonics up to order 8, even if they are zero, so that one compiled program serves all films.
+The result is a `Wingbeat` with harmonics up to order 8, even if they are zero, so that one compiled program serves
+all films.
 """
 
 from __future__ import annotations
@@ -13,120 +10,103 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.film import FILMED, Film
+from wingbeat.experiment.periodic_spline import Array, FilmedLaw, fit_law, fourier_columns, from_phase
 from wingbeat.harmonics import HIGHEST_ORDER
-from wingbeat.kinematics import FREE_NAMES, Wingbeat
+from wingbeat.kinematics import FREE_NAMES, Wingbeat, span_ratio
+from wingbeat.vehicle import Vehicle
 
-# Mean, cosine and sine of order 1 are free of the penalty.
-_PLAIN = 3
-# Range in which the weight of the penalty is searched, times the number of frames.
-_WEIGHTS = (1e-12, 1e8)
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
-Array = NDArray[np.float64]
+# Chi squared of four numbers that noise alone exceeds in one film of a hundred.
+_CHANCE = 13.28
 
 
-def _design(phase: Any) -> Array:
-    """Return the columns 1, cos, sin, .. of a Fourier series, shape (n, 17)."""
-    turns = 2 * math.pi * np.asarray(phase)[:, None] * np.arange(1, HIGHEST_ORDER + 1)
-    waves = np.stack([np.cos(turns), np.sin(turns)], axis=-1).reshape(len(turns), 2 * HIGHEST_ORDER)
-    return np.hstack([np.ones((len(turns), 1)), waves])
+def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[str, Any]:
+    """Return mean, amplitude, phase and harmonics of a law ``mean + sign amplitude sin(2 pi phase + lead)``."""
+    return {
+        f"{law}_mean": mean,
+        f"{law}_amplitude": math.hypot(*waves[:2]),
+        f"{law}_phase": math.atan2(sign * waves[0], sign * waves[1]),
+        f"{law}_harmonics": tuple(waves[2:]),
+    }
 
 
-class FilmedLaw(NamedTuple):
-    """One column of a film as a Fourier series of the film's phase, in the unit of the column.
+def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
+    """Return retraction and harmonics of span or chord.
 
-    Attributes
-    ----------
-    coefficients : mean, cosine and sine of order 1, of order 2 and so on up to 8, shape (17,).
-    covariance : of the coefficients, shape (17, 17).
-    residual_sd : standard deviation of a frame from the series.
-    degrees : effective number of parameters of the spline; a mean and a plain sine are 3.
-    frames : number of frames.
+    The law of retraction has a mean and a sine; the harmonics make up for the rest.
     """
-
-    coefficients: Array
-    covariance: Array
-    residual_sd: float
-    degrees: float
-    frames: int
-
-    def curve(self, phase: Any) -> tuple[Array, Array]:
-        """Return the series at phases of the film, and its standard error.
-
-        Parameters
-        ----------
-        phase : phases of the film, shape (n,).
-        """
-        columns = _design(phase)
-        return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
+    retraction = max(2.0 * (1.0 - mean), 0.0)
+    harmonics = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
+    return {f"{law}_retraction": retraction, f"{law}_harmonics": harmonics}
 
 
-def _fit_law(phase: Array, values: Array) -> FilmedLaw:
-    """Fit a periodic smoothing spline; restricted maximum likelihood chooses its weight."""
-    from scipy.optimize import minimize_scalar
-
-    count, columns = len(values), _design(phase)
-    orders = np.repeat(np.arange(2, HIGHEST_ORDER + 1), 2)
-    penalty = np.concatenate([np.zeros(_PLAIN), orders**2 * (orders**2 - 1.0) ** 2])
-    square, right = columns.T @ columns, columns.T @ values
-    rounding = count * (1e-9 * np.abs(values).max()) ** 2
-
-    def solved(log_weight: float) -> tuple[Array, Array, float]:
-        stiff = square + np.diag(count * math.exp(log_weight) * penalty)
-        found = np.asarray(np.linalg.solve(stiff, right), dtype=np.float64)
-        rest = values - columns @ found
-        return stiff, found, float(rest @ rest + found @ (stiff - square) @ found) + rounding
-
-    def unlikely(log_weight: float) -> float:
-        stiff, _, left = solved(log_weight)
-        return float((count - _PLAIN) * math.log(left) + np.linalg.slogdet(stiff)[1] - orders.size * log_weight)
-
-    # The likelihood may have two maxima, so a grid comes first.
-    grid = np.linspace(math.log(_WEIGHTS[0]), math.log(_WEIGHTS[1]), 81)
-    best = int(np.argmin([unlikely(at) for at in grid]))
-    around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, grid.size - 1)])
-    finest: Any = minimize_scalar(unlikely, bounds=around, method="bounded")
-    stiff, found, left = solved(float(finest.x))
-    variance, inverse = left / (count - _PLAIN), np.asarray(np.linalg.inv(stiff), dtype=np.float64)
-    return FilmedLaw(found, variance * inverse, math.sqrt(variance), float(np.trace(inverse @ square)), count)
+def _chord_of(area: Array, span: Array) -> Array:
+    """Return the coefficients of area over span, over the same phases; both are series."""
+    # Sixteen samples in the highest harmonic's period: what lies beyond it is not folded back.
+    columns = fourier_columns(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
+    ratio = (columns @ area) / (columns @ span)
+    return np.asarray(np.linalg.lstsq(columns, ratio, rcond=None)[0], dtype=np.float64)
 
 
-def _from(shift: float, coefficients: Array) -> Array:
-    """Return the coefficients of a series whose phase begins at `shift` of the old one."""
-    cosines, sines = coefficients[1::2], coefficients[2::2]
-    turns = 2 * math.pi * shift * np.arange(1, len(cosines) + 1)
-    c, s = np.cos(turns), np.sin(turns)
-    waves = np.stack([cosines * c + sines * s, sines * c - cosines * s], axis=-1).ravel()
-    return np.concatenate([coefficients[:1], waves])
+def _span_of(wingbeat: Wingbeat) -> Array:
+    """Return the coefficients of a wingbeat's span law, in the phase of an even beat, as a film's is."""
+    wingbeat = dataclasses.replace(wingbeat, downstroke_fraction=0.5)
+    phase = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
+    found = np.linalg.lstsq(fourier_columns(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
+    return np.asarray(found, dtype=np.float64)
 
 
-def _numbers(laws: Mapping[str, Array]) -> dict[str, Any]:
-    """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0."""
+def _top_of(laws: Mapping[str, Array]) -> float:
+    """Return the phase of the film at which the flap's first harmonic is highest, 0 without a flap."""
     flap = laws.get("flap_deg")
-    shift = 0.0 if flap is None else math.atan2(flap[2], flap[1]) / (2 * math.pi)
+    return 0.0 if flap is None else math.atan2(flap[2], flap[1]) / (2 * math.pi)
+
+
+def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> dict[str, Any]:
+    """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0.
+
+    The chord law needs a span law: the film's, or if it shows none that of the species.
+    """
+    shift = _top_of(laws)
     fields: dict[str, Any] = {"downstroke_fraction": 0.5}
-    for name, coefficients in laws.items():
-        moved = _from(shift, coefficients)
-        moved = np.radians(moved) if FILMED[name] == "deg" else moved
-        mean, *waves = moved.tolist()
+    series = {name: from_phase(shift, coefficients) for name, coefficients in laws.items()}
+    series |= {name: np.radians(moved) for name, moved in series.items() if FILMED[name] == "deg"}
+    span = series.get("span_fraction", species_span)
+    for name, (mean, *waves) in ((name, moved.tolist()) for name, moved in series.items()):
         if name == "flap_deg":
             fields |= {"flap_mean": mean, "flap_amplitude": waves[0], "flap_harmonics": tuple(waves[2:])}
         elif name == "pitch_deg":
-            fields |= {"pitch_mean": mean, "pitch_amplitude": math.hypot(*waves[:2])}
-            fields |= {"pitch_phase": math.atan2(-waves[0], -waves[1]), "pitch_harmonics": tuple(waves[2:])}
-        else:
-            # The law of retraction has a mean and a sine; the harmonics make up for the rest.
-            retraction = max(2.0 * (1.0 - mean), 0.0)
-            fields["span_retraction"] = retraction
-            fields["span_harmonics"] = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
+            fields |= _swinging("pitch", mean, waves, sign=-1.0)
+        elif name == "sweep_deg":
+            fields |= _swinging("sweep", mean, waves, sign=1.0)
+        elif name == "span_fraction":
+            fields |= _drawn_in("span", mean, waves)
+    if "tip_pitch_deg" in series:
+        mean, *waves = (series["tip_pitch_deg"] - series["pitch_deg"]).tolist()
+        # Each was tracked up to whole turns.
+        fields |= {
+            "twist_ratio": 1.0,
+            "twist_mean": math.remainder(mean, 2 * math.pi),
+            "twist_harmonics": tuple(waves),
+        }
+    if "area_fraction" in series and span is not None:
+        mean, *waves = _chord_of(series["area_fraction"], span).tolist()
+        fields |= _drawn_in("chord", mean, waves)
     return fields
+
+
+# The parameters of a wingbeat that each column settles, by how their names begin.
+_SETTLED = {
+    **{"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"},
+    **{"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"},
+}
 
 
 @dataclass(frozen=True)
@@ -144,14 +124,72 @@ class FilmedBeat:
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """The fields of a `Wingbeat` that the film gives, SI and radians."""
+        """The fields of a `Wingbeat` that the film gives without its species, SI and radians.
+
+        The tilt of the stroke plane, and a chord whose span was not filmed, need the species: see `numbers_of`.
+        """
+        return self._numbers(None)
+
+    @property
+    def shift(self) -> float:
+        """The phase of the film that is phase 0 of the wingbeat."""
+        return _top_of({name: law.coefficients for name, law in self.laws.items()})
+
+    def _numbers(self, span: Array | None) -> dict[str, Any]:
         known = {} if self.film.frequency is None else {"frequency": self.film.frequency}
-        return known | _numbers({name: law.coefficients for name, law in self.laws.items()})
+        return known | _numbers({name: law.coefficients for name, law in self.laws.items()}, span)
+
+    def numbers_of(self, vehicle: Vehicle, wingbeat: Wingbeat) -> dict[str, Any]:
+        """Return all fields of a `Wingbeat` that the film gives, SI and radians.
+
+        Parameters
+        ----------
+        vehicle : gives the angle of the stroke plane, to which the tilt adds.
+        wingbeat : gives the span law, if it was not filmed.
+
+        Raises
+        ------
+        InvalidInputError : a chord that is on average above the full one or below half of it.
+        """
+        fields = self._numbers(_span_of(wingbeat))
+        if "area_fraction" in self.laws:
+            self._check_chord(wingbeat)
+        if "stroke_plane_deg" in self.laws:
+            angle = math.radians(self.laws["stroke_plane_deg"].coefficients[0]) - vehicle.wing.stroke_plane_angle
+            fields["stroke_plane_tilt"] = math.remainder(angle, 2 * math.pi)
+        return fields
+
+    def _check_chord(self, wingbeat: Wingbeat) -> None:
+        area, span = self.laws["area_fraction"], self.laws.get("span_fraction")
+        mean = _chord_of(area.coefficients, _span_of(wingbeat) if span is None else span.coefficients)[0]
+        error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
+        faults = FaultList()
+        if not 0.5 < mean <= 1.0 + _NOISE * error:
+            rule = "is the mean of area over span and must be above 0.5 and at most 1"
+            fix = "divide by the area of the species' whole wing, span and chord spread"
+            faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
+        faults.raise_if_any()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader of the fit must know."""
+        law = self.laws.get("stroke_plane_deg")
+        if law is None:
+            return self.film.notes
+        waves = law.coefficients[1:5]
+        if waves @ np.linalg.solve(law.covariance[1:5, 1:5], waves) <= _CHANCE:
+            return self.film.notes
+        swing = float(np.ptp(law.curve(np.linspace(0.0, 1.0, 97))[0]))
+        return (
+            *self.film.notes,
+            f"{self.film.name}, column stroke_plane_deg: it varies by {swing:.2g} degrees over the beat, more than "
+            "its noise; the stroke plane of a wingbeat is fixed, so its mean is used",
+        )
 
     @property
     def held(self) -> frozenset[str]:
         """The parameters of a wingbeat that the film gives; an orbit may choose none of them."""
-        filmed = tuple(f"{name.partition('_')[0]}_" for name in self.laws)
+        filmed = tuple(_SETTLED[name] for name in self.laws)
         return frozenset(name for name in FREE_NAMES if name.startswith(filmed)) | self.numbers.keys()
 
     def draws(self, wingbeat: Wingbeat, count: int = 32, seed: int = 0) -> list[Wingbeat]:
@@ -159,16 +197,19 @@ class FilmedBeat:
 
         Parameters
         ----------
-        wingbeat : holds what was not filmed.
+        wingbeat : the fitted one, which holds what was not filmed.
         count : number of wingbeats; an impossible one, such as one without amplitude, is left out.
         seed : the same seed gives the same wingbeats.
         """
-        random, found = np.random.default_rng(seed), []
+        random, found, span = np.random.default_rng(seed), [], _span_of(wingbeat)
         for _ in range(count):
             drawn = {
                 n: random.multivariate_normal(law.coefficients, law.covariance) for n, law in self.laws.items()
             }
-            fields = _numbers(drawn)
+            fields = _numbers(drawn, span)
+            if "stroke_plane_deg" in drawn:
+                moved = drawn["stroke_plane_deg"] - self.laws["stroke_plane_deg"].coefficients
+                fields["stroke_plane_tilt"] = wingbeat.stroke_plane_tilt + math.radians(moved[0])
             if self.film.frequency is not None:
                 fields["frequency"] = random.normal(self.film.frequency, self.film.frequency_se)
             try:
@@ -199,9 +240,9 @@ def fit_film(film: Film) -> FilmedBeat:
     (0.8, 1.0)
     """
     faults, laws = FaultList(), {}
-    for name in film.columns:
+    for name in (name for name in FILMED if name in film.columns):
         phase, values = film.seen(name)
-        laws[name] = _fit_law(phase, values)
+        laws[name] = fit_law(phase, values)
     if "flap_deg" in laws:
         flap = laws["flap_deg"].coefficients
         if math.hypot(flap[1], flap[2]) < 1.0:

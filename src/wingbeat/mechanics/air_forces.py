@@ -14,7 +14,7 @@ from wingbeat.kinematics import Wingbeat, span_ratio
 from wingbeat.mechanics.body_dynamics import body_air, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
 from wingbeat.mechanics.frames import dot, from_world, to_world
-from wingbeat.mechanics.wing_motion import strips_of, tail_tilt
+from wingbeat.mechanics.wing_motion import air_chord, strips_of, tail_tilt
 from wingbeat.mechanics.wing_points import PointMotion
 
 if TYPE_CHECKING:
@@ -147,8 +147,9 @@ def air_forces_on(
     motion : of the wing points.
     q_acceleration : q'', for the added mass, shape (5,); None leaves this part out.
     """
-    strips = strips_of(model.vehicle.wing, model.strips)
-    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, wingbeat.frequency * time)
+    phase = wingbeat.frequency * time
+    chord = air_chord(wingbeat, strips_of(model.vehicle.wing, model.strips).chord, phase)
+    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, phase)
     width = length / model.strips
     points, velocity, wind = motion.position, motion.velocity.quarter_chord, _wind(model)
     through_air = velocity if wind is None else velocity - wind
@@ -160,16 +161,16 @@ def air_forces_on(
     forces = strip_forces(
         model.kernel,
         model.air.density,
-        width * strips.chord,
+        width * chord,
         chord_speed,
         normal_speed,
-        jnp.zeros_like(strips.chord),
+        jnp.zeros_like(chord),
         span_speed,
     )
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
     lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
     if model.at_centre_of_pressure:
-        ahead = pressure_offset(model.kernel, forces.alpha, strips.chord)[:, None]
+        ahead = pressure_offset(model.kernel, forces.alpha, chord)[:, None]
         lever = lever + ahead[..., None] * motion.partial.chordwise
         drift = drift + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
@@ -185,11 +186,11 @@ def air_forces_on(
     zero = jnp.zeros_like(steady_power)
     unsteady = _Unsteady(jnp.zeros(5), zero, jnp.zeros_like(force), jnp.zeros((5, 5)))
     if is_unsteady(model):
-        resistance = _air_resistance(model, strips.chord, width, motion, 0.0 if wind is None else wind)
+        resistance = _air_resistance(model, chord, width, motion, 0.0 if wind is None else wind)
         along = chord_speed, normal_speed
-        turned = with_turning(forces, unsteady_density(model), strips.chord, width, resistance.turning, *along)
+        turned = with_turning(forces, unsteady_density(model), chord, width, resistance.turning, *along)
         rotation = turned.chordwise - forces.chordwise, turned.normal - forces.normal, turned.couple
-        unsteady = _unsteady(motion, strips.chord, q_dot, resistance, rotation, q_acceleration)
+        unsteady = _unsteady(motion, chord, q_dot, resistance, rotation, q_acceleration)
     against_steady, against_unsteady = (
         zero if wind is None else -2.0 * jnp.sum(one * wind) for one in (force, unsteady.force)
     )

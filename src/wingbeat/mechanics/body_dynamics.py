@@ -185,6 +185,61 @@ def body_air(
     return BodyAir((drag[0] + forward, drag[1] + up), ahead * up - above * forward)
 
 
+class _Balance(NamedTuple):
+    """The three rows without what goes with the body's acceleration, and the inertias that multiply it."""
+
+    forward: Phases
+    up: Phases
+    turn: Phases
+    arm: Pair
+    inertia: Phases
+
+
+def _balance(
+    vehicle: Vehicle, gravity: Scalar, motion: WingMotion, loads: BodyLoads, attitude: Phases, pitch_rate: Phases
+) -> _Balance:
+    mass = vehicle.mass
+    pull = from_world(attitude, 0.0, -gravity)
+    arm, coriolis = quarter_turn(motion.first_moment), quarter_turn(motion.first_moment_rate)
+    force_forward, force_up = (
+        loads.force[i]
+        + mass * pull[i]
+        + pitch_rate * (pitch_rate * motion.first_moment[i] - 2.0 * coriolis[i])
+        - motion.first_moment_acceleration[i]
+        for i in range(2)
+    )
+    turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.acceleration_moment
+    inertia = vehicle.body.pitch_inertia + motion.inertia
+    return _Balance(force_forward, force_up, turn, arm, inertia)
+
+
+def missing_loads(
+    vehicle: Vehicle,
+    gravity: Scalar,
+    motion: WingMotion,
+    loads: BodyLoads,
+    attitude: Phases,
+    pitch_rate: Phases,
+    acceleration: Triple,
+) -> Triple:
+    """Return force forward and up in the world [N] and nose-up moment [N m] that an acceleration takes in addition.
+
+    The rows of `accelerations`, left side minus right.
+
+    Parameters
+    ----------
+    vehicle, gravity, motion, attitude, pitch_rate : as in `accelerations`.
+    loads : air loads in stroke axes of the body with this acceleration.
+    acceleration : x'' and z'' in the world [m/s2] and psi'' [rad/s2].
+    """
+    rows, mass = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate), vehicle.mass
+    along, turning = from_world(attitude, acceleration[0], acceleration[1]), acceleration[2]
+    forward = mass * along[0] + turning * rows.arm[0] - rows.forward
+    up = mass * along[1] + turning * rows.arm[1] - rows.up
+    x, z = to_world(attitude, forward, up)
+    return x, z, dot(rows.arm, along) + turning * rows.inertia - rows.turn
+
+
 def accelerations(
     vehicle: Vehicle,
     gravity: Scalar,
@@ -211,17 +266,7 @@ def accelerations(
     unsteady_density : density of the air times the share of unsteady loads [kg/m3].
     """
     mass = vehicle.mass
-    pull = from_world(attitude, 0.0, -gravity)
-    arm, coriolis = quarter_turn(motion.first_moment), quarter_turn(motion.first_moment_rate)
-    force_forward, force_up = (
-        loads.force[i]
-        + mass * pull[i]
-        + pitch_rate * (pitch_rate * motion.first_moment[i] - 2.0 * coriolis[i])
-        - motion.first_moment_acceleration[i]
-        for i in range(2)
-    )
-    turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.acceleration_moment
-    inertia = vehicle.body.pitch_inertia + motion.inertia
+    force_forward, force_up, turn, arm, inertia = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate)
     if motion.unsteady is None:
         pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
         forward = (force_forward - pitch_acceleration * arm[0]) / mass

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from wingbeat._jax.config import jnp
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
-from wingbeat.mechanics.wing_motion import shape_at, strips_of, with_time_axes
+from wingbeat.mechanics.wing_motion import air_chord, shape_at, strips_of, with_time_axes
 from wingbeat.mechanics.wing_shape import Strips, WingShape
 from wingbeat.vehicle import Vehicle
 
@@ -38,10 +38,10 @@ def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: 
     """
     strips = with_time_axes(strips_of(vehicle.wing, count), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
-    half = _half_width(vehicle, wingbeat, shape, phase, count)
+    half, chord = _half_width(vehicle, wingbeat, shape, phase, count), air_chord(wingbeat, strips.chord, phase)
 
     def edge(share: float) -> PerStrip:
-        along = _edge(shape, strips, share)
+        along = _edge(shape, chord, share)
         return jnp.concatenate([along - half, along + half])
 
     return edge(LEADING), edge(TRAILING)
@@ -61,11 +61,12 @@ def lateral_corner(
     phase : phases.
     """
     shape = shape_at(vehicle, wingbeat, strips, phase)
-    return _edge(shape, strips, share) + side * _half_width(vehicle, wingbeat, shape, phase, count)
+    edge = _edge(shape, air_chord(wingbeat, strips.chord, phase), share)
+    return edge + side * _half_width(vehicle, wingbeat, shape, phase, count)
 
 
-def _edge(shape: WingShape, strips: Strips, share: Component) -> PerStripBroadcast:
-    return shape.left + share * strips.chord * shape.chordwise[1]
+def _edge(shape: WingShape, chord: PerStripBroadcast, share: Component) -> PerStripBroadcast:
+    return shape.left + share * chord * shape.chordwise[1]
 
 
 def _half_width(

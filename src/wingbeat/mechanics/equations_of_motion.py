@@ -34,8 +34,8 @@ class EquationsOfMotion(NamedTuple):
     ----------
     mass_matrix : D, shape (..., 5, 5) [kg, kg m, kg m2].
     velocity_matrix : C, shape (..., 5, 5).
-    time_force : h, generalised force that arises because span, fold and sweep are prescribed functions of time;
-        zero for rigid wings; shape (..., 5) [N, N m].
+    time_force : h, generalised force that arises because span, fold, sweep and twist are prescribed functions of
+        time; zero for rigid wings; shape (..., 5) [N, N m].
     gravity_force : g, generalised force of gravity; shape (..., 5) [N, N m].
     """
 
@@ -131,12 +131,12 @@ def equations_of_motion(
 ) -> EquationsOfMotion:
     """Return the terms of the five-coordinate equations of motion ``D q'' + C q' + h + g = tau + f_aero``.
 
-    Source: Su et al. 2023 (doi 10.48550/arXiv.2302.09602); h is added for prescribed span, fold and sweep.
+    Source: Su et al. 2023 (doi 10.48550/arXiv.2302.09602); h is added for prescribed span, fold, sweep and twist.
 
     Parameters
     ----------
     model : the flight model.
-    wingbeat : gives span, fold and sweep as functions of time, and the twist; its flap and pitch laws do not enter.
+    wingbeat : gives span, fold, sweep and twist as functions of time; its flap and pitch laws do not enter.
     q, q_dot : (x, z, body pitch, flap, root wing pitch) and rates, shape (..., 5) [m, rad; per s].
     time : [s], shape (...).
 

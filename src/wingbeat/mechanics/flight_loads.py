@@ -8,9 +8,10 @@ from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.air_forces import air_forces_on
-from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, is_unsteady, motion_table
+from wingbeat.mechanics.body_dynamics import missing_loads
+from wingbeat.mechanics.flight_model import FlightModel, State, air_loads, body_rates, is_unsteady, motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
-from wingbeat.mechanics.wing_motion import strips_of, time_rates
+from wingbeat.mechanics.wing_motion import air_chord, strips_of, stroke_attitude, time_rates
 from wingbeat.mechanics.wing_points import point_motion
 
 if TYPE_CHECKING:
@@ -121,12 +122,55 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
     return jax.tree_util.tree_map(lambda a: a.reshape(*phase.shape, *a.shape[1:]), found)
 
 
-def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
+class MissingLoads(NamedTuple):
+    """What the prescribed motion of a body takes beyond the loads of the air and the weight, in the world.
+
+    Attributes
+    ----------
+    force_x, force_z : forward and up [N].
+    moment : about the body's centre of mass, nose-up positive [N m].
+    """
+
+    force_x: Phases
+    force_z: Phases
+    moment: Phases
+
+
+@exported
+def carried_loads(
+    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, acceleration: PhasesAcceleration
+) -> tuple[Loads, MissingLoads]:
+    """Evaluate a flight whose body moves as prescribed: `flight_loads`, and what is missing to that motion.
+
+    Parameters
+    ----------
+    model, wingbeat : as in `flight_loads`.
+    state : body state, fields of shape (K,) [m, rad, m/s, rad/s].
+    phase : phases, shape (K,).
+    acceleration : (x'', z'', psi'') of the body, shape (K, 3) [m/s2, m/s2, rad/s2].
+    """
+
+    def at(here: tuple[State, Phases, PhasesAcceleration]) -> tuple[Loads, MissingLoads]:
+        body, when, given = here
+        motion = motion_table(model, wingbeat, when)
+        attitude = stroke_attitude(model.vehicle.wing, motion, body.body_pitch)
+        loads = air_loads(model, motion, attitude, body.u, body.w, body.pitch_rate, given)
+        rates, gravity = (given[0], given[1], given[2]), model.air.gravity
+        missing = missing_loads(model.vehicle, gravity, motion, loads, attitude, body.pitch_rate, rates)
+        return _loads(model, wingbeat, body, when, given), MissingLoads(*missing)
+
+    return jax.lax.map(at, (state, phase, acceleration))
+
+
+def _loads(
+    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, given: PhasesAcceleration | None = None
+) -> Loads:
+    """Return the loads at one phase, of a body that flies freely or has a given acceleration."""
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     sweep = sweep_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model, wingbeat, phase)
-    body = body_rates(model, motion, pitch_state)[1:]
+    body = body_rates(model, motion, pitch_state)[1:] if given is None else given
     hinges = hinge_loads(model, motion, moved, pitch_state, body)
     q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
     q_dot = jnp.stack([state.u, state.w, state.pitch_rate, moved.flap_rate, moved.pitch_rate])
@@ -156,7 +200,7 @@ def _loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) 
         strip_position=points.position.quarter_chord,
         strip_velocity=air.strip_velocity,
         strip_speed=air.strips.speed,
-        strip_reynolds=model.air.reynolds(air.strips.speed, strips.chord),
+        strip_reynolds=model.air.reynolds(air.strips.speed, air_chord(wingbeat, strips.chord, phase)),
         alpha=air.strips.alpha,
         lift=air.strips.lift,
         drag=air.strips.drag,

@@ -95,7 +95,9 @@ _NO_POSTURE = Posture(*[math.nan] * 6)
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
     """Return a wingbeat with wings held still: spread and straight, as at mid-downstroke, with the same twist."""
     still = {"flap_amplitude": 0.0, "pitch_amplitude": 0.0, "span_retraction": 0.0, "fold_amplitude": 0.0}
-    return dataclasses.replace(wingbeat, **still)
+    # A glide is at phase 0, where harmonics would be those of the top of the stroke.
+    bare = {"chord_retraction": 0.0, "chord_harmonics": (), "twist_harmonics": ()}
+    return dataclasses.replace(wingbeat, **still, **bare)
 
 
 def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:

@@ -21,6 +21,7 @@ from wingbeat.mechanics.wing_motion import (
     Strips,
     WingMotion,
     WingShape,
+    air_chord,
     shape_at,
     strips_of,
     stroke_attitude,
@@ -30,7 +31,7 @@ from wingbeat.mechanics.wing_motion import (
 )
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import BodyAcceleration, Pair, PerStrip, Phases, PitchState, Triple
+    from wingbeat._jax.shapes import BodyAcceleration, Pair, PerStrip, PerStripBroadcast, Phases, PitchState, Triple
 
 
 class PartialMotion(NamedTuple):
@@ -88,7 +89,7 @@ class HingeLoads(NamedTuple):
     ----------
     flap_torque, pitch_torque : [N m].
     hinge_power : torques times rates [W]; the sum of the three parts below.
-    actuator_power : power of all actuators, including those of span, fold and sweep [W].
+    actuator_power : power of all actuators, including those of span, fold, sweep and twist [W].
     aerodynamic_power : part against the air loads [W].
     inertial_power : part that accelerates the wings relative to the body [W].
     body_power : the rest [W]; it arises because the body accelerates and turns, and because of gravity.
@@ -163,17 +164,18 @@ def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> Hinge
     motions = [_along(moving, v, strips) for v in (flap, pitch, rates)]
     if is_unsteady(model):
         width = vehicle.wing.semi_span / model.strips * span_ratio(wingbeat, phase)
-        moved = strip_motion(here.shape, rates.shape, accelerations.shape, strips.chord)
+        chord = air_chord(wingbeat, strips.chord, phase)
+        moved = strip_motion(here.shape, rates.shape, accelerations.shape, chord)
         motions = [
-            motion._replace(unsteady=unsteady_load(moved, _speeds(motion, v, here, strips), strips.chord, width))
+            motion._replace(unsteady=unsteady_load(moved, _speeds(motion, v, here, chord), chord, width))
             for motion, v in zip(motions, (flap, pitch, rates), strict=True)
         ]
     return HingeMotion(flap_rate, pitch_rate, *motions)
 
 
-def _speeds(along: PartialMotion, velocity: _Chords, here: _Chords, strips: Strips) -> StripSpeeds:
+def _speeds(along: PartialMotion, velocity: _Chords, here: _Chords, chord: PerStripBroadcast) -> StripSpeeds:
     speeds = along.chordwise_lever, along.normal_lever, dot(velocity.fore, here.shape.normal)
-    return StripSpeeds(*speeds[:2], mid_speed(here.shape, *speeds, strips.chord), speeds[2])
+    return StripSpeeds(*speeds[:2], mid_speed(here.shape, *speeds, chord), speeds[2])
 
 
 def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: Strips) -> PartialMotion:

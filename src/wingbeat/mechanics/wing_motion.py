@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
+from wingbeat.kinematics import (
+    Wingbeat,
+    chord_ratio,
+    flap_angle,
+    fold_angle,
+    pitch_angle,
+    span_ratio,
+    sweep_angle,
+    tip_twist,
+)
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, stroke_pitch
 from wingbeat.mechanics.strip_sums import mass_moments
 from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_loads_on_body
@@ -98,6 +107,19 @@ def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
     return jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
 
 
+def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
+    """Return the chord that meets the air [m]: the full one, less what the wingbeat's chord law takes off it.
+
+    Parameters
+    ----------
+    wingbeat : gives the law.
+    chord : the full chord of the strips [m], with an axis of length one for each axis of `phase`.
+    phase : phases, shape (...).
+    """
+    ratio = chord_ratio(wingbeat, phase)
+    return chord if ratio is None else chord * ratio
+
+
 def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
     """Return the angle of the stroke plane from the body axis [rad]."""
     if at_default(wingbeat, "stroke_plane_tilt"):
@@ -135,14 +157,14 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's wing pitch divided by that of the root, ``1 + (twist_ratio - 1) s/L``."""
+    """Return each strip's wing pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
 def wing_shape(
     vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
 ) -> WingShape:
-    """Place the strips of the left wing at given flap and pitch angles; the phase gives span, fold and sweep.
+    """Place the left wing's strips at given flap and pitch angles; the phase gives span, fold, sweep and twist.
 
     Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
 
@@ -164,6 +186,9 @@ def wing_shape(
     ahead, above = from_world(stroke_pitch(stroke_plane(wing, wingbeat)), x, z)
     of_arm = strips.span_fraction <= wingbeat.wrist
     strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
+    twist = tip_twist(wingbeat, phase)
+    if twist is not None:
+        strip_pitch = strip_pitch + twist * strips.span_fraction
     ahead = jnp.full_like(strip_pitch, ahead)
     sweep = sweep_angle(wingbeat, phase)
     sweep_sine, sweep_cosine = (None, None) if sweep is None else (sin(sweep), cos(sweep))
@@ -266,6 +291,7 @@ def wing_motion(
     sums = mass_moments(mass, (*place, *speed, *acceleration, second, half_rate, turning))
 
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
+    chord = air_chord(wingbeat, strips.chord, phase)
     swept = shape.sweep_sine is not None
     steady = at_default(wingbeat, "stroke_plane_tilt")
     tilt = tail_tilt(vehicle, wingbeat)
@@ -275,15 +301,15 @@ def wing_motion(
         span = x, y, z
     loads = None
     if unsteady:
-        moved = strip_motion(shape, shape_rate, shape_second, strips.chord)
-        loads = unsteady_loads_on_body(moved, strips.chord, width)
+        moved = strip_motion(shape, shape_rate, shape_second, chord)
+        loads = unsteady_loads_on_body(moved, chord, width)
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
         flapping_speed=shape_rate.above * shape.flap_cosine - shape_rate.left * shape.flap_sine,
         flap_cosine=shape.flap_cosine,
         pitch=shape.pitch,
-        area=width * strips.chord,
+        area=width * chord,
         width=width,
         first_moment=(sums[0], sums[1]),
         first_moment_rate=(sums[2], sums[3]),

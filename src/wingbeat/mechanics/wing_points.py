@@ -1,7 +1,7 @@
 """The wing's points in the world as functions of the five coordinates and time, and their exact derivatives.
 
 Coordinates q = (x, z, body pitch, flap, root wing pitch); partial velocities are ``dr/dq``, drift is ``dr/dt`` at
-fixed q (what span and fold move by themselves), bias what ``r''`` is at ``q'' = 0``.
+fixed q (what span, fold, sweep and twist move by themselves), bias what ``r''`` is at ``q'' = 0``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch, to_world
-from wingbeat.mechanics.wing_motion import chord_at, mass_points, strips_of, stroke_plane, wing_shape
+from wingbeat.mechanics.wing_motion import air_chord, chord_at, mass_points, strips_of, stroke_plane, wing_shape
 from wingbeat.mechanics.wing_shape import Strips
 from wingbeat.vehicle import Vehicle
 
@@ -61,7 +61,7 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Sc
 
     Parameters
     ----------
-    model, wingbeat : the wing, and its laws of span, fold and sweep.
+    model, wingbeat : the wing, and its laws of span, fold, sweep and twist.
     q : (x, z, body pitch, flap, root wing pitch), shape (5,) [m, rad].
     time : [s].
     """
@@ -115,7 +115,8 @@ def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: P
     def at(body: State, when: Scalar) -> Corners:
         q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(wingbeat, when), pitch_angle(wingbeat, when)])
         points = wing_points(model, wingbeat, q, when / wingbeat.frequency)
-        return corners_of(points, chord, wing.semi_span * span_ratio(wingbeat, when) / model.strips)
+        width = wing.semi_span * span_ratio(wingbeat, when) / model.strips
+        return corners_of(points, air_chord(wingbeat, chord, when), width)
 
     return jax.vmap(at)(state, phase)
 
@@ -150,7 +151,7 @@ def surface_points(
         attitude = body.body_pitch + stroke_pitch(stroke_plane(wing, wingbeat))
         quarter, fore = _in_world(attitude, shape.quarter_chord), _in_world(attitude, shape.chordwise)
         place = jnp.stack([body.x, jnp.zeros_like(body.x), body.z])
-        return place + quarter + (behind * chord)[..., None] * fore
+        return place + quarter + (behind * air_chord(wingbeat, chord, when))[..., None] * fore
 
     return jax.vmap(at)(state, phase)
 
@@ -161,7 +162,7 @@ def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, t
 
 
 def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold and sweep."""
+    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist."""
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 

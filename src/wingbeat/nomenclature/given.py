@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER
+from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER, SHARES
 from wingbeat.nomenclature.term import Term
 
 _ORDERS = f"cosine, sine of order 2, 3, .. {HIGHEST_ORDER}"
@@ -105,10 +105,33 @@ WINGBEAT = (
         "",
         f"of span over full span: order 1, 2, .. {HIGHEST_ORDER}",
     ),
+    Term("chord_retraction", "1", "chord lost at mid-upstroke", "", "share of the chord lost at mid-upstroke"),
+    Term(
+        "twist_mean",
+        "rad",
+        "mean twist of the tip",
+        "",
+        "mean angle that adds to the pitch in proportion to the span fraction, full at the tip",
+    ),
+    Term("sweep_harmonics", "rad", "harmonics of the sweep", "", _ORDERS),
+    Term(
+        "chord_harmonics",
+        "1",
+        "harmonics of the chord over full chord",
+        "",
+        f"of chord over full chord: order 1, 2, .. {HIGHEST_ORDER}",
+    ),
+    Term(
+        "twist_harmonics",
+        "rad",
+        "harmonics of the twist of the tip",
+        "",
+        f"cosine and sine of order 1, 2, .. {HIGHEST_ORDER}",
+    ),
     *(
         Term(
             name,
-            "1" if name.startswith("span") else "rad",
+            "1" if name.startswith(SHARES) else "rad",
             f"harmonic {name} of the wingbeat",
             "",
             "one number of the harmonics",

@@ -41,7 +41,7 @@ SERIES = (
     Term("flap_torque", "N m", "flap torque at the hinges, both wings", "τ_φ"),
     Term("pitch_torque", "N m", "wing pitch torque at the hinges, both wings", "τ_θ"),
     Term("hinge_power", "W", "hinge power, both wings", "P"),
-    Term("actuator_power", "W", "actuator power, both wings: hinges, span, fold and sweep", "P_act"),
+    Term("actuator_power", "W", "actuator power, both wings: hinges, span, fold, sweep and twist", "P_act"),
     Term("aerodynamic_power", "W", "hinge power against the air loads, both wings", "P_aero"),
     Term("inertial_power", "W", "hinge power that accelerates the wings relative to the body, both wings", "P_in"),
     Term("body_power", "W", "hinge power due to the body's motion and to weight, both wings", "P_body"),
@@ -57,6 +57,14 @@ SERIES = (
     Term("angular_momentum", "kg m2 s-1", "angular momentum about the system's centre of mass", "H"),
     Term("kinetic_energy", "J", "kinetic energy of body and wings", "E_kin"),
     Term("potential_energy", "J", "potential energy of body and wings", "E_pot"),
+)
+# Series that most flights do not have: laws that are off, and what a body takes that moves as filmed.
+SERIES_WHERE_ON = (
+    Term("chord_ratio", "1", "chord that meets the air over full chord", "c/c₀"),
+    Term("missing_force_x", "N", "forward force missing to the prescribed motion of the body"),
+    Term("missing_force_z", "N", "upward force missing to the prescribed motion of the body"),
+    Term("missing_moment", "N m", "moment missing to the prescribed motion of the body, nose up positive"),
+    Term("tip_twist", "rad", "angle that the twist law adds to the pitch at the tip"),
 )
 GLIDE = (
     Term("angle_of_attack", "rad", "angle of attack of the root chord, without flap", "α"),

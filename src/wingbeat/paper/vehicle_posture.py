@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio, tip_twist
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch
-from wingbeat.mechanics.wing_motion import strips_of, twist_factors
+from wingbeat.mechanics.wing_motion import air_chord, strips_of, twist_factors
 from wingbeat.mechanics.wing_points import corners_of, wing_points
 from wingbeat.paper.treatments import MODELS, SAMPLE_SPEED
 from wingbeat.results.dataset import evaluate
@@ -97,7 +97,7 @@ def posture(flight: Flown, phase: float) -> Posture:
     return Posture(
         phase,
         np.asarray(strips.span_fraction),
-        np.asarray(corners_of(points, strips.chord, width)),
+        np.asarray(corners_of(points, air_chord(wingbeat, strips.chord, phase), width)),
         quarter,
         fore,
         along,
@@ -113,7 +113,10 @@ def section(flight: Flown, phase: float, strip: int) -> Section:
     """Return angles, speed and forces of one strip at a phase."""
     model, wingbeat = flight.model, flight.wingbeat
     found = evaluate(model, wingbeat, np.array([phase]), flight.state(phase)[None])
-    twist = float(twist_factors(wingbeat, (strip + 0.5) / model.strips))
-    pitch, alpha = float(found.wing_pitch[0]) * twist, float(found.alpha[0, strip])
+    station, twist = (strip + 0.5) / model.strips, tip_twist(wingbeat, phase)
+    pitch = float(
+        found.wing_pitch[0] * twist_factors(wingbeat, station) + station * (0.0 if twist is None else twist)
+    )
+    alpha = float(found.alpha[0, strip])
     rest = (float(values[0, strip]) for values in (found.strip_speed, found.lift, found.drag))
     return Section(pitch, pitch - alpha, alpha, *rest)

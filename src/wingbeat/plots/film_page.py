@@ -13,10 +13,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _POINTS, _CURVE = BLUE, VERMILION
+# More panels side by side than these are too narrow to read.
+_ACROSS = 4
 _LABELS = {
     "flap_deg": "flap angle, wing up [deg]",
     "pitch_deg": "wing pitch, leading edge up [deg]",
     "span_fraction": "span over semi-span [-]",
+    "sweep_deg": "sweep, span ahead of the stroke plane [deg]",
+    "tip_pitch_deg": "wing pitch at the tip [deg]",
+    "stroke_plane_deg": "stroke plane from the body axis [deg]",
+    "area_fraction": "area over full area [-]",
 }
 
 
@@ -32,10 +38,14 @@ def film_page(beat: FilmedBeat) -> Figure:
     beat : from `fit_film`.
     """
     columns = list(beat.laws)
-    figure = new_figure(min(COLUMN * len(columns), PAGE), 95.0)
-    grid = figure.subplots(2, len(columns), sharex=True, squeeze=False, height_ratios=(3, 1))
+    across, blocks = min(len(columns), _ACROSS), -(-len(columns) // _ACROSS)
+    figure = new_figure(min(COLUMN * across, PAGE), 95.0 * blocks)
+    grid = figure.subplots(2 * blocks, across, sharex=True, squeeze=False, height_ratios=(3, 1) * blocks)
+    pairs = grid.reshape(blocks, 2, across).transpose(0, 2, 1).reshape(-1, 2)
+    for unused in pairs[len(columns) :].ravel():
+        unused.remove()
     phase = np.linspace(0.0, 1.0, 401)
-    for (above, below), name in zip(grid.T, columns, strict=True):
+    for (above, below), name in zip(pairs[: len(columns)], columns, strict=True):
         law = beat.laws[name]
         value, error = law.curve(phase)
         seen, frames = beat.film.seen(name)
@@ -53,10 +63,11 @@ def film_page(beat: FilmedBeat) -> Figure:
         above.set_ylabel(_LABELS[name])
         unit = "deg" if name.endswith("_deg") else "-"
         below.set(xlabel="phase of the film [beats]", ylabel=f"residual [{unit}]")
+        below.tick_params(labelbottom=True)
         for axes in (above, below):
             axes.grid()
             axes.set_xlim(0.0, 1.0)
-    legend_below(figure, grid[:, 0], columns=4 if len(columns) > 1 else 2)
+    legend_below(figure, grid[:2, 0], columns=4 if len(columns) > 1 else 2)
     label = ": synthetic, not filmed" if beat.film.synthetic else ""
     figure.suptitle(beat.film.name + label, fontsize=8)
     return figure

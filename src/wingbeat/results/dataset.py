@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
-from wingbeat.mechanics.flight_loads import Loads, flight_loads
+from wingbeat.kinematics import Wingbeat, chord_ratio, tip_twist
+from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
-from wingbeat.nomenclature.series import SERIES
+from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,13 +34,30 @@ def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: 
     return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)))
 
 
+def evaluate_carried(
+    model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray, accelerations: np.ndarray
+) -> tuple[Loads, MissingLoads]:
+    """Return the loads of a body with prescribed accelerations, shape (K, 3), and what they take in addition."""
+    found = list(_in_blocks(carried_loads, model, wingbeat, phase, states, accelerations))
+
+    def whole(parts: Iterable[Any]) -> list[np.ndarray]:
+        return [np.concatenate(values)[: len(phase)] for values in zip(*parts, strict=True)]
+
+    return Loads(*whole(loads for loads, _ in found)), MissingLoads(*whole(missing for _, missing in found))
+
+
 def _in_blocks(
-    function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray
+    function: Callable[..., Any],
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: np.ndarray,
+    states: np.ndarray,
+    *more: np.ndarray,
 ) -> Iterator[Any]:
     """Evaluate in blocks of equal length, because JAX compiles anew for each length; the last block is padded."""
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
-        yield function(model, wingbeat, State(*states[here].T), phase[here])
+        yield function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more))
 
 
 def flight_dataset(
@@ -50,11 +67,15 @@ def flight_dataset(
     states: np.ndarray,
     found: Loads,
     attributes: dict[str, Any],
+    missing: MissingLoads | None = None,
 ) -> xr.Dataset:
     """Assemble states and loads into a Dataset with dimensions phase, station, corner and axis."""
     import xarray as xr
 
     by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
+    laws = {"chord_ratio": chord_ratio(wingbeat, phase), "tip_twist": tip_twist(wingbeat, phase)}
+    by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
+    by_name |= {f"missing_{name}": value for name, value in (missing._asdict() if missing else {}).items()}
     by_name["time"] = phase / wingbeat.frequency
     by_name |= {name: value for name, value in found._asdict().items()}
     corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
@@ -72,8 +93,8 @@ def flight_dataset(
     return xr.Dataset(
         {
             term.name: (_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
-            for term in SERIES
-            if term.name not in coordinates
+            for term in (*SERIES, *SERIES_WHERE_ON)
+            if term.name in by_name
         },
         {name: (name, value, attributes_of(NOMENCLATURE[name])) for name, value in coordinates.items()},
         {"Conventions": "CF-1.11", **attributes},

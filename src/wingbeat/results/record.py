@@ -21,6 +21,12 @@ from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Body, Tail, Vehicle, Wing
 
+# Numbers of a wingbeat that a record holds only where they are on, so that records from before remain the same.
+_LATER = (
+    *("tail_tilt", "chord_retraction", "twist_mean"),
+    *("sweep_harmonics", "chord_harmonics", "twist_harmonics"),
+)
+
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
@@ -43,8 +49,8 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers; the tail's tilt only if it is not zero."""
-    left_out = ("tail_tilt",) if at_default(wingbeat, "tail_tilt") else ()
+    """Return the wingbeat's numbers; those of laws that were added later only if they are on."""
+    left_out = [name for name in _LATER if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in vars(wingbeat).items()

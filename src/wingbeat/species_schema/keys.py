@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wingbeat.harmonics import HARMONIC_NAMES
+from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES
 from wingbeat.nomenclature import find, plain
 
 
@@ -57,9 +57,10 @@ KEYS = (
         for name in (
             *("span_retraction", "twist_ratio", "fold_amplitude", "wrist", "pitch_phase", "downstroke_fraction"),
             *("sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"),
+            *("chord_retraction", "twist_mean"),
         )
     ),
-    *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in ("flap", "pitch", "span")),
+    *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in FIRST_ORDER),
     *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
 )
 # The numbers of a vehicle with a tail; one without a tail has none of them.

@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, unpack
+from wingbeat.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
 from wingbeat.mechanics.body_dynamics import strip_loads
 from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
 from wingbeat.mechanics.frames import to_world
@@ -143,6 +143,7 @@ class _Tables(NamedTuple):
     wing_pitch: Samples
     frequency: Scalar
     flap_amplitude: Scalar
+    chord_ratio: Samples | None
 
 
 def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables:
@@ -154,6 +155,7 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
         pitch_angle(wingbeat, phase),
         jnp.asarray(wingbeat.frequency, dtype=float),
         jnp.asarray(wingbeat.flap_amplitude, dtype=float),
+        chord_ratio(wingbeat, phase),
     )
 
 
@@ -168,6 +170,8 @@ def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity
     strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
     chord = strips_of(model.vehicle.wing, model.strips).chord
+    if tables.chord_ratio is not None:
+        chord = tables.chord_ratio[:, None] * chord
     return Beat(
         phase=tables.phase,
         time=tables.phase / tables.frequency,

@@ -29,12 +29,13 @@ _REACH = {
     "pitch_amplitude": _AMPLITUDE,
     "sweep_amplitude": _AMPLITUDE,
     "span_retraction": (0.0, 0.9),
+    "chord_retraction": (0.0, 0.9),
     "twist_ratio": (0.0, 4.0),
     "downstroke_fraction": (0.1, 0.9),
     "body_pitch": _ANY_ANGLE,
     "flap": _ANY_FLAP,
 }
-# Range of a harmonic, which is an angle or a share of the span.
+# Range of a harmonic, which is an angle or a share of the span or the chord.
 _HARMONIC = (-0.5, 0.5)
 # How often a reach with an impossible wingbeat is halved.
 _HALVED = 6

@@ -6,8 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Any, Protocol
 
+from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species
+from wingbeat.vehicle import Vehicle
 
 # How far filmed wing pitch may be moved to trim the flight, if too little else is free [rad].
 _TRIM_RANGE = math.radians(20.0)
@@ -16,9 +18,8 @@ _TRIM_RANGE = math.radians(20.0)
 class Filmed(Protocol):
     """A wingbeat fitted to a film, such as `wingbeat.experiment.FilmedBeat`."""
 
-    @property
-    def numbers(self) -> Mapping[str, Any]:
-        """The fields of a `Wingbeat` that the film gives, SI and radians."""
+    def numbers_of(self, vehicle: Vehicle, wingbeat: Wingbeat) -> Mapping[str, Any]:
+        """Return the fields of a `Wingbeat` that the film gives, SI and radians."""
         ...
 
     @property
@@ -37,9 +38,10 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
     Raises
     ------
-    InvalidInputError : an impossible wingbeat.
+    InvalidInputError : an impossible wingbeat, a film of an area that is not a share of the species'.
     """
-    return species.with_values({f"wingbeat.{name}": value for name, value in beat.numbers.items()})
+    filmed = beat.numbers_of(species.vehicle, species.wingbeat)
+    return species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
@@ -51,7 +53,8 @@ def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, 
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
         if len(free) < 2 and name not in free:
-            here = beat.numbers.get(name, getattr(species.wingbeat, name))
+            filmed = beat.numbers_of(species.vehicle, species.wingbeat)
+            here = filmed.get(name, getattr(species.wingbeat, name))
             least = here - _TRIM_RANGE if name == "pitch_mean" else max(here - _TRIM_RANGE, 0.0)
             free.append(name)
             bounds[name] = (least, here + _TRIM_RANGE)

@@ -1,0 +1,109 @@
+"""What ``simulate`` says of a flight whose body was filmed too: it is carried along its path, not integrated."""
+
+from __future__ import annotations
+
+import dataclasses
+import json as json_format
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from wingbeat.aero import BladeElement
+from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus
+from wingbeat.errors import FaultList
+from wingbeat.experiment import BodyPath, FilmedBeat, fit_body_path
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.nomenclature import NOMENCLATURE, for_people
+from wingbeat.results.carried import CarriedFlight, carry
+from wingbeat.species import Species
+
+# Numbers of the summary: what they are called, and what in the table of names has their unit.
+_NAMES = {
+    "mean_u": ("mean forward velocity", "u"),
+    "mean_w": ("mean upward velocity", "w"),
+    "mean_body_pitch": ("mean body pitch", "body_pitch"),
+    "mean_power": ("mean power of the hinges", "hinge_power"),
+    "mean_positive_power": ("mean positive power of the hinges", "hinge_power"),
+    "mean_actuator_power": ("mean power of all actuators", "actuator_power"),
+}
+_MISSING = {
+    "missing_force_x": ("missing force forward", "of the weight"),
+    "missing_force_z": ("missing force up", "of the weight"),
+    "missing_moment": ("missing moment nose-up", "of weight times chord"),
+}
+
+
+def carried(
+    beat: FilmedBeat,
+    animal: Species,
+    aero: BladeElement,
+    given: Mapping[str, float | None],
+    beats: int,
+    samples: int,
+) -> tuple[CarriedFlight, dict[str, float | None]]:
+    """Return the flight of a filmed body with filmed wings, and the standard errors of its summary.
+
+    The errors hold the noise of the wing's film, not that of the body's path.
+
+    Parameters
+    ----------
+    beat : the film's wingbeat.
+    animal : with that wingbeat.
+    aero : the air loads.
+    given : u, w and body pitch where the film does not show them; a pitch rate is refused.
+    beats, samples : as in `carry`.
+
+    Raises
+    ------
+    InvalidInputError : a pitch rate, and what `fit_body_path` refuses.
+    """
+    faults = FaultList()
+    if given.get("pitch_rate") is not None:
+        rule = "is not needed: the film gives the motion of the body"
+        faults.add("--pitch-rate", given["pitch_rate"], rule, "leave it out")
+    faults.raise_if_any()
+    path = fit_body_path(beat, given.get("u"), given.get("w"), given.get("body_pitch"))
+    model = FlightModel(animal.vehicle, aero, animal.air, velocity=path.velocity)
+    flight = carry(model, animal.wingbeat, path, beats, samples)
+    return flight, _errors(flight, beat, path, samples)
+
+
+def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: int) -> dict[str, float | None]:
+    told, rows = flight.summary, []
+    for wingbeat in beat.draws(flight.wingbeat, DRAWS):
+        # The body keeps the beat of the film.
+        same = dataclasses.replace(wingbeat, frequency=path.frequency)
+        rows.append([*carry(flight.model, same, path, 1, samples).summary.values()])
+    if not rows:
+        return dict.fromkeys(told)
+    errors = np.sqrt(np.mean((np.array(rows) - [*told.values()]) ** 2, axis=0))
+    return dict(zip(told, errors.tolist(), strict=True))
+
+
+def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], beat: FilmedBeat, json: bool) -> None:
+    """Print what such a flight takes.
+
+    Parameters
+    ----------
+    flight, errors : from `carried`.
+    beat : the film's wingbeat.
+    json : whether to print JSON and nothing else.
+    """
+    told = flight.summary
+    if json:
+        record: dict[str, Any] = {"body": "prescribed", "summary": told, "standard_errors": errors}
+        print(json_format.dumps(record | {"kinematics": film_record(beat)}, indent=2, allow_nan=False))
+        return
+    print("the body moves as filmed; it is not integrated")
+    for name, (label, series) in _NAMES.items():
+        (factor, unit), error = for_people(NOMENCLATURE[series].unit), errors[name]
+        print(f"{label}: {plus_minus(factor * told[name], None if error is None else factor * error)} {unit}")
+    for name, (label, unit) in _MISSING.items():
+        mean = plus_minus(told[f"{name}_mean"], errors[f"{name}_mean"])
+        print(f"{label}: mean {mean} {unit}, rms {told[f'{name}_rms']:.3g}")
+    short = told["missing_force_z_mean"]
+    held = f"{1.0 - short:.0%} of the weight" if abs(short) > 0.005 else "the weight"
+    print(f"on average the model's wings and body hold up {held}")
+    for line in film_lines(beat):
+        print(line)

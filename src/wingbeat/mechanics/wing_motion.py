@@ -157,7 +157,7 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's wing pitch over the root's, ``1 + (twist_ratio - 1) s/L``, before the twist law adds to it."""
+    """Return each strip's wing pitch over the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 

@@ -85,7 +85,7 @@ def test_a_path_is_its_series_with_exact_derivatives():
     assert path.states(np.array([1.0]))[0, :2] == pytest.approx([9.0 / 6, -0.4 / 6])
 
 
-def body_film(wingbeat, path, noise=0.0, beats=3, frames=120, start=0.0):
+def body_film(wingbeat, path, noise=0.0, beats=3.0, frames=120, start=0.0):
     """A film of wing and body, with noise [m; deg]."""
     random = np.random.default_rng(2)
     phase = np.linspace(0.0, beats, frames, endpoint=False)
@@ -134,7 +134,7 @@ def test_the_command_says_how_much_of_the_weight_is_held(tmp_path, capsys, monke
         "time," + ",".join(film.columns),
         *(
             ",".join(f"{value:.9g}" for value in row)
-            for row in zip(film.phase / film.frequency, *film.columns.values(), strict=True)
+            for row in zip(film.phase / pigeon.wingbeat.frequency, *film.columns.values(), strict=True)
         ),
     ]
     file = tmp_path / "body.csv"

@@ -186,8 +186,9 @@ def body_air(
 
 
 class _Balance(NamedTuple):
-    """The three rows without what goes with the body's acceleration, and the inertias that multiply it."""
+    """The three rows without the terms of the body's acceleration, and the inertias that multiply these."""
 
+    mass: Scalar
     forward: Phases
     up: Phases
     turn: Phases
@@ -210,7 +211,7 @@ def _balance(
     )
     turn = loads.moment + dot(arm, pull) - pitch_rate * motion.inertia_rate - motion.acceleration_moment
     inertia = vehicle.body.pitch_inertia + motion.inertia
-    return _Balance(force_forward, force_up, turn, arm, inertia)
+    return _Balance(mass, force_forward, force_up, turn, arm, inertia)
 
 
 def missing_loads(
@@ -232,10 +233,10 @@ def missing_loads(
     loads : air loads in stroke axes of the body with this acceleration.
     acceleration : x'' and z'' in the world [m/s2] and psi'' [rad/s2].
     """
-    rows, mass = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate), vehicle.mass
+    rows = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate)
     along, turning = from_world(attitude, acceleration[0], acceleration[1]), acceleration[2]
-    forward = mass * along[0] + turning * rows.arm[0] - rows.forward
-    up = mass * along[1] + turning * rows.arm[1] - rows.up
+    forward = rows.mass * along[0] + turning * rows.arm[0] - rows.forward
+    up = rows.mass * along[1] + turning * rows.arm[1] - rows.up
     x, z = to_world(attitude, forward, up)
     return x, z, dot(rows.arm, along) + turning * rows.inertia - rows.turn
 
@@ -265,8 +266,9 @@ def accelerations(
     pitch_rate : psi' [rad/s].
     unsteady_density : density of the air times the share of unsteady loads [kg/m3].
     """
-    mass = vehicle.mass
-    force_forward, force_up, turn, arm, inertia = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate)
+    mass, force_forward, force_up, turn, arm, inertia = _balance(
+        vehicle, gravity, motion, loads, attitude, pitch_rate
+    )
     if motion.unsteady is None:
         pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
         forward = (force_forward - pitch_acceleration * arm[0]) / mass
@@ -288,7 +290,7 @@ def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Tri
     """Solve three linear equations; the symmetric matrix is given by the rows of its upper triangle.
 
     Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions of
-    a derivative. A flight then takes 1.58 times as long as one without unsteady terms; without barriers, 1.9 times.
+    a derivative; without them a flight takes 1.2 times as long.
     """
     (a, b, c), (d, e), (f,) = fusion_barrier(rows)
     x, y, z = fusion_barrier(right)

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
 _CHORD_AND_TWIST = ("chord_retraction", "twist_mean")
+# Records name these only if they are on, and species only if they are given.
+NAMED_IF_ON = ("tail_tilt", *_CHORD_AND_TWIST, "sweep_harmonics", "chord_harmonics", "twist_harmonics")
 _OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt", "tail_tilt", *_CHORD_AND_TWIST)
 
 

@@ -19,7 +19,7 @@ import wingbeat as wb
 from wingbeat import aero, mechanics
 from wingbeat._jax import shapes
 from wingbeat._jax.exported import StoredFunction
-from wingbeat.aero.coefficient_model import Kernel
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits import flight
 
@@ -59,7 +59,9 @@ def plain(function):
 
 @functools.cache
 def hints_of(thing):
-    return typing.get_type_hints(thing, localns={**vars(shapes), "Kernel": Kernel})
+    return typing.get_type_hints(
+        thing, localns={**vars(shapes), "Kernel": Kernel, "CoefficientModel": CoefficientModel}
+    )
 
 
 def fits(value, hint) -> bool:

@@ -243,7 +243,7 @@ def test_the_command_line_tells_what_an_orbit_hangs_on(capsys, tmp_path):
     )
     told = capsys.readouterr().out
     assert "Hz: depends most on wing.semi_span (" in told
-    assert "+-" not in told.partition("change to the low")[0]
+    assert "+-" not in told.partition("change at the low")[0]
     assert "1 deg more of bounds.flap_amplitude.upper: -0.1" in told
     assert figure.read_bytes()[:4] == b"\x89PNG"
     assert main(["orbit", "pigeon", "--speed", "10", "--starts", "1", "--sensitivities", "--json"]) == 0

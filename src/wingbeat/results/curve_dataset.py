@@ -13,7 +13,7 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.datasets import KIND
 from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import PARAMETER_NAMES, in_use
+from wingbeat.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat.orbits.many.branches import Branches
@@ -38,7 +38,7 @@ _NUMBERS = (
 
 def _harmonic(wingbeat: dict[str, Any], law: str, place: int) -> float:
     """Return one number of a harmonic, 0 if the law has no such harmonic."""
-    pairs = wingbeat[law]
+    pairs = wingbeat.get(law, [])
     return pairs[place] if place < len(pairs) else 0.0
 
 
@@ -64,9 +64,9 @@ def curve_dataset(
     for name in PARAMETER_NAMES:
         harmonic, unit, label = harmonic_place(name), NOMENCLATURE[name].unit, label_of(name)
         used = in_use(problem.species.wingbeat, name) or name in problem.free
-        if name == "tail_tilt":
+        if name in NAMED_IF_ON:
             if used:
-                table.add(name, unit, label, lambda r: r["wingbeat"].get("tail_tilt", 0.0))
+                table.add(name, unit, label, lambda r, n=name: r["wingbeat"].get(n, 0.0))
         elif harmonic is None:
             table.add(name, unit, label, lambda r, n=name: r["wingbeat"][n])
         elif used:

@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
 from wingbeat.datasets import at_station
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -20,12 +20,6 @@ from wingbeat.results.aero_record import aero_record
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Body, Tail, Vehicle, Wing
-
-# Numbers of a wingbeat that a record holds only where they are on, so that records from before remain the same.
-_LATER = (
-    *("tail_tilt", "chord_retraction", "twist_mean"),
-    *("sweep_harmonics", "chord_harmonics", "twist_harmonics"),
-)
 
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
@@ -50,7 +44,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
     """Return the wingbeat's numbers; those of laws that were added later only if they are on."""
-    left_out = [name for name in _LATER if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
+    left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in vars(wingbeat).items()

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.kinematics import Wingbeat
+from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.nomenclature import plain_unit
 from wingbeat.species_schema import KEYS, TAIL, TAIL_PATHS, Number, Numbers, SpeciesText, display
 from wingbeat.species_schema.faults import NOTHING
@@ -17,6 +17,8 @@ from wingbeat.vehicle import Air, Body, Tail, Vehicle, Wing
 DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
 _RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "vehicle.tail": Tail, "wingbeat": Wingbeat, "air": Air}
+# A species that is not given these has no number of the name.
+UNNAMED_PATHS = (*(key.path for key in TAIL), *(f"wingbeat.{name}" for name in NAMED_IF_ON))
 _REQUIRED = {key.path for key in TAIL if key.required}
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default

@@ -11,6 +11,7 @@ from wingbeat.errors import FaultList, suggest
 from wingbeat.files import read_text
 from wingbeat.species.building import (
     DEFAULT,
+    UNNAMED_PATHS,
     WHOLE,
     build_records,
     check_bounds,
@@ -23,7 +24,6 @@ from wingbeat.species.building import (
 from wingbeat.species.record import Species, find_warnings
 from wingbeat.species_schema import (
     KEYS,
-    TAIL_PATHS,
     Bound,
     Number,
     SpeciesText,
@@ -94,7 +94,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
     faults.raise_if_any()
     complete_tail(numbers)
     for key in KEYS:
-        if key.path not in numbers and key.path not in TAIL_PATHS:
+        if key.path not in numbers and key.path not in UNNAMED_PATHS:
             default = records["vehicle"].mass if key.path == WHOLE else default_of(key.path)
             source = "body.mass and both wings" if key.path == WHOLE else DEFAULT
             numbers[key.path] = Number(default, key.unit, source)

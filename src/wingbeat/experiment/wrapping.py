@@ -19,7 +19,7 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
 
     Parameters
     ----------
-    faults : is told of an angle that turns on and on.
+    faults : receives a fault if an angle never turns back.
     where : of the column, for that fault.
     phase : beats, shape (n,).
     angle : as tracked [deg], shape (n,).

@@ -89,7 +89,7 @@ def test_an_orbit_says_what_it_was_flown_with_and_its_inputs_bring_it_back():
 @pytest.mark.parametrize(
     ("terms", "told"),
     [
-        ({"hand_from": 0.4}, "aero.hand_from = 0.4: begins no hand"),
+        ({"hand_from": 0.4}, "aero.hand_from = 0.4: has no effect without a hand"),
         ({"hand": "dickinson", "hand_from": 1.2}, "aero.hand_from = 1.2: must be"),
         ({"hand": "dickinson", "inflow": "momentum"}, "dickinson states none"),
         ({"hand": "byl", "force_point": "centre-of-pressure"}, "byl has none"),
@@ -100,3 +100,9 @@ def test_an_orbit_says_what_it_was_flown_with_and_its_inputs_bring_it_back():
 def test_what_cannot_be_is_refused(terms, told):
     with pytest.raises(InvalidInputError, match=told.replace(".", r"\.")):
         BladeElement("su-fan", **terms)
+
+
+@pytest.mark.parametrize(("where", "name"), [(0.0, "feathered"), (1.0, "su-fan")])
+def test_a_wing_that_is_all_arm_or_all_hand_has_one_model(where, name):
+    kernel = BladeElement("su-fan", strips=6, hand="feathered", hand_from=where).kernel()
+    np.testing.assert_array_equal(forces_of(kernel).lift, forces_of(BladeElement(name, strips=6).kernel()).lift)

@@ -119,7 +119,12 @@ class BladeElement:
             faults.add("aero.share", self.share, "is a share of no term", "set unsteady or inflow, or leave it out")
         faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
-            faults.add("aero.hand_from", self.hand_from, "begins no hand", "name its coefficients: hand")
+            faults.add(
+                "aero.hand_from",
+                self.hand_from,
+                "has no effect without a hand",
+                "give the coefficients of the hand: hand",
+            )
         faults.number("aero.upstroke_factor", self.upstroke_factor, at_least=0, at_most=1, fix="1 is off")
         faults.raise_if_any()
         for part in self.parts:

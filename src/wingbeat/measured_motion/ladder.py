@@ -90,7 +90,7 @@ def _rung(model: CoefficientModel, step: str, flow: str, induced_factor: float) 
         return Rung(BladeElement(model, unsteady=step, inflow=flow, induced_factor=induced_factor))
     if model.aspect_ratio is None:
         rule = f"needs a polar measured in straight flow, with its aspect ratio, and {model.name} states none"
-        fix = "on a revolving wing the vortex of the leading edge stays and no straight wake is shed: thin-aerofoil"
+        fix = "use thin-aerofoil; a revolving wing keeps its leading-edge vortex and sheds no straight wake"
         raise InvalidInputError([Fault("unsteady", step, rule, fix)])
     aero = BladeElement(model, unsteady="thin-aerofoil", inflow=flow, induced_factor=induced_factor)
     return Rung(aero, has_wake=True)

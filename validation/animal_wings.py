@@ -42,7 +42,8 @@ def main(argv: list[str] | None = None) -> int:
         terms = intervals(fits, glides, drawn)
         jackdaw = jackdaw_glides_of(chosen.data, fits, float(glides.aspect_ratio.mean()))
         of_reynolds = reynolds_exponents(wings), lift_gained(wings)
-        text = page(fits, terms, len(glides.lift), left_out(fits), jackdaw, *of_reynolds)
+        unseen = left_out(fits), left_out(fits, own=("drag_least",))
+        text = page(fits, terms, len(glides.lift), *unseen, jackdaw, *of_reynolds)
         models = {name: coefficients_of(name) for name in LOOKS}
         save_figure(draw_wings(models, fits, glides, drawn), chosen.output / "animal_wings.png")
         write_atomically(chosen.output / "animal_wings.md", text)

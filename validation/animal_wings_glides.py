@@ -69,12 +69,15 @@ def polar_at(terms: Terms, aspect_ratio: float) -> tuple[Array, Array]:
     return lift, drag
 
 
-def left_out(fits: list[HalfWingFit]) -> list[LeftOut]:
-    """Return each gull wing against the printed wings that remain, with an ideal induced part."""
+def left_out(fits: list[HalfWingFit], own: tuple[str, ...] = ()) -> list[LeftOut]:
+    """Return each gull wing against the printed wings that remain, with an ideal induced part.
+
+    Terms named in `own` are those of the wing itself.
+    """
     found = []
     for fit in fits:
         others = typical([other for other in fits if other is not fit])
-        terms = others | {"drag_induced": 1.0 / (math.pi * ASPECT_RATIO)}
+        terms = others | {"drag_induced": 1.0 / (math.pi * ASPECT_RATIO)} | {name: fit.terms[name] for name in own}
         predicted = performance(*polar_at(terms, fit.wing.aspect_ratio))
         found.append(LeftOut(fit.wing, measured(fit.wing), predicted))
     return found

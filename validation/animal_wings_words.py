@@ -35,6 +35,7 @@ def page(
     terms: dict[str, Interval],
     frames: int,
     out: list[LeftOut],
+    own_drag: list[LeftOut],
     jackdaw: JackdawGlides,
     exponents: Array,
     gained: Array,
@@ -52,7 +53,7 @@ def page(
         "## How well the form follows each wing",
         wings(fits),
         "## Glides of wings that the fit did not see",
-        *gulls(out),
+        *gulls(out, own_drag),
         *_jackdaw(jackdaw),
         "## Reynolds number",
         *_reynolds(exponents, gained),
@@ -99,8 +100,8 @@ def wings(fits: list[HalfWingFit]) -> str:
     return "\n".join(lines)
 
 
-def gulls(out: list[LeftOut]) -> list[str]:
-    """Return the table of the wings that were left out, and whether the goal holds."""
+def gulls(out: list[LeftOut], own_drag: list[LeftOut]) -> list[str]:
+    """Return the table of the wings that were left out, whether the goal holds, and what their own drag changes."""
     lines = [
         "| wing left out | best ratio, measured | predicted | error | sink, measured | predicted | error |",
         "|---|---|---|---|---|---|---|",
@@ -111,15 +112,23 @@ def gulls(out: list[LeftOut]) -> list[str]:
             f"| {one.wing.name} | {one.measured.ratio:.2f} | {one.predicted.ratio:.2f} | {ratio:+.0%} "
             f"| {one.measured.sink:.3f} | {one.predicted.sink:.3f} | {sink:+.0%} |"
         )
-    errors = np.array([one.errors for one in out])
-    held = (np.abs(errors) <= GOAL).sum(axis=0)
-    rms = np.sqrt((errors**2).mean(axis=0))
+    held, rms = _errors(out)
     spread = np.std([one.measured.ratio for one in out], ddof=1) / np.mean([one.measured.ratio for one in out])
     counts = {"ratios": held[0], "sinks": held[1], "wings": len(out)}
     verdict = filled(
         text.LEFT_OUT_VERDICT, goal=GOAL, **counts, of_ratio=rms[0], of_sink=rms[1], spread=float(spread)
     )
-    return [filled(text.LEFT_OUT), "\n".join(lines), verdict]
+    known, known_rms = _errors(own_drag)
+    reason = filled(
+        text.OWN_DRAG, ratios=known[0], sinks=known[1], wings=len(out), of_ratio=known_rms[0], of_sink=known_rms[1]
+    )
+    return [filled(text.LEFT_OUT), "\n".join(lines), verdict, reason]
+
+
+def _errors(out: list[LeftOut]) -> tuple[Array, Array]:
+    """Return how many wings meet the goal, and the root-mean-square errors, of ratio and sink."""
+    errors = np.array([one.errors for one in out])
+    return (np.abs(errors) <= GOAL).sum(axis=0), np.sqrt((errors**2).mean(axis=0))
 
 
 def _jackdaw(jackdaw: JackdawGlides) -> list[str]:

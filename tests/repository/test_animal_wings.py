@@ -44,8 +44,10 @@ def test_the_page_holds_the_tables_of_the_fit(fitted):
 
     fits, terms = fitted
     page = PAGE.read_text(encoding="utf-8")
-    for part in (parameters(terms), wings(fits), *gulls(left_out(fits)), estimates()):
+    unseen, own_drag = left_out(fits), left_out(fits, own=("drag_least",))
+    for part in (parameters(terms), wings(fits), *gulls(unseen, own_drag), estimates()):
         assert part in page
+    assert max(abs(one.errors[0]) for one in own_drag) < 0.15 < max(abs(one.errors[0]) for one in unseen)
 
 
 @needs_data

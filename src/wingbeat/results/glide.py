@@ -148,7 +148,7 @@ def glide_polar(
 
 
 def _best(solver: GlideSolver, glides: tuple[Glide, ...], cost: Any) -> Glide | None:
-    """Return the glide of minimum cost between the cheapest glide's neighbours; None if that glide is at an end."""
+    """Refine the cheapest glide between its two neighbours; None without a finite neighbour on both sides."""
     from scipy.optimize import minimize_scalar
 
     costs = np.nan_to_num([cost(glide) for glide in glides], nan=np.inf)

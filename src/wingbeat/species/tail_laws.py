@@ -71,7 +71,8 @@ TAIL_SLOPE = Law(
     lambda: slender_slope(4 * _HALF),
     f"{THOMAS}; {_SHAPE}",
     (0.3, 1.0),
-    f"guess: a starling's tail lifts less than the theory of slender wings at all but the least spread ({MAYBURY})",
+    "guess: a starling's tail lifts less than the theory of slender wings predicts, except at the smallest spread "
+    f"({MAYBURY})",
     Data({}, "none: theory"),
 )
 TAIL_DRAG = Law(

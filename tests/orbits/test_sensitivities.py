@@ -9,7 +9,7 @@ from rich.console import Console
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
-from wingbeat.aero.model_file import FittedCurve, FittedModel
+from wingbeat.aero.fitted import FittedCurve, FittedModel
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.errors import InvalidInputError

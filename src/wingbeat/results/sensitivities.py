@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.aero.model_file import FittedModel
+from wingbeat.aero.fitted import Fitted
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
@@ -102,7 +102,7 @@ class Sensitivities:
         """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
-    def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
+    def spreads(self, fit: Fitted | None = None, share: float = 1.0) -> list[ParameterSpread]:
         """Return the uncertainty of the inputs: uniform over their plausible ranges, and a fit's covariance.
 
         Parameters
@@ -121,7 +121,7 @@ class Sensitivities:
         found = [uniform_spread(p, share) for p in parameters if p.plausible is not None]
         return found if fit is None else found + _of_fit(self.problem, parameters, fit, share)
 
-    def error_bar(self, quantity: str, fit: FittedModel | None = None, share: float = 1.0) -> ErrorBar:
+    def error_bar(self, quantity: str, fit: Fitted | None = None, share: float = 1.0) -> ErrorBar:
         """Return a quantity with its standard deviation to first order, and the contributions to it.
 
         Parameters
@@ -194,7 +194,7 @@ def _plain(slope: Sensitivity) -> dict[str, Any]:
 
 
 def _of_fit(
-    problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float
+    problem: OrbitProblem, parameters: Sequence[Parameter], fit: Fitted, share: float
 ) -> list[ParameterSpread]:
     """Return the spreads of a fit's terms, one for each curve, because their errors are correlated."""
     by_path = {p.path: p for p in parameters}
@@ -249,7 +249,7 @@ def uncertainty_by_samples(
     quantities: Sequence[str] = QUANTITIES,
     samples: int = 2000,
     seed: int = 0,
-    fit: FittedModel | None = None,
+    fit: Fitted | None = None,
     share: float = 1.0,
     processes: int = 1,
     progress: Progress | None = None,

@@ -75,6 +75,24 @@ class LiftForm(BoxForm):
         return [found[i] for i in best[:3]]
 
 
+def stall_notes(lift: CurveFit) -> tuple[str, ...]:
+    """Return notes on the sides whose stall the measurements do not reach.
+
+    Parameters
+    ----------
+    lift : fit of C_L.
+    """
+    terms, notes = lift.parameters, []
+    for angle, end, side in ((lift.alpha_deg.min(), "lift_lowest", -1), (lift.alpha_deg.max(), "lift_highest", 1)):
+        line = terms["lift_slope"] * math.radians(float(angle) - terms["zero_lift_deg"])
+        if side * (line - terms[end]) < 2 * _BENDS["lift_rounding"]:
+            notes.append(
+                f"{lift.label}: at {angle:g} degrees, where the measurements end, lift has not levelled off; "
+                f"{end} rests on the shape of the form, so measure farther on that side"
+            )
+    return tuple(notes)
+
+
 @dataclass(frozen=True)
 class DragForm(BoxForm):
     """The drag of a cambered wing; `beside` gives it the lift that its induced part and its onsets need."""

@@ -13,7 +13,7 @@ from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.experiment.cambered_form import DragFit, DragForm, fit_drag
+from wingbeat.experiment.cambered_form import DragFit, DragForm, fit_drag, stall_notes
 from wingbeat.experiment.forms import BoxForm, CurveForm
 from wingbeat.experiment.model_text import model_text
 from wingbeat.experiment.regression import CurveFit, fit_curve
@@ -205,6 +205,7 @@ def fit_wing(
     lift = _fit(table, "C_L", chosen.lift)
     if isinstance(chosen.drag, DragForm):
         drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), "C_D")
+        notes += stall_notes(lift)
     else:
         drag = _fit(table, "C_D", chosen.drag)
     centre = None

@@ -18,7 +18,7 @@ from wingbeat.orbits.many.uncertainty import (
     uniform_spread,
 )
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.parameters import Parameter, parameters_of
+from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
@@ -199,12 +199,13 @@ def _of_fit(
     """Return the spreads of a fit's terms, one for each curve, because their errors are correlated."""
     by_path = {p.path: p for p in parameters}
     coefficients, found = problem.aero.coefficients, []
-    for name in ("lift", "drag", "centre"):
-        curve = getattr(fit, name)
-        paths = [] if curve is None else [f"aero.{name}.{term}" for term in curve.free]
-        if curve is None or not paths or not any(path in by_path for path in paths):
+    names = {field: name for name, field in CURVES.items()}
+    for field, curve in fit.curves.items():
+        name = names[field]
+        paths = [f"aero.{name}.{term}" for term in curve.free]
+        if not any(path in by_path for path in paths):
             continue
-        if getattr(coefficients, f"{name}_terms", None) != curve.terms:
+        if getattr(coefficients, field, None) != curve.terms:
             rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that the orbit used"
             raise InvalidInputError([Fault("fit", fit.name, rule, fix)])
         members = tuple(by_path[path] for path in paths)

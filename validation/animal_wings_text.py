@@ -38,7 +38,8 @@ Here a is the angle of attack, and the other symbols are the terms of the table 
 at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from above. The formulas
 hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a quintic polynomial
 leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its ends. It is a
-guess that a wing acts like a plate from 45 degrees on.
+guess that a wing acts like a plate from 45 degrees on. `wingbeat fit TABLE --form cambered` fits this form to a
+wing of your own ([how](own_coefficients.md)).
 """
 METHOD = """
 We convert each gull wing to aspect ratio {ratio:g} with Prandtl's lifting line, whose downwash angle is

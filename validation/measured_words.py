@@ -154,15 +154,17 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No* means that the form is",
         "not identified: an interval is wider than its own parameter, a parameter is at the limit of its fit, or",
         "the fit is ill-conditioned. Do not use such a fit outside its range. Su-Fan's form is fitted only from 0",
-        "degrees up, where its exponential applies. The other two forms are fitted to the same",
-        "measurements; of these two, the better by AICc (a corrected Akaike criterion) is in bold.",
+        "degrees up, where its exponential applies. The other three forms are fitted to the same",
+        "measurements; of these three, the best by AICc (a corrected Akaike criterion) is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),
     ]
+    followed = 0
     for wing, curve in dict.fromkeys((verdict.wing, verdict.curve) for verdict in verdicts):
         own = [verdict for verdict in verdicts if (verdict.wing, verdict.curve) == (wing, curve)]
-        best = min((v for v in own if v.form != "su-fan"), key=lambda v: v.aicc)
+        best = min((v for v in own if v.form != "su-fan" and np.isfinite(v.aicc)), key=lambda v: v.aicc)
+        followed += best.form == "cambered"
         lines.append(f"| {wing} | {curve} | {' | '.join(_cell(v, v is best) for v in own)} |")
     lift = [verdict for verdict in verdicts if (verdict.form, verdict.curve) == ("su-fan", "C_L")]
     told = sum(verdict.identified for verdict in lift)
@@ -171,8 +173,11 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "",
         f"Su-Fan's lift is identified in {told} of {len(lift)} wings: only angles far beyond stall can "
         "distinguish its",
-        "exponential from its slow sine. For a wing measured up to 25 degrees, use Dickinson's form within that "
-        "range.",
+        "exponential from its slow sine. The form cambered is the best by AICc for "
+        f"{followed} of the {2 * len(lift)} curves, and it leads to",
+        "the coefficients of a plate beyond the measurements. For a wing measured up to 25 degrees on both sides, "
+        "use it;",
+        "Dickinson's form holds within that range only.",
     ]
 
 

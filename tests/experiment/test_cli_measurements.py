@@ -9,9 +9,9 @@ import pytest
 from matplotlib.image import imread
 
 from tests.helpers.places import ROOT
-from wingbeat.aero import load_coefficients
+from wingbeat.aero import CamberedTerms, Feathered, load_coefficients
 from wingbeat.cli import main
-from wingbeat.experiment import Campaign, reduce_runs, save_runs, synthetic_runs
+from wingbeat.experiment import Campaign, CoefficientTable, fit_wing, reduce_runs, save_runs, synthetic_runs
 
 SWEEP = Campaign(reynolds=(3e4,), alpha_deg=tuple(float(a) for a in range(0, 111, 5)), repeats=1, rate=10.0)
 HEAD = "# speed = 0.5\n# density = 1000\n# viscosity = 1e-6\n# chord [m] = 0.08\n# span = 0.4\n"
@@ -61,6 +61,33 @@ def test_json_holds_every_parameter_with_its_interval(campaign, here, capsys):
     amplitude = record["C_L"]["parameters"]["amplitude"]
     assert amplitude["interval"][0] < amplitude["value"] < amplitude["interval"][1]
     assert record["C_L"]["points"] == 19
+
+
+def test_a_cambered_wing_from_its_polar_to_a_model_that_flies(here, capsys):
+    terms = CamberedTerms(-4.0, 4.2, -0.45, 1.35, 0.15, 0.03, 0.055, 2.0, 0.6, 17.0, 1.6, 2.0)
+    noise = np.random.default_rng(0).normal(size=(28, 2)) * (0.02, 0.003)
+    rows = [
+        f"{a},{terms.lift_at(a) + lift:.4f},{terms.drag_at(a) + drag:.4f},50000"
+        for a, (lift, drag) in zip(range(-24, 31, 2), noise, strict=True)
+    ]
+    Path("wing.csv").write_text("\n".join(["alpha_deg,C_L,C_D,reynolds", *rows]) + "\n")
+    words = ["fit", "wing.csv", "--form", "cambered", "--aspect-ratio", "6", "-o", "wing.toml", "--plot", "fit.png"]
+    assert main(words) == 0
+    told = capsys.readouterr()
+    for part in (*vars(terms), "95 % interval"):
+        assert (part in told.out) == ("rounding" not in part), part
+    assert "wrote wing.toml" in told.err
+    assert imread("fit.png").shape[1] > 1000
+    assert main([*words[:6], "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert (record["aspect_ratio"], record["reynolds_range"]) == (6.0, [50000.0, 50000.0])
+    zero = record["C_L"]["parameters"]["zero_lift_deg"]["interval"]
+    assert zero[0] < -4.0 < zero[1]
+    model = load_coefficients("wing.toml")
+    assert (model.aspect_ratio, model.reynolds_range) == (6.0, (5e4, 5e4))
+    assert main(["polar", "wing.toml", "--alpha=-10:10:20", "--csv"]) == 0
+    lift = [float(line.split(",")[1]) for line in capsys.readouterr().out.splitlines()[1:]]
+    assert lift == pytest.approx([-0.36, 0.99], abs=0.03)
 
 
 def refused(capsys, *words: str) -> list[str]:
@@ -171,6 +198,8 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
         ("reduce run.csv -o nowhere/c.csv", "cannot write 'nowhere/c.csv'"),
         ("fit absent.csv", "cannot read 'absent.csv': no such file"),
         ("fit c.csv --form cubic", "form = 'cubic': is not a known choice; use one of su-fan"),
+        ("fit c.csv --form cambered", "C_L = '0 to 0.9': is negative at no angle from 0 to 90 degrees"),
+        ("fit c.csv --aspect-ratio 0", "--aspect-ratio = 0.0: must be > 0; span over mean chord"),
         ("fit c.csv -o m.csv", "--output = 'm.csv': is not a model file; end it in .toml"),
         ("fit c.csv --plot m.gif", "--plot = 'm.gif': is not a figure format"),
         ("fit c.csv --alpha-min nan", "--alpha-min = nan: must be finite"),
@@ -192,6 +221,22 @@ def test_all_files_faults_come_at_once(here, capsys):
     assert [
         any(word in line for line in lines) for word in ("absent.csv", "a.csv row 1, speed", "b.csv row 10")
     ] == [True] * 3
+
+
+def test_a_problem_with_a_fitted_cambered_wing_can_be_set_up_again(here):
+    from wingbeat import OrbitProblem, load_species
+    from wingbeat.orbits.problem.parameters import parameters_of
+    from wingbeat.results.provenance import inputs_of, problem_from
+
+    alpha = np.arange(-24.0, 31.0, 2.0)
+    terms = Feathered().terms
+    table = CoefficientTable(alpha, {"C_L": terms.lift_at(alpha), "C_D": terms.drag_at(alpha)})
+    fit_wing(table, "cambered", "feathered", aspect_ratio=6.0).save("own.toml")
+    problem = OrbitProblem(load_species("pigeon"), speed=12.0, aero="own.toml")
+    assert problem_from(inputs_of(problem, starts=1, seed=0)).aero.coefficients == load_coefficients("own.toml")
+    found = {one.path: one for one in parameters_of(problem)}
+    higher = found["aero.wing.lift_highest"].changed(problem, 1.5)
+    assert higher.aero.coefficients.terms.lift_highest == 1.5
 
 
 def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):

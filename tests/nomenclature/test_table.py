@@ -83,7 +83,7 @@ def test_every_number_of_a_species_file_has_the_unit_of_the_table():
     assert {name for name in PARAMETER_NAMES if name not in NOMENCLATURE} == set()
 
 
-@pytest.mark.parametrize("aero", [SuFan(), BladeElement(SuFan(), force_point="centre-of-pressure")])
+@pytest.mark.parametrize("aero", [SuFan(), BladeElement(SuFan(), force_point="centre-of-pressure"), "feathered"])
 def test_every_parameter_is_in_the_table(aero):
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=6.0, aero=aero)
     for parameter in parameters_of(problem):

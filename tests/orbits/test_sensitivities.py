@@ -9,7 +9,7 @@ from rich.console import Console
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
-from wingbeat.aero.model_file import FittedCurve, FittedModel
+from wingbeat.aero.fitted import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.errors import InvalidInputError
@@ -23,7 +23,7 @@ from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import correct_guess, find_orbit
-from wingbeat.results.sensitivities import Comparison
+from wingbeat.results.sensitivities import Comparison, _of_fit
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005
@@ -226,6 +226,22 @@ def test_a_fit_brings_its_covariance_with_errors_that_go_together(pigeon):
         np.random.default_rng(0), 20_000
     )
     assert np.cov(drawn.T) == pytest.approx(covariance, rel=0.05)
+
+
+def test_a_fit_of_a_cambered_wing_brings_one_covariance_of_lift_and_drag():
+    wing = wb.aero.Feathered()
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=wing)
+    parameters = parameters_of(problem)
+    covariance = np.array([[4e-2, -3e-4], [-3e-4, 9e-6]])
+    curve = FittedCurve(wing.terms, ("lift_slope", "drag_least"), covariance)
+    joins = wing.low_join_deg, wing.high_join_deg
+    fit = FittedWing("feathered", "", *joins, None, curve)
+    (spread,) = _of_fit(problem, parameters, fit, 0.5)
+    assert spread.name == "aero.wing"
+    assert [member.path for member in spread.parameters] == ["aero.wing.lift_slope", "aero.wing.drag_least"]
+    np.testing.assert_allclose(spread.covariance, 0.25 * covariance)
+    with pytest.raises(InvalidInputError, match="other wing terms"):
+        _of_fit(problem, parameters, fit._replace(wing=curve._replace(terms=wb.aero.Membrane().terms)), 1.0)
 
 
 def test_a_spread_that_no_slope_knows_cannot_pass(pigeon):

@@ -141,6 +141,28 @@ class CamberedTerms:
             onset_rounding=self.onset_rounding_deg * radians,
         )
 
+    def lift_at(self, alpha_deg: Any) -> Any:
+        """Return C_L at angles [deg] by the formula alone: no join, no plate.
+
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+
+        >>> terms = CamberedTerms(-4.0, 4.0, -0.3, 1.4, 0.15, 0.02, 0.05, 4.0, 0.5, 20.0, 2.0, 3.0)
+        >>> round(float(terms.lift_at(10.0)), 2), round(float(terms.drag_at(10.0)), 3)
+        (0.97, 0.077)
+        """
+        return self.in_radians().lift(alpha_deg * (math.pi / 180))
+
+    def drag_at(self, alpha_deg: Any) -> Any:
+        """Return C_D at angles [deg] by the formula alone: no join, no plate.
+
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+        """
+        return self.in_radians().drag(alpha_deg * (math.pi / 180))
+
 
 class Join(NamedTuple):
     """The blends of C_L and C_D between the curves of a wing and those of a plate, in either direction."""

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import fields
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.extension import check_extension
+from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.files import read_text, toml_tables
@@ -19,71 +22,23 @@ KIND = "wing coefficients"
 MAX_BYTES = 1 << 16
 _WAVE = ("constant", "amplitude", "rate", "phase_deg")
 _DECAY = ("decay_amplitude", "decay_rate")
-_CENTRE = ("constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate")
-_TOP = (
-    "kind",
-    "name",
-    "citation",
-    "form",
-    "made_by",
-    "alpha_range_deg",
-    "reynolds_range",
-    "aspect_ratio",
-    "lift",
-    "drag",
-    "centre",
-)
+# The tables of terms that a file may have: what their terms are, and the names of these.
+_TABLES: dict[str, tuple[type[FormulaTerms] | type[CentreTerms] | type[CamberedTerms], tuple[str, ...]]] = {
+    "lift": (FormulaTerms, (*_WAVE, *_DECAY)),
+    "drag": (FormulaTerms, (*_WAVE, *_DECAY)),
+    "centre": (CentreTerms, ("constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate")),
+    "wing": (CamberedTerms, tuple(field.name for field in fields(CamberedTerms))),
+}
+_HEAD = ("kind", "name", "citation", "form", "made_by", "reynolds_range", "aspect_ratio")
+_ONE_SIDE = (*_HEAD, "alpha_range_deg", "lift", "drag", "centre")
+_TWO_SIDES = (*_HEAD, "low_join_deg", "high_join_deg", "wing")
 _FIT = ("free", "covariance", "r_squared", "aicc", "points")
 
 
-class FittedCurve(NamedTuple):
-    """Terms of one coefficient, and the covariance, shape (k, k), of the k fitted terms that `free` names."""
-
-    terms: FormulaTerms | CentreTerms
-    free: tuple[str, ...]
-    covariance: NDArray[np.float64]
-
-
-class FittedModel(NamedTuple):
-    """The content of a model file; `centre` is None if no centre of pressure was measured."""
-
-    name: str
-    citation: str
-    alpha_range_deg: tuple[float, float]
-    reynolds_range: tuple[float, float] | None
-    lift: FittedCurve
-    drag: FittedCurve
-    centre: FittedCurve | None
-    aspect_ratio: float | None = None
-
-    def coefficients(
-        self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
-    ) -> FormulaCoefficients:
-        """Return the coefficient model; formulas that are given (lift_terms, ...) replace those of the file.
-
-        Raises
-        ------
-        InvalidInputError : what `FormulaCoefficients` refuses.
-        """
-        own: dict[str, Any] = {
-            "lift_terms": self.lift.terms,
-            "drag_terms": self.drag.terms,
-            "centre_terms": None if self.centre is None else self.centre.terms,
-        }
-        return FormulaCoefficients(
-            self.name,
-            **(own | terms),
-            citation=self.citation,
-            reynolds_range=self.reynolds_range,
-            aspect_ratio=self.aspect_ratio,
-            alpha_range_deg=self.alpha_range_deg,
-            extension=extension,
-            blend_width_deg=blend_width_deg,
-        )
-
-
-def read_model(path: str | Path) -> FittedModel:
+def read_model(path: str | Path) -> Fitted:
     """Read a model file with the covariance of its terms; a curve without one has an empty covariance.
+
+    A file with the table ``[wing]`` is that of a cambered wing.
 
     Raises
     ------
@@ -97,36 +52,48 @@ def read_model(path: str | Path) -> FittedModel:
         fix = "is it a species file? `wingbeat fit -o NAME.toml` writes model files"
         faults.add(f"{file}: kind", raw.get("kind"), f"must be {KIND!r}", fix)
         faults.raise_if_any()
-    _known(faults, file, raw, _TOP)
+    cambered = "wing" in raw
+    _known(faults, file, raw, _TWO_SIDES if cambered else _ONE_SIDE)
     texts = {key: _text(faults, file, raw, key) for key in ("name", "citation", "form", "made_by")}
-    alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
     reynolds = _pair(faults, file, raw, "reynolds_range", 0.0, 1e12) if "reynolds_range" in raw else None
     aspect_ratio = raw.get("aspect_ratio")
     check_aspect_ratio(faults, f"{file}: aspect_ratio", aspect_ratio)
-    curves = [_curve(faults, file, raw, key) for key in ("lift", "drag")]
-    centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
     if not texts["name"] and "name" in raw:
         faults.add(f"{file}: name", raw["name"], "must not be empty")
+    named = texts["name"], texts["citation"] or file
+    if cambered:
+        low, high = (_pair(faults, file, raw, key, -90.0, 90.0) for key in ("low_join_deg", "high_join_deg"))
+        wing = _curve(faults, file, raw, "wing")
+        faults.raise_if_any()
+        assert low is not None  # or a fault was noted
+        assert high is not None
+        assert wing is not None
+        return FittedWing(*named, low, high, reynolds, wing, aspect_ratio)
+    alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
+    lift, drag = (_curve(faults, file, raw, key) for key in ("lift", "drag"))
+    centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
     faults.raise_if_any()
     assert alpha is not None  # or a fault was noted
-    lift, drag = curves
     assert lift is not None
     assert drag is not None
-    return FittedModel(texts["name"], texts["citation"] or file, alpha, reynolds, lift, drag, centre, aspect_ratio)
+    return FittedModel(*named, alpha, reynolds, lift, drag, centre, aspect_ratio)
 
 
-def load_model(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
+def load_model(
+    path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
+) -> FormulaCoefficients | CamberedCoefficients:
     """Read the coefficient model of a model file.
 
     Parameters
     ----------
     path : the TOML file; angles in degrees.
-    extension, blend_width_deg : as in `FormulaCoefficients`.
+    extension, blend_width_deg : as in `FormulaCoefficients`; a cambered wing needs no extension, which then has no
+        effect.
 
     Raises
     ------
-    FileError, InvalidInputError : as in `read_model`; a signed extension of a drag formula with an exponential
-        term.
+    FileError, InvalidInputError : as in `read_model`; what the model's constructor refuses, such as a signed
+        extension of a drag formula with an exponential term.
     """
     faults = FaultList()
     check_extension(faults, extension, blend_width_deg)
@@ -175,9 +142,9 @@ def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> Fitte
         faults.add(where, table, "must be a table", f"write [{key}] with its terms below")
         return None
     earlier = len(faults.faults)
-    decays = key != "centre" and any(name in table for name in _DECAY)
-    names = _CENTRE if key == "centre" else (*_WAVE, *_DECAY) if decays else _WAVE
-    _known(faults, where, table, (*(_CENTRE if key == "centre" else (*_WAVE, *_DECAY)), "fit"))
+    kind, known = _TABLES[key]
+    names = _WAVE if kind is FormulaTerms and not any(name in table for name in _DECAY) else known
+    _known(faults, where, table, (*known, "fit"))
     for name in names:
         faults.number(f"{where}.{name}", table.get(name), fix=f"the terms are {', '.join(names)}")
     free, covariance = _covariance(faults, f"{where}.fit", table.get("fit", {}), names)
@@ -185,7 +152,7 @@ def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> Fitte
         return None
     terms = {name: float(table[name]) for name in names}
     try:
-        formula = CentreTerms(**terms) if key == "centre" else FormulaTerms(**terms)
+        formula = kind(**terms)
     except InvalidInputError as error:  # what the formula itself demands, in the words of the file
         for fault in error.faults:
             own = f"{where}.{fault.where.rpartition('.')[2]}"

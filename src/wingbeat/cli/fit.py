@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.cli.options import check_files, check_outputs
 from wingbeat.errors import FaultList
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
@@ -20,17 +21,21 @@ def fit(
     coefficients: Annotated[Path, Parameter(help="A table of `reduce`, or your own with alpha_deg, C_L, C_D.")],
     /,
     *,
-    form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson or sine-cosine.")] = "su-fan",
+    form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson, sine-cosine or cambered.")] = "su-fan",
     output: Annotated[Path | None, Parameter(name=["--output", "-o"], help="The model file: .toml.")] = None,
     plot: Annotated[Path | None, Parameter(help="Draw data, fit and bands: .png, .pdf or .svg.")] = None,
     name: Annotated[str, Parameter(help="Name of the model; default: the name of the output file.")] = "",
     citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
+    aspect_ratio: Annotated[
+        float | None, Parameter(help="Of the measured wing; inf for a section. Kept in the model file.")
+    ] = None,
     alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
     alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object.")] = False,
 ) -> None:
     """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
 
+    The form cambered is for a wing whose two sides differ, measured on both; the other forms mirror one side.
     The model file works wherever a coefficient model is named: `polar mymodel.toml`, `orbit --aero mymodel.toml`.
     Compare forms by AICc, the lower the better, on the same table.
 
@@ -40,6 +45,7 @@ def fit(
     if output is not None and output.suffix.lower() != ".toml":
         faults.add("--output", str(output), "is not a model file", "end it in .toml")
     check_files(faults, output, plot=plot)
+    check_aspect_ratio(faults, "--aspect-ratio", aspect_ratio)
     bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
     if all(bounds) and alpha_min > alpha_max:
         faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "exchange them")
@@ -49,7 +55,7 @@ def fit(
     if alpha_min > -180 or alpha_max < 180:
         table = table.between(alpha_min, alpha_max)
     called = name or (output.stem if output is not None else coefficients.stem)
-    found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}")
+    found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}", aspect_ratio)
     if output is not None:
         found.save(output)
     if plot is not None:
@@ -84,6 +90,7 @@ def _summary(found: WingFit) -> dict[str, Any]:
         "form": found.form,
         "alpha_range_deg": list(found.alpha_range_deg),
         "reynolds_range": None if found.reynolds_range is None else list(found.reynolds_range),
+        "aspect_ratio": None if found.aspect_ratio is None else _finite(found.aspect_ratio) or "inf",
         **{label: curve(label) for label in found.curves},
         "warnings": list(found.notes),
     }

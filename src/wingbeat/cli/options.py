@@ -14,7 +14,8 @@ from cyclopts import Parameter, Token
 
 from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
-from wingbeat.aero.model_file import FittedModel, read_model
+from wingbeat.aero.fitted import Fitted
+from wingbeat.aero.model_file import read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
 from wingbeat.results.aero_record import NotInFileError
@@ -113,7 +114,7 @@ class AirLoadOptions:
             self.upstroke_factor,
         )
 
-    def fit(self) -> FittedModel | None:
+    def fit(self) -> Fitted | None:
         """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
         return read_model(self.aero) if self.aero.lower().endswith(".toml") else None
 

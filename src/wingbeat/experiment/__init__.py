@@ -5,12 +5,13 @@ from wingbeat.experiment.campaign import Campaign, save_runs, synthetic_runs
 from wingbeat.experiment.drawing import draw
 from wingbeat.experiment.film import Film, read_film, synthetic_film
 from wingbeat.experiment.film_fit import FilmedBeat, fit_film
-from wingbeat.experiment.forms import FORMS, CurveForm, WingForm
+from wingbeat.experiment.forms import CurveForm
 from wingbeat.experiment.record import LoadCellRun, read_run
 from wingbeat.experiment.reduction import reduce_run, reduce_runs
 from wingbeat.experiment.regression import CurveFit, FitRangeWarning, fit_curve
 from wingbeat.experiment.table import CoefficientTable, load_measurements
 from wingbeat.experiment.wing_fit import WingFit, fit_wing
+from wingbeat.experiment.wing_forms import FORMS, WingForm
 
 __all__ = [
     "FORMS",

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat.aero import FormulaCoefficients
-from wingbeat.aero.model_file import FittedCurve, read_model
+from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
+from wingbeat.aero.fitted import FittedCurve
+from wingbeat.aero.model_file import read_model
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.wing_fit import WingFit
 
@@ -25,12 +26,12 @@ def draw(
     *,
     extension: str = "mirrored",
     blend_width_deg: float = 1.0,
-) -> list[FormulaCoefficients]:
+) -> list[FormulaCoefficients] | list[CamberedCoefficients]:
     """Return coefficient models whose terms are random draws from the normal distribution of a fit's parameters.
 
     The parameters of each curve (lift, drag, centre of pressure) are drawn with their covariance, and the curves
-    independently of one another. A sample that is not a valid formula (a decay that grows) is drawn again.
-    The same seed gives the same models.
+    independently of one another, but all terms of a cambered wing together. A sample
+    that is not a valid formula (a decay that grows) is drawn again. The same seed gives the same models.
 
     Parameters
     ----------
@@ -50,9 +51,7 @@ def draw(
         faults.whole(name, value, lowest, highest)
     faults.raise_if_any()
     model = source.model() if isinstance(source, WingFit) else read_model(source)
-    curves = {"lift_terms": model.lift, "drag_terms": model.drag}
-    if model.centre is not None:
-        curves["centre_terms"] = model.centre
+    curves = model.curves
     if not any(curve.free for curve in curves.values()):
         faults.add(model.name, "no covariance", "has nothing to draw from", "fit it with `wingbeat fit`")
     faults.raise_if_any()

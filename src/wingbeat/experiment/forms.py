@@ -8,50 +8,47 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._jax.config import jax, unchecked
+from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.coefficient_model import at_angles
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.errors import FaultList
 
 Array = NDArray[np.float64]
-Kind = type[FormulaTerms] | type[CentreTerms]
-# Grids of the terms in which a formula is not linear; the others follow from linear least squares at each node.
-_RATES = np.concatenate([np.geomspace(0.3, 3.0, 12), [3.6, 4.5]])
-_WAVE_DECAYS = np.geomspace(0.02, 2.0, 10)
-_EXPONENTS = np.linspace(0.2, 2.0, 10)
-_CENTRE_DECAYS = np.geomspace(0.02, 0.6, 10)
+Kind = type[FormulaTerms] | type[CentreTerms] | type[CamberedTerms]
 
 
-@functools.partial(jax.jit, static_argnames=("kind",))
-def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any) -> Any:
+@functools.partial(jax.jit, static_argnames=("kind", "curve"))
+def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any, curve: str) -> Any:
     # All numbers in one array: a record's fields, handed over one by one, take longer than the formula.
     terms = jax.tree.unflatten(kind, list(numbers))
-    slopes = jax.jacfwd(type(terms).at)(terms, alpha_deg)
-    return [terms.at(alpha_deg), *jax.tree.leaves(slopes)]
+    formula = getattr(type(terms), curve)
+    slopes = jax.jacfwd(formula)(terms, alpha_deg)
+    return [formula(terms, alpha_deg), *jax.tree.leaves(slopes)]
 
 
-def value_and_slopes(terms: Any, alpha_deg: Array) -> tuple[Array, Any]:
+def value_and_slopes(terms: Any, alpha_deg: Array, curve: str = "at") -> tuple[Array, Any]:
     """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and its derivatives by its terms.
 
     The derivatives are a record like `terms` with arrays of shape (n,) instead of numbers. All forms with the
-    same terms share one compiled function.
+    same terms share one compiled function. `curve` names the method of the terms that is the formula.
 
     >>> value, slopes = value_and_slopes(FormulaTerms(0.1, 2.0, 2.0, 0.0), np.array([45.0]))
     >>> round(float(value[0]), 12), round(float(slopes.amplitude[0]), 12)
     (2.1, 1.0)
     """
     numbers, kind = jax.tree.flatten(terms)
-    function = functools.partial(_value_and_slopes, kind=kind)
+    function = functools.partial(_value_and_slopes, kind=kind, curve=curve)
     value, *slopes = at_angles(function, np.array(numbers, dtype=np.float64), alpha_deg)
     return value, jax.tree.unflatten(kind, slopes)
 
 
-def _any_terms(kind: Kind, terms: dict[str, float]) -> Any:
+def any_terms(kind: Kind, terms: dict[str, float]) -> Any:
     """Return terms without the checks of their constructor, because a fit may pass through refused values."""
     # All of them floats: JAX compiles anew for another type of number, and does not differentiate in integers.
     return unchecked(kind, {name: float(value) for name, value in terms.items()})
@@ -149,6 +146,21 @@ class CurveForm:
         del alpha_deg, values, weight  # a form of the user's own knows its start
         return [self.start]
 
+    def check(self, faults: FaultList, alpha_deg: Array, values: Array, label: str) -> None:
+        """Note a fault if measurements lie where the form does not hold, or cannot decide it.
+
+        Parameters
+        ----------
+        faults : where it is noted.
+        alpha_deg, values : the measurements, shape (n,) [deg].
+        label : name of the quantity in messages.
+        """
+        del values, label
+        if self.only_positive and len(alpha_deg) and alpha_deg.min() < 0:
+            rule = f"is below 0, where {self.formula} does not hold"
+            fix = "fit from 0 up (--alpha-min 0), or choose dickinson"
+            faults.add("alpha_deg", float(alpha_deg.min()), rule, fix)
+
 
 @dataclass(frozen=True)
 class BoxForm(CurveForm):
@@ -157,6 +169,7 @@ class BoxForm(CurveForm):
     kind: Kind = FormulaTerms
     fixed: dict[str, float] = field(default_factory=dict)
     grids: dict[str, Array] = field(default_factory=dict)
+    curve: str = "at"
 
     def terms(self, parameters: dict[str, float]) -> dict[str, float]:
         """Return all terms of the formula, including fixed ones."""
@@ -168,7 +181,7 @@ class BoxForm(CurveForm):
 
     def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
         """Return `value` and `slopes`, shapes (n,) and (n, parameters), from one evaluation."""
-        value, slopes = value_and_slopes(_any_terms(self.kind, self.terms(parameters)), alpha_deg)
+        value, slopes = value_and_slopes(any_terms(self.kind, self.terms(parameters)), alpha_deg, self.curve)
         return value, np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
@@ -187,11 +200,11 @@ class BoxForm(CurveForm):
         """Return the functions in which the formula is linear, and a map from their factors to parameters."""
         blank = dict.fromkeys(self.names, 0.0) | self.fixed | held
         names = [name for name in self.names if name not in self.grids and name != "phase_deg"]
-        _, slopes = value_and_slopes(_any_terms(self.kind, blank), a)
+        _, slopes = value_and_slopes(any_terms(self.kind, blank), a, self.curve)
         # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
         columns = {name: getattr(slopes, name) for name in names}
         if "phase_deg" in self.names:
-            turned = _any_terms(self.kind, blank | {"phase_deg": 90.0})
+            turned = any_terms(self.kind, blank | {"phase_deg": 90.0})
             columns["cosine"] = value_and_slopes(turned, a)[1].amplitude
 
         def parameters(factors: Array) -> dict[str, float]:
@@ -205,72 +218,6 @@ class BoxForm(CurveForm):
         return np.column_stack(list(columns.values())), parameters
 
 
-def _function(kind: Kind, fixed: dict[str, float]) -> Callable[..., Array]:
-    return lambda a, **parameters: value_and_slopes(_any_terms(kind, fixed | parameters), a)[0]
-
-
-def _wave_form(formula: str, free: list[str], fixed: dict[str, float], **grids: Array) -> BoxForm:
-    decays = "decay_rate" in free
-    return BoxForm(
-        formula,
-        _function(FormulaTerms, fixed),
-        dict.fromkeys(free, 1.0),
-        lowest={"decay_rate": 0.0} if decays else {},
-        highest={"decay_rate": 20.0} if decays else {},
-        only_positive=decays,
-        fixed=fixed,
-        grids=grids,
-    )
-
-
-_SINE = ["constant", "amplitude", "rate", "phase_deg"]
-_SINE_FORM = _wave_form("constant + amplitude sin(rate a + phase)", _SINE, {}, rate=_RATES)
-_CENTRE = BoxForm(
-    "constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)",
-    _function(CentreTerms, {}),
-    dict.fromkeys(["constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate"], 1.0),
-    lowest={"exponent": 1e-3, "decay_rate": 0.0},
-    highest={"exponent": 5.0, "decay_rate": 5.0},
-    only_positive=True,
-    kind=CentreTerms,
-    grids={"exponent": _EXPONENTS, "decay_rate": _CENTRE_DECAYS},
-)
-
-
-class WingForm(NamedTuple):
-    """The curves that are fitted to a wing.
-
-    Attributes
-    ----------
-    name : of the form.
-    lift, drag : curves of C_L and C_D.
-    centre : curve of the centre of pressure, or None.
-    """
-
-    name: str
-    lift: CurveForm
-    drag: CurveForm
-    centre: CurveForm | None = None
-
-
-FORMS: dict[str, WingForm] = {
-    "su-fan": WingForm(
-        "su-fan",
-        _wave_form(
-            "amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)",
-            ["decay_amplitude", "decay_rate", "amplitude", "rate", "phase_deg"],
-            {"constant": 0.0},
-            rate=_RATES,
-            decay_rate=_WAVE_DECAYS,
-        ),
-        _SINE_FORM,
-        _CENTRE,
-    ),
-    "dickinson": WingForm("dickinson", _SINE_FORM, _SINE_FORM, _CENTRE),
-    "sine-cosine": WingForm(
-        "sine-cosine",
-        _wave_form("amplitude sin 2a", ["amplitude"], {"constant": 0.0, "rate": 2.0, "phase_deg": 0.0}),
-        _wave_form("constant - amplitude cos 2a", ["constant", "amplitude"], {"rate": 2.0, "phase_deg": -90.0}),
-        _CENTRE,
-    ),
-}
+def formula_of(kind: Kind, fixed: dict[str, float], curve: str = "at") -> Callable[..., Array]:
+    """Return a formula of `wingbeat.aero` as a function of angles [deg] and of the terms that are not fixed."""
+    return lambda a, **parameters: value_and_slopes(any_terms(kind, fixed | parameters), a, curve)[0]

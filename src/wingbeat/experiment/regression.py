@@ -172,13 +172,22 @@ class CurveFit:
 
         _check_confidence(confidence)
         a = np.atleast_1d(np.asarray(alpha_deg, dtype=np.float64))
-        slopes = self.form.slopes(a, self.parameters)
-        variance = np.einsum("ij,jk,ik->i", slopes, self.covariance, slopes)
+        variance = self.curve_variance(a)
         if not of_mean:
             angles, place = np.unique(np.round(self.alpha_deg, 6), return_inverse=True)
             there = np.bincount(place, self.sigma**2) / np.bincount(place)
             variance = variance + np.interp(a, angles, there) * self.chi_squared / self.freedom
         return float(t.ppf(0.5 + 0.5 * confidence, self.freedom)) * np.sqrt(np.maximum(variance, 0.0))
+
+    def curve_variance(self, alpha_deg: Array) -> Array:
+        """Return the variance of the curve itself, to first order in the parameters, shape (n,).
+
+        Parameters
+        ----------
+        alpha_deg : angles of attack [deg], shape (n,).
+        """
+        slopes = self.form.slopes(alpha_deg, self.parameters)
+        return np.einsum("ij,jk,ik->i", slopes, self.covariance, slopes)
 
     def _misfit(self, parameters: dict[str, float]) -> float:
         scaled = (self.values - self.form.value(self.alpha_deg, parameters)) / self.sigma
@@ -230,7 +239,7 @@ def fit_curve(
     left = (y - form.value(a, parameters)) / errors
     covariance = (inverse @ inverse.T) / np.outer(sizes, sizes) * float(left @ left) / (len(y) - len(parameters))
     found = CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, ())
-    notes = _distrust(found)
+    notes = distrust(found)
     return CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, notes)
 
 
@@ -255,9 +264,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
         faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
-    if form.only_positive and len(a) and a.min() < 0:
-        rule = f"is below 0, where {form.formula} does not hold"
-        faults.add("alpha_deg", float(a.min()), rule, "fit from 0 up (--alpha-min 0), or choose dickinson")
+    form.check(faults, a, y, label)
     faults.raise_if_any()
 
 
@@ -307,7 +314,7 @@ def _tidy(parameters: dict[str, float]) -> dict[str, float]:
     return tidy
 
 
-def _distrust(fit: CurveFit) -> tuple[str, ...]:
+def distrust(fit: CurveFit) -> tuple[str, ...]:
     """Return notes that name the parameters that the data do not determine."""
     notes = []
     for name, value in fit.parameters.items():
@@ -332,6 +339,8 @@ def _room(fit: CurveFit, name: str) -> float:
     value = abs(fit.parameters[name])
     if name == "phase_deg":
         return 45.0
+    if name == "zero_lift_deg":  # which may be 0, and shifts the line of lift
+        return max(value, 5.0)
     if name == "constant":  # which may be 0, and is then known well if it is small beside the curve
         return max(value, float(np.ptp(fit.values)))
     return max(value, 1e-12)

@@ -1,8 +1,7 @@
-"""A whole wing fitted: lift, drag and centre of pressure, and the model file that holds them."""
+"""A whole wing fitted: lift, drag and centre of pressure, and the coefficient model that follows."""
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,18 +9,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._version import __version__
-from wingbeat.aero import FormulaCoefficients
-from wingbeat.aero.formula import CentreTerms, FormulaTerms
-from wingbeat.aero.model_file import KIND, FittedCurve, FittedModel
+from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
+from wingbeat.aero.coefficient_model import check_aspect_ratio
+from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.experiment.forms import FORMS, BoxForm, CurveForm, WingForm
+from wingbeat.experiment.cambered_form import DragFit, DragForm, fit_drag, stall_notes
+from wingbeat.experiment.forms import BoxForm, CurveForm
+from wingbeat.experiment.model_text import model_text
 from wingbeat.experiment.regression import CurveFit, fit_curve
 from wingbeat.experiment.table import CoefficientTable
+from wingbeat.experiment.wing_forms import FORMS, WingForm
 from wingbeat.files import write_atomically
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0
+# Where a cambered wing acts like a plate: from 45 degrees on, as `Feathered`, or this far beyond the measurements.
+_PLATE_FROM_DEG, _JOIN_DEG = 45.0, 20.0
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ class WingFit:
     centre : fit of the centre of pressure; None if it was not measured, or if the form has no curve for it.
     table : the measurements.
     notes : notes for the reader.
+    aspect_ratio : of the measured wing [-], infinite for a section, None if not stated.
     """
 
     name: str
@@ -47,6 +51,7 @@ class WingFit:
     centre: CurveFit | None
     table: CoefficientTable
     notes: tuple[str, ...]
+    aspect_ratio: float | None = None
 
     @property
     def curves(self) -> dict[str, CurveFit]:
@@ -84,7 +89,7 @@ class WingFit:
         normal = self.lift.predict(alpha_deg) * np.cos(a) + self.drag.predict(alpha_deg) * np.sin(a)
         return normal * (0.5 - self.centre.predict(alpha_deg))
 
-    def model(self) -> FittedModel:
+    def model(self) -> Fitted:
         """Return the fit in the form of a model file's content.
 
         Raises
@@ -97,12 +102,19 @@ class WingFit:
                 fix = "save it as a table: give a path that ends in .csv"
                 faults.add(label, curve.form.formula, "is a form of your own, which a model file cannot hold", fix)
         faults.raise_if_any()
-        centre = None if self.centre is None else _fitted(self.centre, CentreTerms)
+        drag = _fitted(self.drag)
+        if isinstance(self.drag, DragFit):
+            (low, high), beyond = self.alpha_range_deg, _JOIN_DEG
+            joins = (min(-_PLATE_FROM_DEG, low - beyond), low), (high, max(_PLATE_FROM_DEG, high + beyond))
+            wing = FittedCurve(drag.terms, self.drag.joint_names, self.drag.joint)
+            return FittedWing(self.name, self.citation, *joins, self.reynolds_range, wing, self.aspect_ratio)
+        centre = None if self.centre is None else _fitted(self.centre)
         ranges = self.alpha_range_deg, self.reynolds_range
-        lift, drag = (_fitted(curve, FormulaTerms) for curve in (self.lift, self.drag))
-        return FittedModel(self.name, self.citation, *ranges, lift, drag, centre)
+        return FittedModel(self.name, self.citation, *ranges, _fitted(self.lift), drag, centre, self.aspect_ratio)
 
-    def coefficients(self, extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoefficients:
+    def coefficients(
+        self, extension: str = "mirrored", blend_width_deg: float = 1.0
+    ) -> FormulaCoefficients | CamberedCoefficients:
         """Return the coefficient model, for flights and orbits.
 
         Parameters
@@ -112,7 +124,7 @@ class WingFit:
 
         Raises
         ------
-        InvalidInputError : as in `model`, and what `FormulaCoefficients` refuses.
+        InvalidInputError : as in `model`, and what the coefficient model refuses.
         """
         return self.model().coefficients(extension, blend_width_deg)
 
@@ -133,27 +145,8 @@ class WingFit:
         faults = FaultList()
         faults.choice("path", ending, (".toml", ".csv"))
         faults.raise_if_any()
-        write_atomically(path, self._as_toml() if ending == ".toml" else self._as_table())
-
-    def _as_toml(self) -> str:
-        model = self.model()
-        lines = [
-            "# Coefficients of a wing strip, fitted by `wingbeat fit`. Name this file where a model is asked for:",
-            "# wingbeat polar THIS.toml, wingbeat orbit pigeon --speed 12 --aero THIS.toml. Angles a in degrees.",
-            f"kind = {_quoted(KIND)}",
-            f"name = {_quoted(self.name)}",
-            f"citation = {_quoted(self.citation)}",
-            f"form = {_quoted(self.form)}",
-            f"made_by = {_quoted(f'wingbeat {__version__}')}",
-            f"alpha_range_deg = {_row(self.alpha_range_deg)}",
-        ]
-        if self.reynolds_range is not None:
-            lines.append(f"reynolds_range = {_row(self.reynolds_range)}")
-        parts = {"lift": model.lift, "drag": model.drag, "centre": model.centre}
-        for (key, part), (label, curve) in zip(parts.items(), self.curves.items(), strict=False):
-            if part is not None:
-                lines += ["", *_as_section(key, label, curve, part)]
-        return "\n".join(lines) + "\n"
+        text = model_text(self.model(), self.form, self.curves) if ending == ".toml" else self._as_table()
+        write_atomically(path, text)
 
     def _as_table(self) -> str:
         low, high = self.alpha_range_deg
@@ -173,7 +166,11 @@ class WingFit:
 
 
 def fit_wing(
-    table: CoefficientTable, form: str | WingForm = "su-fan", name: str = "fitted", citation: str = ""
+    table: CoefficientTable,
+    form: str | WingForm = "su-fan",
+    name: str = "fitted",
+    citation: str = "",
+    aspect_ratio: float | None = None,
 ) -> WingFit:
     """Fit lift, drag and, where it was measured, the centre of pressure.
 
@@ -185,15 +182,19 @@ def fit_wing(
 
     Parameters
     ----------
-    form : "su-fan", "dickinson", "sine-cosine", or curves of your own.
+    form : "su-fan", "dickinson", "sine-cosine", "cambered" (`CamberedTerms`, for a wing whose two sides differ), or
+        curves of your own.
     name, citation : name of the model, and source of the measurements.
     table : the measurements.
+    aspect_ratio : span over mean chord of the measured wing [-], infinite for a section, None if not known.
 
     Raises
     ------
-    InvalidInputError : an unknown form, an empty name, and what `fit_curve` refuses.
+    InvalidInputError : an unknown form, an empty name, a bad aspect ratio, what `fit_curve` refuses; for a cambered
+        wing, angles beyond 60 degrees or fewer than three on one side of zero lift.
     """
     faults = FaultList()
+    check_aspect_ratio(faults, "aspect_ratio", aspect_ratio)
     if isinstance(form, str):
         faults.choice("form", form, tuple(FORMS))
     if not name.strip():
@@ -201,8 +202,15 @@ def fit_wing(
     faults.raise_if_any()
     chosen = FORMS[form] if isinstance(form, str) else form
     notes: list[str] = []
-    lift, drag = (_fit(table, label, curve) for label, curve in (("C_L", chosen.lift), ("C_D", chosen.drag)))
+    lift = _fit(table, "C_L", chosen.lift)
+    if isinstance(chosen.drag, DragForm):
+        drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), "C_D")
+        notes += stall_notes(lift)
+    else:
+        drag = _fit(table, "C_D", chosen.drag)
     centre = None
+    if chosen.centre is None and "x_cp" in table.mean:
+        notes.append(f"x_cp: the form {chosen.name} has no centre of pressure, so this column is not used")
     if chosen.centre is not None and "x_cp" in table.mean:
         known = np.isfinite(table.mean["x_cp"])
         usable = known & (table.alpha_deg >= 0) if chosen.centre.only_positive else known
@@ -216,47 +224,25 @@ def fit_wing(
                 notes.append(f"x_cp: {known.sum() - usable.sum()} rows at negative angles were left out")
     for curve in (lift, drag, centre):
         notes += curve.notes if curve is not None else ()
-    return WingFit(name, chosen.name, citation, lift, drag, centre, table, tuple(notes))
+    return WingFit(name, chosen.name, citation, lift, drag, centre, table, tuple(notes), aspect_ratio)
 
 
 def _fit(
     table: CoefficientTable, label: str, form: CurveForm, rows: NDArray[np.bool_] | slice = slice(None)
 ) -> CurveFit:
+    return fit_curve(table.alpha_deg[rows], table.mean[label][rows], form, _sigma(table, label, rows), label)
+
+
+def _sigma(
+    table: CoefficientTable, label: str, rows: NDArray[np.bool_] | slice = slice(None)
+) -> NDArray[np.float64] | None:
+    """Return the standard errors of a coefficient, or None where there are none."""
     errors = table.se.get(label)
     # Errors of 0 throughout are those of data without noise, made and not measured.
-    given = errors is not None and bool((errors[rows] != 0).any())
-    sigma = errors[rows] if errors is not None and given else None
-    return fit_curve(table.alpha_deg[rows], table.mean[label][rows], form, sigma, label)
+    return errors[rows] if errors is not None and bool((errors[rows] != 0).any()) else None
 
 
-def _fitted(curve: CurveFit, kind: type[FormulaTerms] | type[CentreTerms]) -> FittedCurve:
+def _fitted(curve: CurveFit) -> FittedCurve:
     assert isinstance(curve.form, BoxForm)  # refused before
-    return FittedCurve(kind(**curve.form.terms(curve.parameters)), curve.form.names, curve.covariance)
-
-
-def _as_section(key: str, label: str, curve: CurveFit, part: FittedCurve) -> list[str]:
-    limits = curve.interval()
-    lines = [f"[{key}] # {label} = {curve.form.formula}"]
-    for name, value in vars(part.terms).items():
-        if value is not None:
-            low, high = limits.get(name, (value, value))
-            about = f" # 95 % interval {low:.5g} to {high:.5g}" if name in limits else " # held fixed"
-            lines.append(f"{name} = {float(value)!r}{about}")
-    lines += ["", f"[{key}.fit]", f"free = [{', '.join(_quoted(name) for name in part.free)}]", "covariance = ["]
-    lines += [f"  {_row(row)}," for row in part.covariance]
-    lines += ["]", f"points = {len(curve.values)}"]
-    lines += [
-        f"{name} = {value!r}"
-        for name, value in (("r_squared", curve.r_squared), ("aicc", curve.aicc))
-        if math.isfinite(value)
-    ]
-    return lines
-
-
-def _row(values: object) -> str:
-    return "[" + ", ".join(repr(float(value)) for value in np.asarray(values)) + "]"
-
-
-def _quoted(text: str) -> str:
-    """Return a TOML string, written as JSON: their escapes agree once unprintable characters are removed."""
-    return json.dumps("".join(sign for sign in text if sign.isprintable()), ensure_ascii=False)
+    terms = curve.form.kind(**curve.form.terms(curve.parameters))
+    return FittedCurve(terms, curve.form.names, curve.covariance)

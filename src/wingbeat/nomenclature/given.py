@@ -162,6 +162,20 @@ AERO = (
     Term("decay_rate", "deg-1", "rate of a coefficient formula's decay"),
     Term("power_amplitude", "1", "amplitude of a coefficient formula's power law"),
     Term("exponent", "1", "exponent of a coefficient formula's power law"),
+    Term("zero_lift_deg", "deg", "angle of attack at which a cambered wing's line of lift is zero"),
+    Term("wing.lift_slope", "rad-1", "lift slope of a cambered wing in attached flow"),
+    Term("lift_lowest", "1", "lift coefficient of a cambered wing beyond the stall at negative lift"),
+    Term("lift_highest", "1", "lift coefficient of a cambered wing beyond the stall at positive lift"),
+    Term("lift_rounding", "1", "how widely a cambered wing's line of lift bends at its ends"),
+    Term("drag_least", "1", "drag coefficient of a cambered wing without lift or separated flow"),
+    Term(
+        "drag_induced", "1", "induced drag coefficient of a cambered wing over the square of its lift coefficient"
+    ),
+    Term("low_onset_deg", "deg", "angle above zero lift where flow separates from a cambered wing's lower side"),
+    Term("low_rise", "rad-1", "drag coefficient that separation from the lower side adds for each radian"),
+    Term("high_onset_deg", "deg", "angle above zero lift where flow separates from a cambered wing's upper side"),
+    Term("high_rise", "rad-1", "drag coefficient that separation from the upper side adds for each radian"),
+    Term("onset_rounding_deg", "deg", "how widely a cambered wing's drag bends at its onsets"),
 )
 RUN = (
     Term("normal_force", "N", "force normal to the plate"),

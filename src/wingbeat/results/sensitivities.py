@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.aero.model_file import FittedModel
+from wingbeat.aero.fitted import Fitted
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
@@ -18,7 +18,7 @@ from wingbeat.orbits.many.uncertainty import (
     uniform_spread,
 )
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.parameters import Parameter, parameters_of
+from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
@@ -102,7 +102,7 @@ class Sensitivities:
         """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
-    def spreads(self, fit: FittedModel | None = None, share: float = 1.0) -> list[ParameterSpread]:
+    def spreads(self, fit: Fitted | None = None, share: float = 1.0) -> list[ParameterSpread]:
         """Return the uncertainty of the inputs: uniform over their plausible ranges, and a fit's covariance.
 
         Parameters
@@ -121,7 +121,7 @@ class Sensitivities:
         found = [uniform_spread(p, share) for p in parameters if p.plausible is not None]
         return found if fit is None else found + _of_fit(self.problem, parameters, fit, share)
 
-    def error_bar(self, quantity: str, fit: FittedModel | None = None, share: float = 1.0) -> ErrorBar:
+    def error_bar(self, quantity: str, fit: Fitted | None = None, share: float = 1.0) -> ErrorBar:
         """Return a quantity with its standard deviation to first order, and the contributions to it.
 
         Parameters
@@ -194,17 +194,18 @@ def _plain(slope: Sensitivity) -> dict[str, Any]:
 
 
 def _of_fit(
-    problem: OrbitProblem, parameters: Sequence[Parameter], fit: FittedModel, share: float
+    problem: OrbitProblem, parameters: Sequence[Parameter], fit: Fitted, share: float
 ) -> list[ParameterSpread]:
     """Return the spreads of a fit's terms, one for each curve, because their errors are correlated."""
     by_path = {p.path: p for p in parameters}
     coefficients, found = problem.aero.coefficients, []
-    for name in ("lift", "drag", "centre"):
-        curve = getattr(fit, name)
-        paths = [] if curve is None else [f"aero.{name}.{term}" for term in curve.free]
-        if curve is None or not paths or not any(path in by_path for path in paths):
+    names = {field: name for name, field in CURVES.items()}
+    for field, curve in fit.curves.items():
+        name = names[field]
+        paths = [f"aero.{name}.{term}" for term in curve.free]
+        if not any(path in by_path for path in paths):
             continue
-        if getattr(coefficients, f"{name}_terms", None) != curve.terms:
+        if getattr(coefficients, field, None) != curve.terms:
             rule, fix = f"has other {name} terms than the orbit's coefficients", "give the fit that the orbit used"
             raise InvalidInputError([Fault("fit", fit.name, rule, fix)])
         members = tuple(by_path[path] for path in paths)
@@ -249,7 +250,7 @@ def uncertainty_by_samples(
     quantities: Sequence[str] = QUANTITIES,
     samples: int = 2000,
     seed: int = 0,
-    fit: FittedModel | None = None,
+    fit: Fitted | None = None,
     share: float = 1.0,
     processes: int = 1,
     progress: Progress | None = None,

@@ -13,7 +13,7 @@ from wingbeat.nomenclature import plain_unit
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species
 
-_CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms"}
+CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
 _AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
 
@@ -72,7 +72,8 @@ def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
     Left out are the wrist, which has no effect until it crosses a strip; parameters of motions that are off; and
-    the numbers of coefficient models that are not formulas.
+    the numbers of coefficient models that are not formulas. The terms of a cambered wing have names such as
+    ``aero.wing.lift_slope``.
 
     >>> from wingbeat.species import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
@@ -161,7 +162,7 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
 
 
 def _curves(problem: OrbitProblem, path: str, coefficients: CoefficientModel, place: Place) -> Iterator[Parameter]:
-    for curve, field in _CURVES.items():
+    for curve, field in CURVES.items():
         terms = getattr(coefficients, field, None)
         # With the force at the quarter chord, the centre of pressure has no effect.
         if terms is None or (curve == "centre" and problem.aero.force_point == "quarter-chord"):

@@ -12,6 +12,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.nomenclature import cf, for_people, plain_unit
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
+from wingbeat.orbits.infeasible.terms import TERMS, without_term
 from wingbeat.orbits.options.diagnosis import ChangeOptions
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.limits import Constraint
@@ -91,16 +92,16 @@ class Relaxation:
 
     Parameters
     ----------
-    name, sign : which number, as in `Change`.
-    old, new : its value in the problem, and in the changed problem [`unit`].
+    name, sign : which number, as in `Change`; or a term of the air loads, as in `terms.TERMS`, and ``=``.
+    old, new : its value in the problem, and in the changed problem [`unit`]; that of a term may be a name.
     unit : of both; SI, radians.
     text : the change in words, angles in degrees.
     """
 
     name: str
     sign: str
-    old: float
-    new: float
+    old: float | str
+    new: float | str
     unit: str
     text: str
 
@@ -111,7 +112,9 @@ class Relaxation:
         ----------
         problem : the problem without an orbit.
         """
-        return with_change(problem, self.name, self.sign, self.new)
+        if self.name in TERMS:
+            return without_term(problem, self.name)
+        return with_change(problem, self.name, self.sign, float(self.new))
 
 
 _PLACES: dict[str, Place] = {

@@ -1,4 +1,4 @@
-"""Diagnosis of a problem without an orbit: which balance fails, which single changes and which missing terms fly."""
+"""Diagnosis of a problem without an orbit: which balance fails, and which changes or terms left out fly."""
 
 from __future__ import annotations
 
@@ -129,6 +129,7 @@ def _without_term(programme: Transcription, name: str, near: np.ndarray) -> Rela
     starts = [near, *(start_point(problem, i, 0, options.search) for i in range(options.diagnosis.term_starts))]
     trace = with_trace_of(problem, name, options.diagnosis.term_trace)
     if trace is not None:
+        # As everywhere, the stock wingbeat is flown as it is; the others are brought close to closure first.
         almost = Transcription(trace, options)
         ends = (search(almost.uncorrected(), start, restore=i != 1) for i, start in enumerate(starts))
         starts = [almost.physical(end.scaled) for end in islice((end for end in ends if end.closed), 1)]

@@ -93,15 +93,15 @@ class Relaxation:
     Parameters
     ----------
     name, sign : which number, as in `Change`; or a term of the air loads, as in `terms.TERMS`, and ``=``.
-    old, new : its value in the problem, and in the changed problem [`unit`]; that of a term may be a name.
+    old, new : its value in the problem, and in the changed problem [`unit`]; for a term that is a choice, 1 and 0.
     unit : of both; SI, radians.
     text : the change in words, angles in degrees.
     """
 
     name: str
     sign: str
-    old: float | str
-    new: float | str
+    old: float
+    new: float
     unit: str
     text: str
 
@@ -114,7 +114,7 @@ class Relaxation:
         """
         if self.name in TERMS:
             return without_term(problem, self.name)
-        return with_change(problem, self.name, self.sign, float(self.new))
+        return with_change(problem, self.name, self.sign, self.new)
 
 
 _PLACES: dict[str, Place] = {

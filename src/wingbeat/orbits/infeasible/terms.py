@@ -7,29 +7,30 @@ import math
 
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.vehicle import Tail
 
 INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL = "inflow", "unsteady", "upstroke_factor", "hand", "tail"
 TERMS = (INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL)
-_OFF = {INFLOW: "none", UNSTEADY: "none", UPSTROKE: 1.0, HAND: "none", TAIL: 0.0}
+_OFF = {INFLOW: "none", UNSTEADY: "none", UPSTROKE: 1.0, HAND: "none"}
 
 
 def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
     """Return the terms of `TERMS` that a problem has; a tail whose tilt is free does not count."""
     tail = problem.vehicle.tail is not None and "tail_tilt" not in problem.free
-    has = {name: getattr(problem.aero, name) != _OFF[name] for name in TERMS if name != TAIL}
-    return tuple(name for name in TERMS if (tail if name == TAIL else has[name]))
+    on = [name for name, off in _OFF.items() if getattr(problem.aero, name) != off]
+    return (*on, *[TAIL] * tail)
 
 
-def on_and_off(problem: OrbitProblem, name: str) -> tuple[float | str, float | str, str]:
-    """Return the value of a term in a problem, its value without the term, and the unit of both.
+def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
+    """Return a number of a term in a problem, the number without the term, and the unit of both.
 
-    The value is what `BladeElement` takes, or the name of the hand's coefficients; for the tail it is its area.
+    It is the upstroke factor, or the area of the tail. A term that is a choice has 1, and without it 0.
     """
-    if name == TAIL:
-        assert problem.vehicle.tail is not None
-        return problem.vehicle.tail.area, _OFF[name], "m2"
-    value = getattr(problem.aero, name)
-    return value.name if name == HAND else value, _OFF[name], "1" if name == UPSTROKE else ""
+    if name == UPSTROKE:
+        return problem.aero.upstroke_factor, 1.0, "1"
+    if name == TAIL and problem.vehicle.tail is not None:
+        return problem.vehicle.tail.area, 0.0, "m2"
+    return 1.0, 0.0, "1"
 
 
 def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
@@ -52,8 +53,9 @@ def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProble
     """
     aero = problem.aero
     if name == TAIL:
-        assert problem.vehicle.tail is not None
-        return _with_tail(problem, dataclasses.replace(problem.vehicle.tail, area=trace * problem.vehicle.tail.area))
+        tail = problem.vehicle.tail
+        assert tail is not None
+        return _with_tail(problem, dataclasses.replace(tail, area=trace * tail.area))
     if name == HAND:
         return None
     if name == UPSTROKE:
@@ -65,7 +67,7 @@ def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProble
     return dataclasses.replace(problem, aero=dataclasses.replace(aero, **changed))
 
 
-def _with_tail(problem: OrbitProblem, tail: object) -> OrbitProblem:
+def _with_tail(problem: OrbitProblem, tail: Tail | None) -> OrbitProblem:
     vehicle = dataclasses.replace(problem.vehicle, tail=tail)
     return dataclasses.replace(problem, species=problem.species.with_record(vehicle))
 

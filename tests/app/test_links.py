@@ -1,6 +1,7 @@
 """Scenarios as links and JSON: they come back as they were, or are refused in words."""
 
 import base64
+import dataclasses
 import json
 import zlib
 
@@ -12,7 +13,7 @@ from wingbeat.aero import EXTENSIONS, LIBRARY
 from wingbeat.app.links import from_json, from_plain, from_query, to_json, to_plain, to_query
 from wingbeat.app.scenario import LARGEST_FILE, Scenario, problem_of
 from wingbeat.errors import FileError, InvalidInputError
-from wingbeat.species import species_names, template
+from wingbeat.species import load_species, species_names, template
 
 numbers = st.floats(-1e6, 1e6)
 scenarios = st.builds(
@@ -146,3 +147,25 @@ def test_faults_of_the_problem_name_the_choice():
     assert {"vehicle.wing.mass", "vehicle.wing.semi_span"} <= {fault.where for fault in refused.value.faults}
     assert len(refused.value.faults) == 3
     assert json.loads(to_json(scenario))["units"] == "SI units and radians"
+
+
+def test_bounds_free_the_tail_tilt_that_species_hold_fixed():
+    tail = {"vehicle.tail.area": 0.005, "vehicle.tail.arm": 0.15, "vehicle.tail.lift_slope": 3.0}
+    fixed = Scenario(values=tail)
+    freed = from_query(to_query(Scenario(values=tail, bounds={"tail_tilt": (-0.5, 0.4)})))
+    species = load_species("pigeon")
+    assert problem_of(fixed).free == species.free
+    problem = problem_of(freed)
+    assert problem.free == (*species.free, "tail_tilt")
+    assert problem.bounds["tail_tilt"] == (-0.5, 0.4)
+    with pytest.raises(InvalidInputError, match=r"there is no tail"):
+        problem_of(Scenario(bounds={"tail_tilt": (-0.5, 0.4)}))
+
+
+def test_bounds_of_a_tail_tilt_that_the_species_frees_only_replace_its_own():
+    line = 'tail_tilt_deg = { bounds = [-20.0, 20.0], unit = "deg", reason = "" }'
+    tail = {"vehicle.tail.area": 0.005, "vehicle.tail.arm": 0.15, "vehicle.tail.lift_slope": 3.0}
+    own = Scenario(species="mine", species_file=template().replace("[free]", f"[free]\n{line}"), values=tail)
+    for scenario in (own, dataclasses.replace(own, bounds={"tail_tilt": (-0.1, 0.1)})):
+        assert problem_of(scenario).free.count("tail_tilt") == 1
+    assert problem_of(scenario).bounds["tail_tilt"] == (-0.1, 0.1)

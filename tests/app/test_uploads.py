@@ -1,17 +1,21 @@
 """Files that mean no good are refused in words, or harmless; good ones come back as what they were."""
 
 import shutil
+from types import SimpleNamespace
+from typing import Any
 
 import h5py
 import numpy as np
 import pytest
 
+import wingbeat as wb
 from wingbeat.app import uploads
 from wingbeat.app.jobs import do
 from wingbeat.app.links import from_plain, to_json
 from wingbeat.app.scenario import Scenario, problem_of
-from wingbeat.app.uploads import clean_label
+from wingbeat.app.uploads import clean_label, scenario_of
 from wingbeat.results.orbit import load_orbit
+from wingbeat.results.provenance import inputs_of
 from wingbeat.species import template
 from wingbeat.workers.main import Context
 
@@ -146,3 +150,14 @@ def test_an_orbit_that_was_tampered_with(altered, act, words):
 )
 def test_a_file_name_is_only_ever_a_label(name, label):
     assert clean_label(name) == label
+
+
+def test_an_orbit_whose_tail_turns_comes_back_with_bounds_that_free_it():
+    tailed = wb.load_species("pigeon").with_tail()
+    asked = {"free": (*tailed.free, "tail_tilt"), "bounds": {"tail_tilt": (-0.5, 0.4)}}
+    problem = wb.OrbitProblem(tailed, 10.0, **asked)
+    unsolved: Any = SimpleNamespace(problem=problem, inputs=inputs_of(problem, 1, 0))
+    plain, why_not = scenario_of(unsolved)
+    assert plain is not None, why_not
+    assert plain["bounds"] == {"tail_tilt": [-0.5, 0.4]}
+    assert problem_of(from_plain(plain)).free == problem.free

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.app.formatting import from_shown, not_a_number, range_text, shown_text, spoken_path
-from wingbeat.app.scenario import Scenario
+from wingbeat.app.scenario import TAIL_TILT, Scenario
 from wingbeat.app.widgets import Field, button, number_field, tag
 from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
@@ -22,6 +22,8 @@ _GROUPS = {
     "wingbeat": "Fixed parameters",
     "air": "Air",
 }
+# Bounds of the tail's tilt until the user gives both: the range in the template of species files [rad].
+_TILTS = (-math.radians(30.0), math.radians(30.0))
 
 
 class Numbers:
@@ -39,6 +41,8 @@ class Numbers:
         self._scenario = scenario
         # A species without a tail has empty fields for one.
         self._numbers = {key.path: Number((), key.unit) for key in TAIL} | species.numbers
+        # Parameters that the species holds fixed, and that bounds make free.
+        self._freed = [name for name in (TAIL_TILT,) if name not in species.bounds]
         self._values: dict[str, Field] = {}
         self._bounds: dict[tuple[str, int], Field] = {}
         self._resets: list[Any] = []
@@ -51,6 +55,8 @@ class Numbers:
             with _folded(title):
                 for path in held:
                     self._build_number(path)
+                if group == "vehicle.tail" and self._freed:
+                    self._build_bound(TAIL_TILT, "A bound makes the tilt free; empty fields hold it fixed.")
                 if group == "vehicle.tail" and species.vehicle.tail is None:
                     button("Add a bird's tail of this mass", self._add_tail, "quiet")
                     button("Remove the tail", self._remove_tail, "quiet")
@@ -71,8 +77,8 @@ class Numbers:
         self._change(values={**self._scenario.values, **{path: number.value for path, number in found.items()}})
 
     def _remove_tail(self) -> None:
-        values = self._scenario.values
-        self._change(values={path: value for path, value in values.items() if path not in TAIL_PATHS})
+        values = {path: value for path, value in self._scenario.values.items() if path not in TAIL_PATHS}
+        self._change(values=values, bounds=self._without(TAIL_TILT))
 
     def _build_number(self, path: str) -> None:
         number = self._numbers[path]
@@ -81,9 +87,9 @@ class Numbers:
             spoken_path(path), shown_text(path, number), self._set(path), unit=for_people(number.unit)[1], tip=tip
         )
 
-    def _build_bound(self, name: str) -> None:
+    def _build_bound(self, name: str, tip: str = "") -> None:
         _, unit = for_people(NOMENCLATURE[name].unit)
-        tip = self._species.reasons.get(name, "")
+        tip = tip or self._species.reasons.get(name, "")
         guess = "a guess" if name in self._species.guessed_bounds else ""
         with tag("div", classes="pair", role="group", aria_label=f"Bounds of {name.replace('_', ' ')}"):
             tag("span", name.replace("_", " "), "pair-name")
@@ -106,13 +112,16 @@ class Numbers:
                 hint = f"{hint}; changed from {shown_text(path, number)}".removeprefix("; ")
             field.mark(f"Outside: {hint}" if outside else hint, outside)
         for (name, end), field in self._bounds.items():
-            field.show(self._bound_text(self._now(name)[end], name))
+            field.show("" if self._is_fixed(name) else self._bound_text(self._now(name)[end], name))
 
     def _is_angle(self, name: str) -> bool:
         return name in ANGLES or name in self._species.path_bounds
 
+    def _is_fixed(self, name: str) -> bool:
+        return name in self._freed and name not in self._scenario.bounds
+
     def _now(self, name: str) -> tuple[float, float]:
-        own = (self._species.path_bounds | self._species.bounds)[name]
+        own = ({TAIL_TILT: _TILTS} | self._species.path_bounds | self._species.bounds)[name]
         low, high = self._scenario.bounds.get(name, own)
         return low, high
 
@@ -145,8 +154,14 @@ class Numbers:
 
         return act
 
+    def _without(self, name: str) -> dict[str, tuple[float, float]]:
+        return {other: pair for other, pair in self._scenario.bounds.items() if other != name}
+
     def _bound(self, name: str, end: int) -> Callable[[str], None]:
         def act(text: str) -> None:
+            if not text.strip() and name in self._freed:
+                self._change(bounds=self._without(name))
+                return
             value = self._bounds[name, end].number(text, "rad" if self._is_angle(name) else "")
             if value is None:
                 return

@@ -29,6 +29,7 @@ from wingbeat.studies.recipe import OF_ELEMENTS
 
 # What one visitor may ask of a machine that others use, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
+TAIL_TILT = "tail_tilt"  # the parameter that a species holds fixed and the page can free
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
 
 
@@ -45,7 +46,8 @@ class Scenario:
         hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
     limits : limits on quantities, texts as for ``--subject-to``.
-    bounds : bounds of free parameters in place of the species' own.
+    bounds : bounds of free parameters in place of the species' own. Bounds of ``tail_tilt``, which species hold
+        fixed, make it free.
     values : numbers of the species that were changed, by their paths.
     starts : number of starts, None for the default.
     seed : of the random starts.
@@ -186,11 +188,13 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         faults.faults += error.faults
     faults.raise_if_any()
     assert species is not None
+    freed = [name for name in (TAIL_TILT,) if name in scenario.bounds and name not in species.free]
     return OrbitProblem(
         species,
         scenario.speed,
         climb=scenario.climb,
         aero=loads,
+        free=(*species.free, *freed),
         bounds=dict(scenario.bounds),
         minimise=scenario.minimise,
         subject_to=scenario.limits,

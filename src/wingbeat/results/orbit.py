@@ -94,7 +94,8 @@ class Orbit(Saveable):
     wingbeat : the wingbeat found.
     initial_state : the body's state at phase 0.
     unknowns : pitch state at phase 0 and free parameters, as the initial guess of a start.
-    relaxations : if there is no orbit, single changes with which there is one, the smallest first.
+    relaxations : if there is no orbit, single changes with which there is one, the smallest first; then the terms
+        of the air loads without which there is one.
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.

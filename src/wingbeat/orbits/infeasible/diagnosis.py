@@ -1,4 +1,4 @@
-"""Diagnosis of a problem without an orbit: which balance fails, and which single changes fly."""
+"""Diagnosis of a problem without an orbit: which balance fails, and which changes or terms left out fly."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +15,14 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.infeasible.deficit import Balance, Deficit
 from wingbeat.orbits.infeasible.relaxation import Change, Relaxation, possible_changes, relaxation
 from wingbeat.orbits.infeasible.relaxed_problem import least_change
-from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.infeasible.terms import on_and_off, terms_on, with_trace_of, without_term, words_without
+from wingbeat.orbits.nlp.defect_correction import Corrected, correct
 from wingbeat.orbits.nlp.local_search import Candidate, refine, search
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
+from wingbeat.orbits.starts import start_point
 
 
 @dataclass(frozen=True)
@@ -106,6 +109,47 @@ def certified_changes(programme: Transcription, found: Iterable[LeastChange]) ->
     return tuple(flying)
 
 
+def certified_without_terms(programme: Transcription, near: np.ndarray, threads: int) -> tuple[Relaxation, ...]:
+    """Return the terms of the air loads without which a certified orbit was found, one term left out at a time.
+
+    Parameters
+    ----------
+    programme : of the problem without an orbit.
+    near : the unknowns of the closest wingbeat.
+    threads : terms tried at a time.
+    """
+    programme = _plainly(programme)
+    with ThreadPoolExecutor(threads) as pool:
+        tried = pool.map(lambda name: _without_term(programme, name, near), terms_on(programme.problem))
+        return tuple(one for one in tried if one is not None)
+
+
+def _without_term(programme: Transcription, name: str, near: np.ndarray) -> Relaxation | None:
+    problem, options = programme.problem, programme.options
+    starts = [near, *(start_point(problem, i, 0, options.search) for i in range(options.diagnosis.term_starts))]
+    trace = with_trace_of(problem, name, options.diagnosis.term_trace)
+    if trace is not None:
+        # As everywhere, the stock wingbeat is flown as it is; the others are brought close to closure first.
+        almost = Transcription(trace, options)
+        ends = (search(almost.uncorrected(), start, restore=i != 1) for i, start in enumerate(starts))
+        starts = [almost.physical(end.scaled) for end in islice((end for end in ends if end.closed), 1)]
+    changed = Transcription(without_term(problem, name), options)
+    for start in starts:
+        if (orbit := _certified_from(changed, start)) is not None:
+            text = words_without(problem, name, orbit.wingbeat.frequency)
+            return Relaxation(name, "=", *on_and_off(problem, name), text)
+    return None
+
+
+def _certified_from(programme: Transcription, start: np.ndarray) -> Corrected | None:
+    """Return the certified orbit to which a short or else a long local search from unknowns near it leads."""
+    for attempt in (refine, search):
+        found = attempt(programme.uncorrected(), start)
+        if found.is_optimum and (orbit := correct(found.programme, found.scaled)).is_orbit():
+            return orbit
+    return None
+
+
 def _plainly(programme: Transcription) -> Transcription:
     """Return the programme with an objective that needs no epigraph variable."""
     problem = programme.problem
@@ -148,8 +192,6 @@ def _certified_change(programme: Transcription, least: LeastChange) -> Relaxatio
             changed = Transcription(change.apply(problem), options)
         except InvalidInputError:  # impossible once rounded, such as a shoulder at the centre of mass
             continue
-        for attempt in (refine, search):
-            found = attempt(changed.uncorrected(), least.unknowns)
-            if found.is_optimum and correct(found.programme, found.scaled).is_orbit():
-                return change
+        if _certified_from(changed, least.unknowns) is not None:
+            return change
     return None

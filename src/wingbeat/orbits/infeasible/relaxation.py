@@ -12,6 +12,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.nomenclature import cf, for_people, plain_unit
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
+from wingbeat.orbits.infeasible.terms import TERMS, without_term
 from wingbeat.orbits.options.diagnosis import ChangeOptions
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.limits import Constraint
@@ -91,8 +92,8 @@ class Relaxation:
 
     Parameters
     ----------
-    name, sign : which number, as in `Change`.
-    old, new : its value in the problem, and in the changed problem [`unit`].
+    name, sign : which number, as in `Change`; or a term of the air loads, as in `terms.TERMS`, and ``=``.
+    old, new : its value in the problem, and in the changed problem [`unit`]; for a term that is a choice, 1 and 0.
     unit : of both; SI, radians.
     text : the change in words, angles in degrees.
     """
@@ -111,6 +112,8 @@ class Relaxation:
         ----------
         problem : the problem without an orbit.
         """
+        if self.name in TERMS:
+            return without_term(problem, self.name)
         return with_change(problem, self.name, self.sign, self.new)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.infeasible.relaxation import Change, is_limit, with_change
 from wingbeat.orbits.nlp.local_search import is_closed, optimise
 from wingbeat.orbits.nlp.transcription import Transcription
@@ -189,7 +190,11 @@ def least_change(
     usual, search = options.diagnosis, options.search
     for share in change.tries or (change.widest,):
         share = min(share, change.widest)
-        easy = Transcription(with_change(problem, change.name, change.sign, change.moved(share)), options)
+        try:
+            changed = with_change(problem, change.name, change.sign, change.moved(share))
+        except InvalidInputError:  # such as a descent into the wings' own wake, below which there is a faster one
+            continue
+        easy = Transcription(changed, options)
         for start in (start_point(easy.problem, 0, 0, search), near):
             found, _ = optimise(easy, easy.scaled(start), usual.far_iterations, search.tolerance)
             if not is_closed(easy, found, search.closure_tolerance):

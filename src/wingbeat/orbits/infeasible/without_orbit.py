@@ -6,7 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from wingbeat.orbits.infeasible.deficit import Deficit
-from wingbeat.orbits.infeasible.diagnosis import certified_changes, least_changes, nearest_beat, words_of
+from wingbeat.orbits.infeasible.diagnosis import (
+    certified_changes,
+    certified_without_terms,
+    least_changes,
+    nearest_beat,
+    words_of,
+)
 from wingbeat.orbits.infeasible.lower_bound import from_raised_bound, may_end_at_lower_bound, words_of_raise
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.nlp.defect_correction import Corrected, certified, first_certified
@@ -72,7 +78,9 @@ def without_orbit(
         message += f"; the smallest single changes that fly: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
-    ending = Ending(Status.INFEASIBLE, message, nearest.deficits, flying)
+    without = certified_without_terms(programme, near, threads) if advise else ()
+    message = "; ".join([message, *(term.text for term in without)])
+    ending = Ending(Status.INFEASIBLE, message, nearest.deficits, (*flying, *without))
     return certified(programme.uncorrected(), nearest.scaled), ending
 
 

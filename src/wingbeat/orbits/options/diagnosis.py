@@ -41,6 +41,9 @@ class DiagnosisOptions:
     raised_bounds : multiples of the lower bound of frequency that are tried where the lowest frequency may be at
         this bound.
     raised_starts : starts for each of these bounds.
+    term_starts : starts, after the closest wingbeat, of the search without one term of the air loads.
+    term_trace : this search first leaves such a share of the term, because the compiled programs then serve. The
+        problem without the term, which needs programs of its own, is solved only if the first search closes.
     """
 
     nearest_ends: int = 6
@@ -63,6 +66,8 @@ class DiagnosisOptions:
     back_times: int = 3
     raised_bounds: tuple[float, ...] = (2.0, 4.0, 8.0)
     raised_starts: int = 4
+    term_starts: int = 4
+    term_trace: float = 1e-9
 
     def __post_init__(self) -> None:
         check_options(self)

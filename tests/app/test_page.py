@@ -11,30 +11,9 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from tests.app.page import asks_for, enter, exact, solved
 from tests.helpers.browsers import AXE, PATIENCE
 from wingbeat.cli import main
-
-
-def solved(page, what):
-    """Wait until an answer to this stands on the page and nothing is being solved."""
-    script = """(what) => document.querySelector('.what')?.textContent.includes(what)
-        && document.querySelector('.state')?.textContent.startsWith('Solved')"""
-    page.wait_for_function(script, arg=what, timeout=2 * PATIENCE)
-
-
-def exact(page):
-    return page.locator(".value").first.get_attribute("data-exact")
-
-
-def asks_for(page, words):
-    """Wait until the address says so: it follows what stands on the page."""
-    page.wait_for_url(re.compile(re.escape(words)))
-
-
-def enter(page, label, value):
-    field = page.get_by_label(label, exact=True).first
-    field.fill(value)
-    field.press("Tab")
 
 
 def test_a_visit(visit, capsys, tmp_path):
@@ -111,31 +90,6 @@ def test_faults_are_told_beside_their_control(visit):
     page.locator(".odd .hint", has_text="Outside: plausible 0.25 to 0.335; changed from 0.279").wait_for()
     enter(page, "Within limits", "x" * 70_000)
     page.locator(".fault", has_text="has 70000 characters; it may have at most 5000").wait_for()
-
-
-def test_bounds_free_the_tilt_of_the_tail_and_empty_fields_hold_it(visit):
-    page = visit()
-    solved(page, "pigeon")
-    page.locator("summary", has_text="Tail").first.click()
-    page.get_by_role("button", name="Add a bird's tail of this mass").click()
-    asks_for(page, "set=vehicle.tail.area")
-    pair = page.get_by_role("group", name="Bounds of tail tilt")
-    lowest, highest = pair.get_by_role("textbox").all()
-    assert (lowest.input_value(), highest.input_value()) == ("", "")
-    lowest.fill("-20")
-    lowest.press("Tab")
-    asks_for(page, "bound=tail_tilt:-0.349")
-    assert highest.input_value() == "30"
-    page.get_by_label("Speed [m/s]", exact=True).first.press("Tab")
-    highest.fill("")
-    highest.press("Tab")
-    page.wait_for_function("!location.search.includes('tail_tilt')")
-    assert lowest.input_value() == ""
-    lowest.fill("-20")
-    lowest.press("Tab")
-    asks_for(page, "bound=tail_tilt")
-    page.get_by_role("button", name="Remove the tail").click()
-    page.wait_for_function("!location.search.includes('tail')")
 
 
 def test_what_is_typed_and_chosen_stays_while_answers_come(visit):

@@ -150,7 +150,7 @@ class CamberedTerms:
 
         >>> terms = CamberedTerms(-4.0, 4.0, -0.3, 1.4, 0.15, 0.02, 0.05, 4.0, 0.5, 20.0, 2.0, 3.0)
         >>> round(float(terms.lift_at(10.0)), 2), round(float(terms.drag_at(10.0)), 3)
-        (0.97, 0.077)
+        (0.97, 0.081)
         """
         return self.in_radians().lift(alpha_deg * (math.pi / 180))
 

@@ -1,0 +1,27 @@
+"""What tests do on the page of the explorer."""
+
+import re
+
+from tests.helpers.browsers import PATIENCE
+
+
+def solved(page, what):
+    """Wait until an answer to this stands on the page and nothing is being solved."""
+    script = """(what) => document.querySelector('.what')?.textContent.includes(what)
+        && document.querySelector('.state')?.textContent.startsWith('Solved')"""
+    page.wait_for_function(script, arg=what, timeout=2 * PATIENCE)
+
+
+def exact(page):
+    return page.locator(".value").first.get_attribute("data-exact")
+
+
+def asks_for(page, words):
+    """Wait until the address says so: it follows what stands on the page."""
+    page.wait_for_url(re.compile(re.escape(words)))
+
+
+def enter(page, label, value):
+    field = page.get_by_label(label, exact=True).first
+    field.fill(value)
+    field.press("Tab")

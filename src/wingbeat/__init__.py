@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from wingbeat import experiment as experiment
     from wingbeat import plots as plots
     from wingbeat import viewer as viewer
+    from wingbeat.actuators import Motor as Motor
+    from wingbeat.actuators import Muscle as Muscle
+    from wingbeat.actuators import Springs as Springs
     from wingbeat.errors import ClusterError as ClusterError
     from wingbeat.errors import FileError as FileError
     from wingbeat.errors import ForkError as ForkError
@@ -115,6 +118,8 @@ _HOME = {
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
+    "Motor": "actuators",
+    "Muscle": "actuators",
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
@@ -127,6 +132,7 @@ _HOME = {
     "SolverOptions": "orbits.options.solver",
     "Species": "species",
     "Spread": "results.spread",
+    "Springs": "actuators",
     "StartFamily": "orbits.options.start_families",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",

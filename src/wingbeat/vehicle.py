@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._jax.config import register_record
+from wingbeat.actuators import Drive, Motor, Muscle, Springs
 from wingbeat.errors import FaultList
 
 
@@ -145,13 +146,15 @@ class Tail:
 @register_record
 @dataclass(frozen=True)
 class Vehicle:
-    """An animal or a robot: its body, its two equal wings and perhaps a tail.
+    """An animal or a robot: its body, its two equal wings, perhaps a tail, and what drives the wings.
 
     Attributes
     ----------
     body : the body without its wings.
     wing : the left wing; the right one is its mirror image.
     tail : the tail; None, as in the paper, means no tail.
+    muscle, motor : what drives the flap hinges, if it is known; neither changes the flight, only what it costs.
+    springs : springs at the flap hinges; they leave less, or more, to muscle or motor.
 
     >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
     >>> round(pigeon.mass, 3)
@@ -161,11 +164,24 @@ class Vehicle:
     body: Body
     wing: Wing
     tail: Tail | None = None
+    muscle: Muscle | None = None
+    motor: Motor | None = None
+    springs: Springs | None = None
 
     @property
     def mass(self) -> Any:
         """Total mass: body and both wings [kg]."""
         return self.body.mass + 2 * self.wing.mass
+
+    @property
+    def drive(self) -> Drive:
+        """What drives the flap hinges."""
+        return Drive(self.muscle, self.motor, self.springs)
+
+    @property
+    def passive(self) -> Vehicle:
+        """The vehicle without what drives its wings: all that a flight depends on."""
+        return Vehicle(self.body, self.wing, self.tail)
 
 
 @register_record

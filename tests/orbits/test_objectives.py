@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.programmes import differences, stock_point
 from wingbeat.cli import main
 from wingbeat.orbits.nlp.local_search import search
 from wingbeat.orbits.nlp.transcription import Transcription
@@ -17,6 +18,8 @@ from wingbeat.results.provenance import problem_from
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 SPEED = 10.0
+# Quantities that need neither a muscle nor a motor.
+UNDRIVEN = [name for name, quantity in QUANTITIES.items() if quantity.needs is None]
 
 
 def lift_swing(beat):
@@ -66,22 +69,6 @@ def test_negative_work_is_free_returned_or_costly(bat):
         wb.objectives.PowerCost(2)
 
 
-def differences(function, scaled, step=1e-6):
-    ahead, behind = (
-        np.array([function(scaled + sign * step * e) for e in np.eye(scaled.size)]) for sign in (1, -1)
-    )
-    return ((ahead - behind) / (2 * step)).T
-
-
-def stock_point(problem):
-    """Return the programme and the stock start at 9 Hz, and the same moved a little."""
-    programme = Transcription(problem)
-    point = start_point(problem, 0, 0)
-    point[4] = 9.0
-    scaled = programme.scaled(point)
-    return programme, scaled, scaled + 0.01 * np.random.default_rng(1).normal(size=scaled.size)
-
-
 @pytest.mark.parametrize("name", ["mean_positive_power", "peak_power"])
 def test_derivatives_of_objective_and_margins(name):
     limited = wb.Constraint("mean_power", 100.0, at_most=False)
@@ -94,7 +81,7 @@ def test_derivatives_of_objective_and_margins(name):
     assert np.abs(inside - wanted).max() <= 1e-5 * np.abs(inside).max()
 
 
-@pytest.mark.parametrize("name", [name for name in QUANTITIES if name != "frequency"])
+@pytest.mark.parametrize("name", [name for name in UNDRIVEN if name != "frequency"])
 def test_derivatives_of_every_quantity(name):
     """As a limit alone: what is minimised has the same rows, and a problem of one quantity compiles in a third."""
     problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(name, 40.0)])
@@ -111,7 +98,7 @@ def test_nothing_else_has_less_of_it():
 
     It is one test because two processes would otherwise both search for all of them.
     """
-    least = {name: find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=name), 4) for name in QUANTITIES}
+    least = {name: find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=name), 4) for name in UNDRIVEN}
     for name, best in least.items():
         assert best.status is wb.Status.CONVERGED, name
         assert max(map(abs, best.closure.values())) <= 3e-7, name

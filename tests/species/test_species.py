@@ -135,9 +135,12 @@ def test_a_minimal_file(load: Any) -> None:
 def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> None:
     named = [key.path for key in KEYS if key.path not in UNNAMED_PATHS]
     assert list(load(MINIMAL).numbers) == named
-    # A tail, and laws that came later: nothing names them unless they are given.
+    # A tail, what drives the wings, and laws that came later: nothing names them unless they are given.
     assert {key.path.rpartition(".")[2] for key in KEYS} - {path.rpartition(".")[2] for path in named} == {
         *("area", "arm", "lift_slope", "drag_coefficient", "height", "incidence", "tail_tilt"),
+        *("elevator_share", "strain_per_angle", "max_strain_rate", "isometric_stress", "curvature"),
+        *("torque_constant", "resistance", "gear_ratio", "rotor_inertia", "no_load_current", "gear_efficiency"),
+        *("voltage", "crank", "stiffness", "rest_angle", "series_compliance"),
         *("chord_retraction", "twist_mean", "sweep_harmonics", "chord_harmonics", "twist_harmonics"),
     }
 

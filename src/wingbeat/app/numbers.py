@@ -12,16 +12,23 @@ from wingbeat.app.widgets import Field, button, number_field, tag
 from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
+from wingbeat.species.muscle_laws import muscle_numbers
 from wingbeat.species.tail_laws import tail_numbers
-from wingbeat.species_schema import TAIL, TAIL_PATHS
+from wingbeat.species_schema import PARTS, TAIL_PATHS
 
 _GROUPS = {
     "vehicle.body": "Body",
     "vehicle.wing": "Wing",
     "vehicle.tail": "Tail",
+    "vehicle.muscle": "Flight muscle",
+    "vehicle.motor": "Motor",
+    "vehicle.springs": "Springs at the flap hinges",
     "wingbeat": "Fixed parameters",
     "air": "Air",
 }
+_OF_PARTS = tuple(key for keys in PARTS.values() for key in keys)
+# Parts whose numbers laws of birds give.
+_BY_LAWS = {"vehicle.tail": ("tail", tail_numbers), "vehicle.muscle": ("muscle", muscle_numbers)}
 # Bounds of the tail's tilt until the user gives both: the range in the template of species files [rad].
 _TILTS = (-math.radians(30.0), math.radians(30.0))
 
@@ -39,8 +46,8 @@ class Numbers:
     def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
         self._species, self._change = species, change
         self._scenario = scenario
-        # A species without a tail has empty fields for one.
-        self._numbers = {key.path: Number((), key.unit) for key in TAIL} | species.numbers
+        # A species without a part, such as a tail, has empty fields for one.
+        self._numbers = {key.path: Number((), key.unit) for key in _OF_PARTS} | species.numbers
         # Parameters that the species holds fixed, and that bounds make free.
         self._freed = [name for name in (TAIL_TILT,) if name not in species.bounds]
         self._values: dict[str, Field] = {}
@@ -57,9 +64,8 @@ class Numbers:
                     self._build_number(path)
                 if group == "vehicle.tail" and self._freed:
                     self._build_bound(TAIL_TILT, "A bound makes the tilt free; empty fields hold it fixed.")
-                if group == "vehicle.tail" and species.vehicle.tail is None:
-                    button("Add a bird's tail of this mass", self._add_tail, "quiet")
-                    button("Remove the tail", self._remove_tail, "quiet")
+                if group in _BY_LAWS and getattr(species.vehicle, _BY_LAWS[group][0]) is None:
+                    self._build_law(*_BY_LAWS[group])
         self.show(scenario)
 
     @property
@@ -69,16 +75,23 @@ class Numbers:
 
     def _is_shown(self, path: str) -> bool:
         number, free = self._numbers[path], self._species.free
-        empty = number.value == () and not path.startswith("vehicle.tail.")
+        empty = number.value == () and not any(path == key.path for key in _OF_PARTS)
         return path != "vehicle.mass" and path.partition("wingbeat.")[2] not in free and not empty
 
-    def _add_tail(self) -> None:
-        found = tail_numbers(self._species.vehicle.mass)
-        self._change(values={**self._scenario.values, **{path: number.value for path, number in found.items()}})
+    def _build_law(self, part: str, law: Callable[[float], dict[str, Number]]) -> None:
+        """Offer to add a part with the numbers of its laws, and to remove it."""
+        paths = TAIL_PATHS if part == "tail" else tuple(key.path for key in PARTS[part])
 
-    def _remove_tail(self) -> None:
-        values = {path: value for path, value in self._scenario.values.items() if path not in TAIL_PATHS}
-        self._change(values=values, bounds=self._without(TAIL_TILT))
+        def add() -> None:
+            found = {path: number.value for path, number in law(self._species.vehicle.mass).items()}
+            self._change(values={**self._scenario.values, **found})
+
+        def remove() -> None:
+            values = {path: value for path, value in self._scenario.values.items() if path not in paths}
+            self._change(values=values, **({"bounds": self._without(TAIL_TILT)} if part == "tail" else {}))
+
+        button(f"Add a bird's {part} of this mass", add, "quiet")
+        button(f"Remove the {part}", remove, "quiet")
 
     def _build_number(self, path: str) -> None:
         number = self._numbers[path]

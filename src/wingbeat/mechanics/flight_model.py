@@ -73,7 +73,8 @@ class FlightModel:
 
     Attributes
     ----------
-    vehicle, air : as given.
+    vehicle : as given, without what drives its wings.
+    air : as given.
     kernel : of the coefficient model; of sections where there is inflow.
     strips : number of strips of a wing.
     at_centre_of_pressure : whether the force acts at the centre of pressure.
@@ -107,7 +108,7 @@ class FlightModel:
     ) -> None:
         loads, air = blade_element_of(aero), air or Air()
         fields = {
-            "vehicle": vehicle,
+            "vehicle": vehicle.passive,
             "air": air,
             "kernel": loads.kernel(),
             "strips": loads.strips,

@@ -16,11 +16,11 @@ import numpy as np
 
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
-from wingbeat.orbits.flight.beat import flown_beat
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.certified_beat import certified_beat
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity
@@ -176,8 +176,7 @@ class OptimumSlopes:
         # derivatives.
         wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
         flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
-        velocity = problem.speed, problem.climb
-        beat = flown_beat(problem.model, wingbeat, flown.phase, flown.states[:, 2:], velocity)
+        beat = certified_beat(problem, wingbeat, flown)
         return np.array([float(np.max(quantity.of(beat))) for quantity in quantities])
 
     def _along(

@@ -11,13 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat
-from wingbeat.orbits.flight.beat import Beat, flown_beat
+from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.flight.floquet import floquet_multipliers
 from wingbeat.orbits.infeasible.deficit import Deficit
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.certified_beat import certified_beat
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.status import Status
@@ -122,9 +123,7 @@ class Solution:
 
         It is computed anew, because thousands of solutions could not hold their beats in memory.
         """
-        problem, certificate = self.problem, self.certificate
-        velocity = problem.speed, problem.climb
-        return flown_beat(problem.model, self.wingbeat, certificate.phase, certificate.states[:, 2:], velocity)
+        return certified_beat(self.problem, self.wingbeat, self.certificate)
 
     def value_of(self, quantity: Quantity) -> float:
         """Return a quantity of the certified beat in its unit; for a series, its largest value."""

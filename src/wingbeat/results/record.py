@@ -9,11 +9,13 @@ import numpy as np
 
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
+from wingbeat.actuators import Motor, Muscle, Springs
 from wingbeat.datasets import at_station
 from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import of_drive
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import aero_record
@@ -21,25 +23,29 @@ from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
 from wingbeat.vehicle import Body, Tail, Vehicle, Wing
 
+# Parts that a vehicle may lack.
+_PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs}
+
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
     wing = dict(vars(vehicle.wing))
     wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
     wing["shoulder"] = list(wing["shoulder"])
-    parts = {"body": dict(vars(vehicle.body)), "wing": wing}
-    return parts if vehicle.tail is None else parts | {"tail": dict(vars(vehicle.tail))}
+    others = {name: getattr(vehicle, name) for name in _PARTS}
+    found = {name: dict(vars(part)) for name, part in others.items() if part is not None}
+    return {"body": dict(vars(vehicle.body)), "wing": wing, **found}
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
-    """Return the vehicle that `vehicle_record` described; without a tail in the record, it has none.
+    """Return the vehicle that `vehicle_record` described; what is not in the record, such as a tail, it lacks.
 
     Raises
     ------
     KeyError, TypeError, ValueError : the dictionary is not one of `vehicle_record`.
     """
-    tail = record.get("tail")
-    return Vehicle(Body(**record["body"]), Wing(**record["wing"]), None if tail is None else Tail(**tail))
+    parts = {name: made(**record[name]) for name, made in _PARTS.items() if name in record}
+    return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
@@ -82,6 +88,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
         **power_summary(solution, beat),
+        **{name: solution.value_of(quantity) for name, quantity in of_drive(problem.vehicle.drive).items()},
         **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
         "alpha_quarter_span": alpha_range(beat, 0.25),

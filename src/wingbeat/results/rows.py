@@ -7,6 +7,7 @@ from typing import Any
 
 from wingbeat.datasets import STATE_NAMES
 from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
+from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 
 Rows = list[tuple[str, str]]
 
@@ -120,9 +121,8 @@ def power_rows(record: dict[str, Any]) -> Rows:
             unit = plain_unit("positive_power_per_mass")
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), _of(record, name) + each))
-    if "cost_of_transport" in record:
-        rows.append((_label("cost_of_transport"), _of(record, "cost_of_transport")))
-    return rows
+    others = ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR)
+    return rows + [(_label(name), _of(record, name)) for name in others if name in record]
 
 
 def certificate_rows(record: dict[str, Any]) -> Rows:

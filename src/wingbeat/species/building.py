@@ -7,19 +7,30 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from wingbeat.actuators import Motor, Muscle, Springs
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.nomenclature import plain_unit
-from wingbeat.species_schema import KEYS, TAIL, TAIL_PATHS, Number, Numbers, SpeciesText, display
+from wingbeat.species_schema import KEYS, PARTS, TAIL_PATHS, Number, Numbers, SpeciesText, display
 from wingbeat.species_schema.faults import NOTHING
 from wingbeat.vehicle import Air, Body, Tail, Vehicle, Wing
 
 DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
-_RECORDS = {"vehicle.body": Body, "vehicle.wing": Wing, "vehicle.tail": Tail, "wingbeat": Wingbeat, "air": Air}
+_RECORDS = {
+    "vehicle.body": Body,
+    "vehicle.wing": Wing,
+    "vehicle.tail": Tail,
+    "vehicle.muscle": Muscle,
+    "vehicle.motor": Motor,
+    "vehicle.springs": Springs,
+    "wingbeat": Wingbeat,
+    "air": Air,
+}
+_ARTICLES = {"tail": "a tail", "muscle": "a muscle", "motor": "a motor", "springs": "springs"}
+_OF_PARTS = {key.path: key for keys in PARTS.values() for key in keys}
 # A species that is not given these has no number of the name.
-UNNAMED_PATHS = (*(key.path for key in TAIL), *(f"wingbeat.{name}" for name in NAMED_IF_ON))
-_REQUIRED = {key.path for key in TAIL if key.required}
+UNNAMED_PATHS = (*_OF_PARTS, *(f"wingbeat.{name}" for name in NAMED_IF_ON))
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
     for section, record in _RECORDS.items()
@@ -41,7 +52,8 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
     made: dict[str, Any] = {}
     before = len(faults.faults)
     for section, record in _RECORDS.items():
-        if record is Tail and not has_tail(numbers):
+        part = section.rpartition(".")[2]
+        if part in PARTS and not has_part(numbers, part):
             continue
         paths = {field.name: f"{section}.{field.name}" for field in dataclasses.fields(record)}
         values = {n: numbers[p].value if p in numbers else default_of(p) for n, p in paths.items()}
@@ -51,30 +63,37 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
             faults.faults += [given.quote(fault) for fault in error.faults]
     if len(faults.faults) > before:
         return {}
-    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"], made.get("vehicle.tail"))
+    parts = {part: made.get(f"vehicle.{part}") for part in PARTS}
+    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"], **parts)
     if not math.isfinite(vehicle.mass):
         faults.add("vehicle.mass", vehicle.mass, "must be finite", "make the body or the wings lighter")
     return {"vehicle": vehicle, "wingbeat": made["wingbeat"], "air": made["air"]}
 
 
-def has_tail(numbers: Mapping[str, Number]) -> bool:
-    """Say whether some number of a tail is among these."""
-    return any(key.path in numbers for key in TAIL)
+def has_part(numbers: Mapping[str, Number], part: str) -> bool:
+    """Say whether some number of a part that a vehicle may lack is among these."""
+    return any(key.path in numbers for key in PARTS[part])
 
 
-def complete_tail(numbers: dict[str, Number]) -> None:
-    """Add to the numbers of a tail those that are not given and have a default."""
-    for path in TAIL_PATHS if has_tail(numbers) else ():
-        if path not in _REQUIRED:
-            numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))
+def complete_parts(numbers: dict[str, Number]) -> None:
+    """Add, to the numbers of parts that a vehicle may lack, those that are not given and have a default."""
+    for part, keys in PARTS.items():
+        if not has_part(numbers, part):
+            continue
+        paths = TAIL_PATHS if part == "tail" else tuple(key.path for key in keys)
+        for path in paths:
+            if path not in _OF_PARTS or not _OF_PARTS[path].required:
+                numbers.setdefault(path, Number(default_of(path), plain_unit(path), DEFAULT))
 
 
-def check_tail(numbers: Mapping[str, Number], faults: FaultList) -> None:
-    """Note the numbers that a tail must have and that are not given, nor refused already."""
-    for key in TAIL if has_tail(numbers) else ():
-        refused = any(fault.where.endswith(f"tail.{key.name}") for fault in faults.faults)
-        if key.path in _REQUIRED and key.path not in numbers and not refused:
-            faults.add(key.path, NOTHING, "must be given for a tail", f"{key.meaning} [{key.unit}]")
+def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
+    """Note the numbers that a part must have and that are not given, nor refused already."""
+    for part, keys in PARTS.items():
+        for key in keys if has_part(numbers, part) else ():
+            refused = any(fault.where.endswith(f"{part}.{key.name}") for fault in faults.faults)
+            if key.required and key.path not in numbers and not refused:
+                rule = f"must be given for {_ARTICLES[part]}"
+                faults.add(key.path, NOTHING, rule, f"{key.meaning} [{key.unit}]")
 
 
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:

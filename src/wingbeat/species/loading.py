@@ -15,8 +15,8 @@ from wingbeat.species.building import (
     WHOLE,
     build_records,
     check_bounds,
-    check_tail,
-    complete_tail,
+    check_parts,
+    complete_parts,
     default_of,
     derive_body,
     in_order,
@@ -87,12 +87,12 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
     path = _PATH | content.path
     bounds = content.free | path
     check_bounds(content, faults)
-    check_tail(numbers, faults)
+    check_parts(numbers, faults)
     records = build_records(numbers, content.numbers, faults)
     for other in content.alternatives.values():
         build_records(other.numbers, other.numbers, faults)
     faults.raise_if_any()
-    complete_tail(numbers)
+    complete_parts(numbers)
     for key in KEYS:
         if key.path not in numbers and key.path not in UNNAMED_PATHS:
             default = records["vehicle"].mass if key.path == WHOLE else default_of(key.path)

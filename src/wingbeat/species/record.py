@@ -16,14 +16,15 @@ from wingbeat.species.building import (
     WHOLE,
     WING,
     build_records,
-    check_tail,
-    complete_tail,
+    check_parts,
+    complete_parts,
     default_of,
     derive_body,
     in_order,
     words,
 )
 from wingbeat.species.law import OUTSIDE
+from wingbeat.species.muscle_laws import muscle_numbers
 from wingbeat.species.plausibility import UNKNOWN, range_of
 from wingbeat.species.settings import plain, settable
 from wingbeat.species.tail_laws import tail_numbers
@@ -160,9 +161,11 @@ class Species:
             old, value = numbers.pop(key.path, None), getattr(parts[part], name, None)
             if old is not None and value == old.value:
                 numbers[key.path] = old
-            elif value is not None and (old is not None or value != default_of(key.path)):  # None: of no tail
+            elif value is not None and (
+                old is not None or value != default_of(key.path)
+            ):  # None: of a part that it lacks
                 numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
-        complete_tail(numbers)
+        complete_parts(numbers)
         changed = dataclasses.replace(self, **{section: record})
         if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
             numbers.pop("wingbeat.tail_tilt", None)
@@ -214,6 +217,29 @@ class Species:
         found.update(tail_numbers(self.vehicle.mass))
         return self._rebuilt(self.numbers | found, found, FaultList())
 
+    def with_muscle(self, kind: str = "bird") -> Species:
+        """Return this species with the flight muscle that laws give for its mass.
+
+        Its sources say ``derived``; see `wingbeat.species.muscle_laws`. The mass does not change.
+
+        Parameters
+        ----------
+        kind : ``"bird"`` or ``"bat"``.
+
+        Raises
+        ------
+        InvalidInputError : another kind.
+
+        >>> from wingbeat.species import load_species
+        >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
+        0.0442
+        """
+        faults, found = FaultList(), Numbers()
+        faults.choice("kind", kind, ("bird", "bat"))
+        faults.raise_if_any()
+        found.update(muscle_numbers(self.vehicle.mass, kind == "bat"))
+        return self._rebuilt(self.numbers | found, found, faults)
+
     def with_alternative(self, name: str) -> Species:
         """Return this species with the numbers of one of its `alternatives`.
 
@@ -245,8 +271,8 @@ class Species:
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
         """Return a copy with other numbers; records are checked, whole mass and warnings are made anew."""
-        complete_tail(numbers)
-        check_tail(numbers, faults)
+        complete_parts(numbers)
+        check_parts(numbers, faults)
         records = build_records(numbers, given, faults)
         faults.raise_if_any()
         numbers = in_order(numbers)
@@ -264,8 +290,7 @@ class Species:
         plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         for record in ("vehicle", "wingbeat", "air"):
             plain[record] = dataclasses.asdict(plain[record])
-        if self.vehicle.tail is None:
-            del plain["vehicle"]["tail"]
+        plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         return _jsonable(plain)
 

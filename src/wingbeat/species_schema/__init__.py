@@ -2,7 +2,7 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken
-from wingbeat.species_schema.keys import KEYS, PLAUSIBLE, TAIL, TAIL_PATHS, Key
+from wingbeat.species_schema.keys import KEYS, PARTS, PLAUSIBLE, TAIL_PATHS, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
@@ -19,8 +19,8 @@ from wingbeat.species_schema.reading import (
 
 __all__ = [
     "KEYS",
+    "PARTS",
     "PLAUSIBLE",
-    "TAIL",
     "TAIL_PATHS",
     "Alternative",
     "Bound",

@@ -23,6 +23,11 @@ class Key(NamedTuple):
         return self.path.rpartition(".")[2]
 
     @property
+    def part(self) -> str:
+        """The part of the vehicle, or the record, that it belongs to."""
+        return self.path.split(".")[-2]
+
+    @property
     def spellings(self) -> tuple[str, ...]:
         """The paths that a file may use; an angle may also have its name in degrees."""
         return (self.path, f"{self.path}_deg") if self.unit == "rad" else (self.path,)
@@ -48,6 +53,14 @@ KEYS = (
     _key("vehicle.wing.stroke_plane_angle", False),
     *(_key(f"vehicle.tail.{name}") for name in ("area", "arm", "lift_slope")),
     *(_key(f"vehicle.tail.{name}", False) for name in ("drag_coefficient", "height", "incidence")),
+    *(_key(f"vehicle.muscle.{name}") for name in ("mass", "elevator_share", "strain_per_angle", "max_strain_rate")),
+    *(_key(f"vehicle.muscle.{name}", False) for name in ("isometric_stress", "curvature")),
+    *(_key(f"vehicle.motor.{name}") for name in ("torque_constant", "resistance", "gear_ratio")),
+    *(
+        _key(f"vehicle.motor.{name}", False)
+        for name in ("rotor_inertia", "no_load_current", "gear_efficiency", "voltage", "crank")
+    ),
+    *(_key(f"vehicle.springs.{name}", False) for name in ("stiffness", "rest_angle", "series_compliance")),
     *(
         _key(f"wingbeat.{name}")
         for name in ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude")
@@ -63,9 +76,12 @@ KEYS = (
     *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in FIRST_ORDER),
     *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
 )
-# The numbers of a vehicle with a tail; one without a tail has none of them.
-TAIL = tuple(key for key in KEYS if key.path.startswith("vehicle.tail."))
-TAIL_PATHS = (*(key.path for key in TAIL), "wingbeat.tail_tilt")
+# Parts that a vehicle may lack: one without a part has none of its numbers.
+PARTS = {
+    part: tuple(key for key in KEYS if key.path.startswith(f"vehicle.{part}."))
+    for part in ("tail", "muscle", "motor", "springs")
+}
+TAIL_PATHS = (*(key.path for key in PARTS["tail"]), "wingbeat.tail_tilt")
 # Limits along the whole path, not only at its start.
 PATH = (_key("path.body_pitch"), _key("path.flap"))
 # Strips are arm or hand as a whole, so an orbit changes in steps with the wrist: no derivative, no search.

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PARTS, PATH, PLAUSIBLE, Key
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -116,9 +116,8 @@ def _section(
 
 
 def _sections(complete: bool) -> dict[str, Any]:
-    inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing")}
-    inner["tail"] = _section("vehicle.tail", complete)
-    sections = {"vehicle": _section("vehicle", complete, inner, ("tail",))}
+    inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing", *PARTS)}
+    sections = {"vehicle": _section("vehicle", complete, inner, tuple(PARTS))}
     return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, TAIL, Key
+from wingbeat.species_schema.keys import FREE, KEYS, PARTS, PATH, PLAUSIBLE, Key
 
 Value = float | tuple[float, ...]
 
@@ -204,7 +204,7 @@ def _note_missing(raw: dict[str, Any], faults: FaultList) -> None:
     for key in KEYS:
         if key.required and all(_leaf(raw, path) is None for path in key.spellings):
             section = _leaf(raw, key.path.rpartition(".")[0])
-            if isinstance(section, dict) or (section is None and key not in TAIL):
+            if isinstance(section, dict) or (section is None and key.part not in PARTS):
                 names = " or ".join(key.spellings)
                 faults.add(names, NOTHING, "must be given", f"{key.meaning} [{key.unit}]")
     if all(_leaf(raw, path) is None for path in ("vehicle.mass", "vehicle.body.mass")):

@@ -10,6 +10,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat._jax.exported import exported
+from wingbeat.actuators import Drive
 from wingbeat.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
 from wingbeat.mechanics.body_dynamics import strip_loads
 from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
@@ -59,6 +60,7 @@ class Beat(NamedTuple):
     mass : [kg].
     weight : [N].
     semi_span : [m].
+    drive : muscles, motor and springs at the flap hinges; the flight does not depend on them.
     """
 
     phase: Series
@@ -94,6 +96,7 @@ class Beat(NamedTuple):
     mass: Number
     weight: Number
     semi_span: Number
+    drive: Drive = Drive()
 
     def mean(self, values: Samples) -> Scalar:
         """Return the mean of a series over the beat, by the trapezoidal rule.
@@ -255,6 +258,8 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
     """Join parts of a beat along the axis of phases; neighbours share the sample between them."""
 
     def join(name: str) -> Any:
+        if name == "drive":
+            return pieces[0].drive
         parts = [np.asarray(getattr(piece, name)) for piece in pieces]
         if name in NUMBERS:
             return parts[0]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from wingbeat.orbits.flight.beat import beat_reader, flown_beat
+from wingbeat.orbits.flight.beat import beat_reader
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.flight.shooting import Flown
+from wingbeat.orbits.problem.certified_beat import certified_beat
 from wingbeat.orbits.problem.path_functions import OutputFunctions
 from wingbeat.orbits.problem.problem import OrbitProblem
 
@@ -28,7 +29,7 @@ class Outputs:
         self._problem = problem
         self._velocity = problem.speed, problem.climb
         objective = [] if problem.minimise.parameter else [problem.minimise]
-        self._functions = OutputFunctions(objective, problem.subject_to, problem.aero.strips)
+        self._functions = OutputFunctions(objective, problem.subject_to, problem.aero.strips, problem.vehicle.drive)
         self._reader = beat_reader(problem.model, problem.species.wingbeat, problem.free, self._velocity)
         self.of_objective = self._functions.counts[0] if objective else 0
         self.minimises_peaks = self.of_objective > 1
@@ -47,10 +48,7 @@ class Outputs:
 
     def of_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
         """Return the values for a certified flight."""
-        wingbeat = self._problem.wingbeat(unknowns)
-        beat = flown_beat(
-            self._problem.model, wingbeat, certificate.phase, certificate.states[:, 2:], self._velocity
-        )
+        beat = certified_beat(self._problem, self._problem.wingbeat(unknowns), certificate)
         return self._functions.values(beat, sampled=True)
 
     def values_of(self, index: int) -> range:

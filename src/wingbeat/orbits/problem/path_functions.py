@@ -15,12 +15,18 @@ from typing import Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
+from wingbeat.actuators import Drive
 from wingbeat.errors import Fault, InvalidInputError, first_line
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import Quantity
 
+# How a vehicle gets what drives its wings.
+_FIXES = {
+    "muscle": "give it one: species.with_muscle(), or the numbers vehicle.muscle.*",
+    "motor": "give it one: the numbers vehicle.motor.* in the species file, or with --set",
+}
 # Samples of a beat that serves for its shapes only.
 _SAMPLES = 1 + 2 * PARTS
 
@@ -58,12 +64,15 @@ class _Lacking:
 class OutputFunctions:
     """The values of several quantities, one after the other, each over its scale."""
 
-    def __init__(self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int) -> None:
+    def __init__(
+        self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int, drive: Drive
+    ) -> None:
+        self._drive = jax.tree.map(float, drive)  # a whole number has no derivative
         kept = [c.quantity.of if c.at_most else _Lacking(c.quantity.of) for c in constraints]
         self._functions = tuple([q.of for q in quantities] + kept)
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        self.counts = [value_count(function, strips) for function in self._functions]
+        self.counts = [value_count(function, strips, drive) for function in self._functions]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
         limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
         self.constraint_counts = self.counts[len(quantities) :]
@@ -76,47 +85,54 @@ class OutputFunctions:
         ------
         InvalidInputError : a quantity is not finite although the beat is.
         """
+        beat = beat._replace(drive=self._drive)
         values = [np.asarray(a) for a in (_sampled_values if sampled else _values)(self._functions, beat)]
         for name, value in zip(self._names, values, strict=True):
-            if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in beat):
+            if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in jax.tree.leaves(beat)):
                 fix = "its function must be finite for every flight"
                 raise InvalidInputError([Fault(f"quantity {name}", float(value[0]), "is not finite", fix)])
         return np.concatenate(values) / self._scale
 
     def derivatives(self, beat: Beat, changes: Beat) -> np.ndarray:
         """Return the derivatives of the values, shape (values, directions)."""
-        found = _changes(self._functions, beat, changes)
+        still = jax.tree.map(lambda number: np.zeros(changes.phase.shape[:1]), self._drive)
+        found = _changes(self._functions, beat._replace(drive=self._drive), changes._replace(drive=still))
         return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
 
 
-def value_count(function: Callable[[Beat], Any], strips: int) -> int:
+def value_count(function: Callable[[Beat], Any], strips: int, drive: Drive) -> int:
     """Return how many values a quantity's function has: 1 if it gives a number."""
-    shape = _given_by(function, strips).shape
+    shape = _given_by(function, strips, drive).shape
     return PARTS * math.prod(shape[1:]) if shape else 1
 
 
 # Tracing a function takes 2.5 ms, and every problem of a curve or study asks.
 @functools.lru_cache(256)
-def _given_by(function: Callable[[Beat], Any], strips: int) -> Any:
+def _given_by(function: Callable[[Beat], Any], strips: int, drive: Drive) -> Any:
     """Return the shapes of the arrays that a quantity's function returns."""
-    return jax.eval_shape(function, _any_beat(strips))
+    return jax.eval_shape(function, _any_beat(strips, drive))
 
 
-def _any_beat(strips: int) -> Beat:
+def _any_beat(strips: int, drive: Drive) -> Beat:
     by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
     number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
     shapes: dict[str, Any] = dict.fromkeys(BY_STRIP, by_strip)
     shapes |= dict.fromkeys(NUMBERS, number)
+    shapes["drive"] = jax.tree.map(lambda _: number, drive)
     return Beat(*(shapes.get(name, series) for name in Beat._fields))
 
 
-def check_quantities(quantities: Sequence[Quantity], strips: int) -> list[Fault]:
+def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) -> list[Fault]:
     """Return the faults of quantities whose functions fail or return neither a number nor a series."""
     faults = []
     for quantity in quantities:
+        if quantity.needs is not None and getattr(drive, quantity.needs) is None:
+            rule = f"needs the {quantity.needs} of the vehicle, which has none"
+            faults.append(Fault("quantity", quantity.name, rule, _FIXES[quantity.needs]))
+            continue
         where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python; `Beat` documents its argument"
         try:
-            found = _given_by(quantity.of, strips)
+            found = _given_by(quantity.of, strips, drive)
         except Exception as error:  # whatever a user's function raises
             reason = f"fails: {first_line(error)}"
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))

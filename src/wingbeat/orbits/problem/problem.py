@@ -100,7 +100,7 @@ class OrbitProblem:
             self._draw_in(faults)
         faults.raise_if_any()
         aero = blade_element_of(self.aero)
-        faults.faults.extend(check_quantities(self._quantities(), aero.strips))
+        faults.faults.extend(check_quantities(self._quantities(), aero.strips, self.vehicle.drive))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
@@ -224,7 +224,7 @@ class OrbitProblem:
     @property
     def minimises_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
-        return value_count(self.minimise.of, self.aero.strips) > 1
+        return value_count(self.minimise.of, self.aero.strips, self.vehicle.drive) > 1
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:

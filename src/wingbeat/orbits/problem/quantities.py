@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._jax.config import jnp
+from wingbeat.actuators import Drive
 from wingbeat.errors import FaultList, suggest
 from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
+from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.springs import SpringCost
 
 __all__ = ["QUANTITIES", "Frequency", "PowerCost", "Quantity", "SpringPower", "named_objective", "named_quantity"]
@@ -36,6 +38,7 @@ class Quantity:
     parameter : name of the wingbeat parameter that equals the quantity, if any. As an objective, the quantity then
         needs no flight.
     in_hover : advice, in words, on what to use instead in hover, if the quantity is undefined at speed 0.
+    needs : ``"muscle"`` or ``"motor"`` if the vehicle must have one.
 
     Raises
     ------
@@ -52,6 +55,7 @@ class Quantity:
     scale: float = 1.0
     parameter: str | None = None
     in_hover: str | None = None
+    needs: str | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -186,9 +190,15 @@ def _roughness(beat: Beat) -> Any:
     return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
 
 
-def _known(name: str, of: Callable[[Beat], Any], scale: float = 1.0, in_hover: str | None = None) -> Quantity:
+def _known(
+    name: str,
+    of: Callable[[Beat], Any],
+    scale: float = 1.0,
+    in_hover: str | None = None,
+    needs: str | None = None,
+) -> Quantity:
     """Return a quantity with the unit that the table of names gives it."""
-    return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale, in_hover=in_hover)
+    return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale, in_hover=in_hover, needs=needs)
 
 
 QUANTITIES = {
@@ -208,8 +218,19 @@ QUANTITIES = {
         _known("peak_pitch_torque", _Size("pitch_torque"), 0.01),
         _known("body_pitch_range", _pitch_spread, 0.1),
         _known("roughness", _roughness, 5.0),
+        *(
+            _known(name, of, scale, needs=needs)
+            for needs, found in (("muscle", OF_MUSCLE), ("motor", OF_MOTOR))
+            for name, (of, scale) in found.items()
+        ),
     )
 }
+
+
+def of_drive(drive: Drive) -> dict[str, Quantity]:
+    """Return the quantities of what drives a vehicle's wings: of its muscles, and of its motor."""
+    there = {name for name in ("muscle", "motor") if getattr(drive, name) is not None}
+    return {name: quantity for name, quantity in QUANTITIES.items() if quantity.needs in there}
 
 
 # Short names on the command line.

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
+from wingbeat.actuators.springs import spring_torque
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 
 # With a rest angle farther away, a spring is in effect a constant torque.
@@ -29,7 +30,8 @@ class SpringCost:
     def __call__(self, beat: Beat) -> Any:
         """Return this power for a beat [W]."""
         rest = beat.mean(beat.flap) if self.rest_angle is None else self.rest_angle
-        return beat.mean_positive(beat.hinge_power + self.stiffness * (beat.flap - rest) * beat.flap_rate)
+        torque = spring_torque(self.stiffness, beat.flap, rest)
+        return beat.mean_positive(beat.hinge_power - torque * beat.flap_rate)
 
 
 class Spring(NamedTuple):

@@ -1,0 +1,24 @@
+"""What drives the flap hinges: muscles or motors, and the springs beside them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from wingbeat.actuators.motor import Motor
+from wingbeat.actuators.muscle import Muscle
+from wingbeat.actuators.springs import Springs
+
+__all__ = ["Drive", "Motor", "Muscle", "Springs"]
+
+
+class Drive(NamedTuple):
+    """What drives the flap hinges of a vehicle; None where it has none.
+
+    Attributes
+    ----------
+    muscle, motor, springs : as of the vehicle.
+    """
+
+    muscle: Muscle | None = None
+    motor: Motor | None = None
+    springs: Springs | None = None

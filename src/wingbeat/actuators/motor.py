@@ -1,0 +1,110 @@
+"""An electric motor that flaps the wings through a gear: torque, speed, current, voltage and electrical power."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from wingbeat._jax.config import jnp, register_record
+from wingbeat.errors import FaultList
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import Series
+
+
+@register_record
+@dataclass(frozen=True)
+class Motor:
+    """A motor with brushes, or a brushless one with its controller, for both wings together.
+
+    With two motors, one a wing, give the sums: twice the rotor inertia and the no-load current, the same torque
+    constant, and half of the resistance.
+
+    Parameters
+    ----------
+    torque_constant : torque per current; in SI units also voltage per speed [N m/A].
+    resistance : of the winding [ohm].
+    gear_ratio : motor speed over flap rate, or over the speed of the crank.
+    rotor_inertia : of the rotor, and of all that turns with it [kg m2].
+    no_load_current : current that friction takes at any speed [A].
+    gear_efficiency : share of the power that passes the gear, in either direction.
+    voltage : of the battery [V].
+    crank : share of the motion that a crank makes: 1 if the motor turns one at constant speed, and a linkage makes
+        the wings flap; 0 if the motor turns with the wings and reverses twice a beat.
+
+    Raises
+    ------
+    InvalidInputError : a constant that is not positive, an efficiency outside 0 to 1, not finite.
+
+    >>> Motor(torque_constant=2.1e-3, resistance=0.45, gear_ratio=10.0).crank
+    0.0
+    """
+
+    torque_constant: float
+    resistance: float
+    gear_ratio: float
+    rotor_inertia: float = 0.0
+    no_load_current: float = 0.0
+    gear_efficiency: float = 1.0
+    voltage: float = 3.7
+    crank: float = 0.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        fix = "60 / (2 pi) over the speed constant in rpm/V"
+        faults.number("motor.torque_constant", self.torque_constant, above=0, unit="N m/A", fix=fix)
+        faults.number("motor.resistance", self.resistance, above=0, unit="ohm")
+        faults.number("motor.gear_ratio", self.gear_ratio, above=0)
+        faults.number("motor.rotor_inertia", self.rotor_inertia, at_least=0, unit="kg m2")
+        faults.number("motor.no_load_current", self.no_load_current, at_least=0, unit="A")
+        faults.number("motor.gear_efficiency", self.gear_efficiency, above=0, at_most=1)
+        faults.number("motor.voltage", self.voltage, above=0, unit="V")
+        faults.number("motor.crank", self.crank, at_least=0, at_most=1, fix="1: a crank; 0: the motor reverses")
+        faults.raise_if_any()
+
+
+class MotorState(NamedTuple):
+    """What a motor does along one beat, each of shape (K,).
+
+    Attributes
+    ----------
+    speed : of the motor [rad/s].
+    torque : at its shaft, after rotor and friction [N m].
+    current : [A].
+    voltage : at its terminals [V].
+    power : electrical power, negative where it returns some [W].
+    """
+
+    speed: Series
+    torque: Series
+    current: Series
+    voltage: Series
+    power: Series
+
+
+def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
+    """Return what the motor does to give the flap hinges a torque at a rate.
+
+    Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load where the
+    motor drives and taken off it where the wings drive the motor, ``i = torque/kt + sign(omega) i0``,
+    ``v = R i + kt omega``, ``P = v i``. Behind a crank, the speed is ``N 2 pi f`` and the load the hinges'
+    power over the crank's speed.
+
+    Parameters
+    ----------
+    motor : the motor.
+    torque, rate, acceleration : at both flap hinges together [N m, rad/s, rad/s2], shape (K,).
+    frequency : of the beat [Hz].
+    """
+    turning = 2.0 * jnp.pi * frequency
+    crank = motor.crank
+    load = (1.0 - crank) * torque + crank * torque * rate / turning
+    driven = (1.0 - crank) * rate + crank * turning
+    speed = motor.gear_ratio * driven
+    drives = load * driven > 0.0
+    passed = jnp.where(drives, load / motor.gear_efficiency, load * motor.gear_efficiency)
+    own = (1.0 - crank) * motor.rotor_inertia * motor.gear_ratio * acceleration
+    shaft = passed / motor.gear_ratio + own
+    current = shaft / motor.torque_constant + jnp.sign(speed) * motor.no_load_current
+    voltage = motor.resistance * current + motor.torque_constant * speed
+    return MotorState(speed, shaft, current, voltage, voltage * current)

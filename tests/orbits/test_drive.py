@@ -1,0 +1,134 @@
+"""Muscles and motors of a vehicle: their quantities as objective, limit, record and derivative."""
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from tests.helpers.programmes import differences, stock_point
+from wingbeat.actuators.muscle import best_efficiency, force_at, metabolic_rate
+from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.sensitivity import OptimumSlopes
+from wingbeat.orbits.solve import find_orbit
+
+PIGEON = wb.load_species("pigeon")
+STRONG = PIGEON.with_muscle().with_values({"muscle.isometric_stress": 1e6})
+MOTOR = {"motor.torque_constant": 6e-3, "motor.resistance": 0.1, "motor.gear_ratio": 30.0}
+
+# A pigeon whose wings a muscle and a motor drive, behind springs.
+DRIVEN = PIGEON.with_muscle().with_values(
+    {
+        **{"motor.torque_constant": 0.007, "motor.resistance": 0.1, "motor.gear_ratio": 30.0},
+        **{"motor.rotor_inertia": 1e-7, "motor.no_load_current": 0.1, "motor.gear_efficiency": 0.8},
+        **{"springs.stiffness": 0.4, "springs.rest_angle": 0.1, "springs.series_compliance": 0.05},
+    }
+)
+
+
+def problem(species, **more):
+    return wb.OrbitProblem(species, speed=12.0, **more)
+
+
+@pytest.fixture(scope="module")
+def cheap():
+    """The beat of least metabolic power."""
+    return find_orbit(problem(STRONG, minimise="metabolic_power"), starts=1)
+
+
+def test_metabolic_power_is_a_sum_over_the_samples_of_the_beat(cheap):
+    """A slow reference from the formulas, without smooth treatment of changes of sign."""
+    beat, muscle = cheap.beat(), STRONG.vehicle.muscle
+    torque, rate = np.asarray(beat.flap_torque), np.asarray(beat.flap_rate)
+    total = 0.0
+    for one, speed in zip(torque[:-1], rate[:-1], strict=True):
+        share = float(np.sign(one) * speed / muscle.max_flap_rate)
+        isometric = abs(one) / float(force_at(share, muscle.curvature))
+        total += isometric * muscle.max_flap_rate * float(metabolic_rate(share))
+    pitching = np.maximum(np.asarray(beat.pitch_torque * beat.wing_pitch_rate), 0.0)[:-1].mean()
+    expected = total / (len(torque) - 1) + pitching / float(best_efficiency(muscle.curvature))
+    assert cheap.objective == pytest.approx(expected, rel=2e-3)
+
+
+def test_least_metabolic_power_costs_less_than_other_beats(cheap):
+    assert cheap.status is wb.Status.CONVERGED
+    metabolic = wb.objectives.named_quantity("metabolic_power")
+    for other in ("frequency", "mean_positive_power"):
+        found = find_orbit(problem(STRONG, minimise=other), starts=1)
+        assert cheap.objective < found.value_of(metabolic)
+
+
+def test_the_flight_does_not_depend_on_what_drives_it(cheap):
+    """The flight model of a vehicle with a muscle, a motor and springs is the one without."""
+    driven = PIGEON.with_muscle().with_values({**MOTOR, "springs.stiffness": 0.3})
+    assert problem(driven).model == problem(PIGEON).model
+    assert problem(driven).vehicle.muscle is not None
+
+
+def test_the_record_has_the_numbers_of_muscle_and_motor(cheap):
+    orbit = wb.solve_orbit(problem(STRONG.with_values(MOTOR)), starts=1)
+    record = orbit.record()
+    for name in (
+        "metabolic_power",
+        "peak_activation",
+        "muscle_work_per_mass",
+        "electrical_power",
+        "rms_motor_torque",
+    ):
+        assert record[name] > 0.0, name
+    assert record["vehicle"]["muscle"]["isometric_stress"] == 1e6
+    assert record["muscle_work_per_mass"] == pytest.approx(
+        record["muscle_power_per_mass"] / record["wingbeat"]["frequency"], rel=1e-12
+    )
+    assert "metabolic_power" not in wb.solve_orbit(problem(PIGEON), starts=1).record()
+
+
+def test_a_limit_on_activation_holds(cheap):
+    used = cheap.value_of(wb.objectives.named_quantity("peak_activation"))
+    limited = find_orbit(
+        problem(STRONG, minimise="metabolic_power", subject_to=f"peak_activation<={0.95 * used}"), 2
+    )
+    assert limited.status is wb.Status.CONVERGED
+    assert limited.value_of(wb.objectives.named_quantity("peak_activation")) <= 0.95 * used * (1 + 1e-6)
+    assert limited.objective > cheap.objective
+
+
+def test_metabolic_power_falls_with_slower_muscles_as_finite_differences_say(cheap):
+    rate = next(p for p in parameters_of(cheap.problem) if p.path == "muscle.max_strain_rate")
+    change = OptimumSlopes(cheap.problem, cheap.unknowns).by(rate).objective
+    step = 1e-3 * rate.value
+    values = [find_orbit(rate.changed(cheap.problem, rate.value + sign * step), 1).objective for sign in (1, -1)]
+    assert change == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-3)
+
+
+@pytest.mark.parametrize(("name", "part"), [("metabolic_power", "muscle"), ("electrical_power", "motor")])
+def test_a_quantity_of_what_the_vehicle_lacks_is_refused(name, part):
+    with pytest.raises(wb.InvalidInputError, match=f"needs the {part} of the vehicle, which has none; give it one"):
+        problem(PIGEON, minimise=name)
+
+
+@pytest.mark.parametrize("name", [*OF_MUSCLE, *OF_MOTOR])
+def test_derivatives_of_every_quantity(name):
+    programme, _, scaled = stock_point(problem(DRIVEN, subject_to=[wb.Constraint(name, 40.0)]))
+    path = len(programme.path_limits)
+    found = programme.inequalities_jacobian(scaled)[path:]
+    wanted = differences(programme.inequalities, scaled)[path:]
+    assert found.any()
+    assert np.abs(found - wanted).max() <= 1e-5 * np.abs(found).max()
+
+
+def test_a_species_says_where_its_muscle_comes_from():
+    found = PIGEON.with_muscle()
+    sources = {path: n for path, n in found.numbers.items() if path.startswith("vehicle.muscle.")}
+    assert len(sources) == 6
+    for path, number in sources.items():
+        assert number.range[0] < number.value < number.range[1], path
+        assert "guess" in number.source or "doi" in number.source or "abstract" in number.source, path
+    bat = wb.load_species("bat").with_muscle("bat").vehicle.muscle
+    assert bat.elevator_share > found.vehicle.muscle.elevator_share
+    with pytest.raises(wb.InvalidInputError, match="kind"):
+        PIGEON.with_muscle("robot")
+
+
+def test_a_muscle_with_missing_numbers_is_refused():
+    with pytest.raises(wb.InvalidInputError, match="must be given for a muscle"):
+        PIGEON.with_values({"muscle.mass": 0.05})

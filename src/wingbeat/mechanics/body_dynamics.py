@@ -223,14 +223,15 @@ def missing_loads(
     pitch_rate: Phases,
     acceleration: Triple,
 ) -> Triple:
-    """Return force forward and up in the world [N] and nose-up moment [N m] that an acceleration takes in addition.
+    """Return the force in the world [N] and the nose-up moment [N m] that must act to give this acceleration.
 
-    The rows of `accelerations`, left side minus right.
+    They act besides the air loads and gravity: each is the left side minus the right side of an equation of
+    `accelerations`.
 
     Parameters
     ----------
     vehicle, gravity, motion, attitude, pitch_rate : as in `accelerations`.
-    loads : air loads in stroke axes of the body with this acceleration.
+    loads : air loads that act at this acceleration, in stroke axes of the body.
     acceleration : x'' and z'' in the world [m/s2] and psi'' [rad/s2].
     """
     rows = _balance(vehicle, gravity, motion, loads, attitude, pitch_rate)

@@ -34,7 +34,7 @@ _DOWNWARDS = tuple((-at, -weight) for at, weight in _UPWARDS)
 
 
 class Sensitivity(NamedTuple):
-    """Derivatives by one parameter, per its unit: of the objective, of other quantities, and of the unknowns."""
+    """Derivatives of the objective, of other quantities and of the unknowns by one parameter, per its unit."""
 
     parameter: Parameter
     objective: float

@@ -33,17 +33,21 @@ def test_electrical_power_is_heat_friction_and_shaft(crank):
     (speed, torque, current, voltage, power), _ = state(motor)
     heat = motor.resistance * current**2
     friction = motor.torque_constant * motor.no_load_current * np.abs(speed)
-    np.testing.assert_allclose(power, voltage * current, rtol=1e-12)
+    np.testing.assert_allclose(voltage, motor.resistance * current + motor.torque_constant * speed, rtol=1e-12)
     np.testing.assert_allclose(power, heat + friction + torque * speed, rtol=1e-12, atol=1e-12)
 
 
-def test_shaft_power_is_load_loss_and_rotor():
-    (speed, torque, *_), acceleration = state(MOTOR)
+@pytest.mark.parametrize("crank", [0, 1])
+def test_the_gear_takes_its_share_whichever_way_the_power_goes(crank):
+    (speed, torque, *_), acceleration = state(Motor(**{**vars(MOTOR), "crank": crank}))
     load = TORQUE * RATE
-    passed = np.where(load > 0.0, load / MOTOR.gear_efficiency, load * MOTOR.gear_efficiency)
-    kinetic = MOTOR.rotor_inertia * speed * MOTOR.gear_ratio * acceleration
-    np.testing.assert_allclose(torque * speed, passed + kinetic, rtol=1e-12, atol=1e-12)
-    assert load.min() < 0.0 < load.max()
+    kinetic = 0.0 if crank else MOTOR.rotor_inertia * speed * MOTOR.gear_ratio * acceleration
+    loss = torque * speed - kinetic - load
+    drives, tolerance = load > 0.0, {"rtol": 1e-11, "atol": 1e-12}
+    assert loss.min() >= -1e-12
+    np.testing.assert_allclose(loss[drives], (1 / MOTOR.gear_efficiency - 1) * load[drives], **tolerance)
+    np.testing.assert_allclose(loss[~drives], (1 - MOTOR.gear_efficiency) * -load[~drives], **tolerance)
+    assert 20 < drives.sum() < 200
 
 
 def test_a_lossless_motor_gives_the_power_of_the_hinges():
@@ -85,7 +89,7 @@ def test_rates_of_a_periodic_series_are_exact_to_order_six():
 
 def test_every_fault_is_named():
     with pytest.raises(wb.InvalidInputError) as refused:
-        Motor(0.0, 0.4, 20.0, gear_efficiency=1.2, crank=2)
+        Motor(0.0, 0.4, 20.0, gear_efficiency=1.2, crank=0.5)
     assert [fault.where for fault in refused.value.faults] == [
         "motor.torque_constant",
         "motor.gear_efficiency",

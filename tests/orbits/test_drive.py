@@ -57,14 +57,14 @@ def test_least_metabolic_power_costs_less_than_other_beats(cheap):
         assert cheap.objective < found.value_of(metabolic)
 
 
-def test_the_flight_does_not_depend_on_what_drives_it(cheap):
+def test_the_flight_does_not_depend_on_what_drives_it():
     """The flight model of a vehicle with a muscle, a motor and springs is the one without."""
     driven = PIGEON.with_muscle().with_values({**MOTOR, "springs.stiffness": 0.3})
     assert problem(driven).model == problem(PIGEON).model
     assert problem(driven).vehicle.muscle is not None
 
 
-def test_the_record_has_the_numbers_of_muscle_and_motor(cheap):
+def test_the_record_has_the_numbers_of_muscle_and_motor():
     orbit = wb.solve_orbit(problem(STRONG.with_values(MOTOR)), starts=1)
     record = orbit.record()
     for name in (
@@ -76,9 +76,6 @@ def test_the_record_has_the_numbers_of_muscle_and_motor(cheap):
     ):
         assert record[name] > 0.0, name
     assert record["vehicle"]["muscle"]["isometric_stress"] == 1e6
-    assert record["muscle_work_per_mass"] == pytest.approx(
-        record["muscle_power_per_mass"] / record["wingbeat"]["frequency"], rel=1e-12
-    )
     assert "metabolic_power" not in wb.solve_orbit(problem(PIGEON), starts=1).record()
 
 
@@ -92,18 +89,58 @@ def test_a_limit_on_activation_holds(cheap):
     assert limited.objective > cheap.objective
 
 
-def test_metabolic_power_falls_with_slower_muscles_as_finite_differences_say(cheap):
+def test_faster_muscles_of_one_stress_cost_less_as_finite_differences_say(cheap):
     rate = next(p for p in parameters_of(cheap.problem) if p.path == "muscle.max_strain_rate")
     change = OptimumSlopes(cheap.problem, cheap.unknowns).by(rate).objective
     step = 1e-3 * rate.value
     values = [find_orbit(rate.changed(cheap.problem, rate.value + sign * step), 1).objective for sign in (1, -1)]
+    assert change < 0.0
     assert change == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-3)
 
 
 @pytest.mark.parametrize(("name", "part"), [("metabolic_power", "muscle"), ("electrical_power", "motor")])
 def test_a_quantity_of_what_the_vehicle_lacks_is_refused(name, part):
-    with pytest.raises(wb.InvalidInputError, match=f"needs the {part} of the vehicle, which has none; give it one"):
+    with pytest.raises(wb.InvalidInputError, match=f"needs a {part}, and the vehicle has none; give it one"):
         problem(PIGEON, minimise=name)
+
+
+@pytest.mark.parametrize("crank", [0, 1])
+def test_quantities_of_a_beat_are_those_of_a_reference(cheap, crank):
+    """NumPy along the series of the beat, behind springs; the rotor's inertia is left out."""
+    species = DRIVEN.with_values({"motor.crank": crank, "motor.rotor_inertia": 0.0})
+    muscle, motor, springs = species.vehicle.drive
+    beat = cheap.beat()._replace(drive=species.vehicle.drive)
+    flap, rate, torque = (np.asarray(getattr(beat, name))[:-1] for name in ("flap", "flap_rate", "flap_torque"))
+    turning = 2.0 * np.pi * beat.frequency
+    left = torque + springs.stiffness * (flap - springs.rest_angle)
+    rate = rate + springs.series_compliance * spectral_rate(left, beat.frequency)
+    shares = np.sign(left) * rate / muscle.max_flap_rate
+    need = np.abs(left) / np.asarray(force_at(shares, muscle.curvature)) / muscle.depressor_torque
+    need[left > 0] /= muscle.elevator_share
+    load, speed = (left * rate / turning, np.full_like(rate, turning)) if crank else (left, rate)
+    drives = load * speed > 0
+    shaft = np.where(drives, load / motor.gear_efficiency, load * motor.gear_efficiency) / motor.gear_ratio
+    current = shaft / motor.torque_constant + np.sign(speed) * motor.no_load_current
+    voltage = motor.resistance * current + motor.torque_constant * motor.gear_ratio * speed
+    pitching = np.maximum(np.asarray(beat.pitch_torque * beat.wing_pitch_rate)[:-1], 0.0).mean()
+    wanted = {
+        "peak_activation": need.max(),
+        "muscle_power_per_mass": np.maximum(left * rate, 0.0).mean() / muscle.whole_mass,
+        "electrical_power": np.maximum(voltage * current, 0.0).mean() + pitching,
+        "peak_motor_voltage": np.abs(voltage).max(),
+        "rms_motor_current": np.sqrt((current**2).mean()),
+        "rms_motor_torque": np.sqrt((shaft**2).mean()),
+        "peak_motor_speed": motor.gear_ratio * np.abs(speed).max(),
+    }
+    for name, value in wanted.items():
+        found = float(np.max(wb.objectives.named_quantity(name).of(beat)))
+        assert found == pytest.approx(value, rel=5e-3), name
+
+
+def spectral_rate(values, frequency):
+    """Return the rate of a periodic series, by its Fourier series."""
+    harmonics = 2j * np.pi * frequency * np.fft.rfftfreq(len(values), 1.0 / len(values))
+    return np.fft.irfft(harmonics * np.fft.rfft(values), len(values))
 
 
 @pytest.mark.parametrize("name", [*OF_MUSCLE, *OF_MOTOR])
@@ -120,9 +157,10 @@ def test_a_species_says_where_its_muscle_comes_from():
     found = PIGEON.with_muscle()
     sources = {path: n for path, n in found.numbers.items() if path.startswith("vehicle.muscle.")}
     assert len(sources) == 6
-    for path, number in sources.items():
-        assert number.range[0] < number.value < number.range[1], path
-        assert "guess" in number.source or "doi" in number.source or "abstract" in number.source, path
+    guessed = {path.rpartition(".")[2] for path, number in sources.items() if "guess" in number.source}
+    assert guessed == {"strain_per_angle", "isometric_stress"}
+    bats = wb.load_species("bat").with_muscle("bat").numbers
+    assert all("guess" in bats[path].source for path in sources)
     bat = wb.load_species("bat").with_muscle("bat").vehicle.muscle
     assert bat.elevator_share > found.vehicle.muscle.elevator_share
     with pytest.raises(wb.InvalidInputError, match="kind"):

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 @register_record
 @dataclass(frozen=True)
 class Motor:
-    """A motor with brushes, or a brushless one with its controller, for both wings together.
+    """A motor with brushes, or a brushless one with its controller, that flaps both wings; it does not pitch them.
 
-    With two motors, one a wing, give the sums: twice the rotor inertia and the no-load current, the same torque
-    constant, and half of the resistance.
+    For two motors, one a wing, give twice the rotor inertia and the no-load current, the same torque constant, and
+    half of the resistance. Torques and currents are then sums of both motors.
 
     Parameters
     ----------
@@ -28,9 +28,8 @@ class Motor:
     rotor_inertia : of the rotor, and of all that turns with it [kg m2].
     no_load_current : current that friction takes at any speed [A].
     gear_efficiency : share of the power that passes the gear, in either direction.
-    voltage : of the battery [V].
-    crank : share of the motion that a crank makes: 1 if the motor turns one at constant speed, and a linkage makes
-        the wings flap; 0 if the motor turns with the wings and reverses twice a beat.
+    crank : the number 1 if the motor turns a crank at constant speed, and a linkage makes the wings flap; 0 if the
+        motor turns with the wings and reverses twice a beat.
 
     Raises
     ------
@@ -46,7 +45,6 @@ class Motor:
     rotor_inertia: float = 0.0
     no_load_current: float = 0.0
     gear_efficiency: float = 1.0
-    voltage: float = 3.7
     crank: float = 0.0
 
     def __post_init__(self) -> None:
@@ -58,8 +56,8 @@ class Motor:
         faults.number("motor.rotor_inertia", self.rotor_inertia, at_least=0, unit="kg m2")
         faults.number("motor.no_load_current", self.no_load_current, at_least=0, unit="A")
         faults.number("motor.gear_efficiency", self.gear_efficiency, above=0, at_most=1)
-        faults.number("motor.voltage", self.voltage, above=0, unit="V")
-        faults.number("motor.crank", self.crank, at_least=0, at_most=1, fix="1: a crank; 0: the motor reverses")
+        if self.crank not in (0, 1):
+            faults.add("motor.crank", self.crank, "must be 0 or 1", "1: a crank; 0: the motor reverses")
         faults.raise_if_any()
 
 
@@ -69,7 +67,7 @@ class MotorState(NamedTuple):
     Attributes
     ----------
     speed : of the motor [rad/s].
-    torque : at its shaft, after rotor and friction [N m].
+    torque : that turns gear and rotor, without friction [N m].
     current : [A].
     voltage : at its terminals [V].
     power : electrical power, negative where it returns some [W].
@@ -87,8 +85,8 @@ def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series
 
     Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load where the
     motor drives and taken off it where the wings drive the motor, ``i = torque/kt + sign(omega) i0``,
-    ``v = R i + kt omega``, ``P = v i``. Behind a crank, the speed is ``N 2 pi f`` and the load the hinges'
-    power over the crank's speed.
+    ``v = R i + kt omega``, ``P = v i``. Behind a crank, the speed is ``N 2 pi f``, the load is the
+    flap hinges' power over the crank's speed, and the rotor's inertia has no effect.
 
     Parameters
     ----------

@@ -37,15 +37,15 @@ class Muscle:
     elevator_share : mass of the elevators over that of the depressors.
     strain_per_angle : fibre strain per flap angle [1/rad].
     max_strain_rate : largest speed of shortening, in lengths per second [1/s].
-    isometric_stress : stress of fully active fibres at constant length [Pa].
+    isometric_stress : stress of fully active fibres that keep their length [Pa].
     curvature : k of Hill's relation, a ratio; smaller means that force falls off faster with speed.
 
     Raises
     ------
     InvalidInputError : a number that is not positive or not finite.
 
-    >>> pectoralis = Muscle(mass=0.057, elevator_share=0.16, strain_per_angle=0.18, max_strain_rate=12.0)
-    >>> round(float(pectoralis.max_flap_rate), 1), round(float(pectoralis.depressor_torque), 2)
+    >>> muscle = Muscle(0.057, 0.16, 0.18, max_strain_rate=12.0, isometric_stress=130e3, curvature=0.25)
+    >>> round(float(muscle.max_flap_rate), 1), round(float(muscle.depressor_torque), 2)
     (66.7, 1.26)
     """
 
@@ -53,8 +53,8 @@ class Muscle:
     elevator_share: float
     strain_per_angle: float
     max_strain_rate: float
-    isometric_stress: float = 130e3
-    curvature: float = 0.25
+    isometric_stress: float
+    curvature: float
 
     def __post_init__(self) -> None:
         faults = FaultList()

@@ -42,7 +42,6 @@ GIVEN = (
     Term("rotor_inertia", "kg m2", "inertia of the rotor", "", "and of all that turns with it"),
     Term("no_load_current", "A", "no-load current of the motor", "", "current that friction takes at any speed"),
     Term("gear_efficiency", "1", "efficiency of the gear", "", "share of the power that passes, either way"),
-    Term("voltage", "V", "voltage of the battery"),
     Term("crank", "1", "whether the motor turns a crank", "", "1: at constant speed; 0: reversing with the wings"),
     Term("springs.stiffness", "N m rad-1", "stiffness of the springs beside the actuators", "k", "both sides"),
     Term("springs.rest_angle", "rad", "flap angle at which the springs exert no torque"),

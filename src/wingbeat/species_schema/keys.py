@@ -58,7 +58,7 @@ KEYS = (
     *(_key(f"vehicle.motor.{name}") for name in ("torque_constant", "resistance", "gear_ratio")),
     *(
         _key(f"vehicle.motor.{name}", False)
-        for name in ("rotor_inertia", "no_load_current", "gear_efficiency", "voltage", "crank")
+        for name in ("rotor_inertia", "no_load_current", "gear_efficiency", "crank")
     ),
     *(_key(f"vehicle.springs.{name}", False) for name in ("stiffness", "rest_angle", "series_compliance")),
     *(

@@ -21,13 +21,17 @@ def driven(beat: Beat) -> Driven:
     return actuated(springs, beat.flap, beat.flap_rate, beat.flap_torque, 1.0 / beat.frequency)
 
 
+def _pitching(beat: Beat) -> Any:
+    """Return the mean positive power of the pitch hinges [W]."""
+    return beat.mean_positive(beat.pitch_torque * beat.wing_pitch_rate)
+
+
 def _metabolic_power(beat: Beat) -> Any:
     # The muscles that pitch the wing are small: they are taken to work at their best speed.
     muscle, need = beat.drive.muscle, driven(beat)
     assert muscle is not None
     flapping = sum(beat.mean_positive(part) for part in metabolic_power(muscle, need.torque, need.rate))
-    pitching = beat.mean_positive(beat.pitch_torque * beat.wing_pitch_rate)
-    return flapping + pitching / best_efficiency(muscle.curvature)
+    return flapping + _pitching(beat) / best_efficiency(muscle.curvature)
 
 
 def _peak_activation(beat: Beat) -> Any:
@@ -47,7 +51,8 @@ def _muscle_work_per_mass(beat: Beat) -> Any:
 
 
 def _muscle_efficiency(beat: Beat) -> Any:
-    return beat.mean_positive(beat.hinge_power) / _metabolic_power(beat)
+    need = driven(beat)
+    return (beat.mean_positive(need.torque * need.rate) + _pitching(beat)) / _metabolic_power(beat)
 
 
 def motor_series(beat: Beat) -> MotorState:
@@ -57,7 +62,8 @@ def motor_series(beat: Beat) -> MotorState:
 
 
 def _electrical_power(beat: Beat) -> Any:
-    return beat.mean_positive(motor_series(beat).power)
+    # Else pitching would be free: its power is added as it is.
+    return beat.mean_positive(motor_series(beat).power) + _pitching(beat)
 
 
 def _size_of(name: str) -> Callable[[Beat], Any]:

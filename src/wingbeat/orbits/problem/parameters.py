@@ -127,6 +127,8 @@ def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
         if record is None:  # no tail
             continue
         for name, value in vars(record).items():
+            if name == "crank":  # a switch
+                continue
             path, place = f"{part}.{name}", ("species", "vehicle", part, name)
             if not isinstance(value, tuple):
                 yield _made(path, value, place, size=sizes.get(name, 1.0))

@@ -24,8 +24,8 @@ from wingbeat.orbits.problem.quantities import Quantity
 
 # How a vehicle gets what drives its wings.
 _FIXES = {
-    "muscle": "give it one: species.with_muscle(), or the numbers vehicle.muscle.*",
-    "motor": "give it one: the numbers vehicle.motor.* in the species file, or with --set",
+    "muscle": "give it one: species.with_muscle(), or the numbers muscle.* with --set",
+    "motor": "give it one: the numbers motor.* with --set, or in the species file",
 }
 # Samples of a beat that serves for its shapes only.
 _SAMPLES = 1 + 2 * PARTS
@@ -127,7 +127,7 @@ def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) 
     faults = []
     for quantity in quantities:
         if quantity.needs is not None and getattr(drive, quantity.needs) is None:
-            rule = f"needs the {quantity.needs} of the vehicle, which has none"
+            rule = f"needs a {quantity.needs}, and the vehicle has none"
             faults.append(Fault("quantity", quantity.name, rule, _FIXES[quantity.needs]))
             continue
         where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python; `Beat` documents its argument"

@@ -232,7 +232,7 @@ def test_a_beat_is_what_the_data_set_says_and_the_record_is_read_off_it(solved):
     beat = flown_beat(solved.model, solved.wingbeat, phase, states[:, 2:], (solved.problem.speed, 0.0))
     series, record = solved.orbit.dataset, solved.orbit.record()
     names = [name for name in beat._fields if name in series]
-    numbers = {"frequency", "speed", "climb", "weight", "semi_span", "mass", "flap_amplitude"}
+    numbers = {"frequency", "speed", "climb", "weight", "semi_span", "mass", "flap_amplitude", "drive"}
     assert set(beat._fields) - set(names) == numbers
     for name in names:
         wanted = series[name].values

@@ -12,6 +12,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import FLAGS, PATIENCE
 from tests.helpers.forks import ForkServer
+from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
 from wingbeat.orbits.flight.certify import Certificate, certify
 from wingbeat.workers.gc import collect_seldom
@@ -60,6 +61,14 @@ def solve(name, **search: Any):
     start = np.array(orbit.initial_state)
     certificate = certify(problem.model, orbit.wingbeat, start[2:])
     return Solved(orbit, problem, problem.model, orbit.wingbeat, start, certificate)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def bounded_memory() -> Iterator[None]:
+    """Let a process start the next module without the programs of those before, once they are many."""
+    yield
+    if resident() > MOST:
+        forget_programs()
 
 
 @pytest.fixture(scope="session")

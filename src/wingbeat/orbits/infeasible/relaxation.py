@@ -92,9 +92,11 @@ class Relaxation:
 
     Parameters
     ----------
-    name, sign : which number, as in `Change`; or a term of the air loads, as in `terms.TERMS`, and ``=``.
-    old, new : its value in the problem, and in the changed problem [`unit`]; for a term that is a choice, 1 and 0.
-    unit : of both; SI, radians.
+    name : the number that changes, as in `Change`, or the term that is removed, one of `terms.TERMS`.
+    sign : as in `Change`; ``=`` if a term is removed.
+    old, new : the number before and after the change [`unit`]; for a term that can only be on or off (inflow,
+        unsteady, hand) they are 1 and 0.
+    unit : of `old` and `new`: SI, angles in radians.
     text : the change in words, angles in degrees.
     """
 

@@ -138,8 +138,8 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     Parameters
     ----------
     problem, change : the problem, and the number that changes.
-    value : the least change that is needed leads to this value, SI.
-    more : further steps of the last digit.
+    value : the number after the least change that suffices, SI.
+    more : by how many further steps of the last printed digit the number moves.
     """
     unit = _unit(problem, change)
     factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
@@ -287,10 +287,10 @@ def rounded_outward(change: Change, value: float, factor: float, more: int = 0) 
 
     Parameters
     ----------
-    change : of which number.
-    value : the least change that is needed leads to this value, SI.
+    change : the number that changes, and its direction.
+    value : the number after the least change that suffices, SI.
     factor : conversion factor from SI to the printed unit.
-    more : further steps of the last digit.
+    more : by how many further steps of the last printed digit the number moves.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor
     digits = 1 - math.floor(math.log10(moved))

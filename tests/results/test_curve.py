@@ -82,7 +82,7 @@ def test_the_change_of_family_is_marked_and_nothing_jumps_beside_the_marks(bat):
     marks = marks_of(bat)
     assert [(m.lower, m.upper) for m in marks if m.kind == "branch"] == [(6.0, 7.0)]
     assert "another family becomes better near 6." in next(m.what for m in marks if m.kind == "branch")
-    assert [m.what for m in marks if m.kind == "bounds"] == ["flap_mean met"]
+    assert [m.what for m in marks if m.kind == "bounds"] == ["flap_mean reaches its bound"]
     assert unmarked_jumps(bat, marks) == []
     assert unmarked_jumps(bat, []) == [(6.0, 7.0)]
     label = families(bat)

@@ -82,7 +82,7 @@ def test_a_damaged_answer_is_named_and_salvage_loses_nothing_else(cheap, monkeyp
     assert study.store.read_bytes() == damaged
     code, out, err = study.run("salvage", study.file)
     aside = study.folder / "cheap.study.sqlite.damaged"
-    assert (code, err) == (0, f"12 results kept; the damaged store is now {str(aside)!r}")
+    assert (code, err) == (0, f"12 results kept; the damaged store was renamed to {str(aside)!r}")
     assert "waiting 1" in out
     assert aside.read_bytes() == damaged
     monkeypatch.setenv("STANDIN_LOG", str(study.folder / "log"))

@@ -173,7 +173,10 @@ class StoredFunction:
 
 
 def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
-    """Compile a traced program before any call, or read it from JAX's cache; at a call JAX would hold it twice."""
+    """Compile a traced program, or read it from JAX's cache, before its first call.
+
+    If the first call compiled it, JAX would keep two copies in memory.
+    """
     lowered = jax.jit(program.call).lower(*arguments)
     if jax.default_backend() == "cpu" and not hot:
         with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice

@@ -293,7 +293,7 @@ class CamberedCoefficients(CoefficientModel):
         return False
 
     def kernel(self) -> CamberedKernel:
-        """Return the JAX pytree that evaluates this model; differentiable in the model's own numbers."""
+        """Return the JAX pytree that evaluates this model; it is differentiable with respect to its parameters."""
         radians = math.pi / 180
         joins = tuple((start * radians, end * radians) for start, end in (self.low_join_deg, self.high_join_deg))
         return _joined(self.terms.in_radians(), SuFan(blend_width_deg=self.blend_width_deg).kernel(), joins)

@@ -264,7 +264,7 @@ class FormulaCoefficients(CoefficientModel):
         return self.centre_terms is not None
 
     def kernel(self) -> ExtendedKernel:
-        """Return the JAX pytree that evaluates this model; differentiable in the model's own numbers."""
+        """Return the JAX pytree that evaluates this model; it is differentiable with respect to its parameters."""
         centre = self.centre_terms.in_radians() if self.centre_terms is not None else _NO_CENTRE
         # The lift always carries its exponential, so that Su-Fan and Dickinson are one compiled function.
         lift = self.lift_terms.in_radians(with_decay=True)

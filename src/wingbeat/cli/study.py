@@ -136,7 +136,7 @@ def salvage(file: File) -> None:
     if aside is None:
         print(f"the store {str(asked.store)!r} is not damaged; nothing was changed", file=sys.stderr)
     else:
-        print(f"{kept} results kept; the damaged store is now {str(aside)!r}", file=sys.stderr)
+        print(f"{kept} results kept; the damaged store was renamed to {str(aside)!r}", file=sys.stderr)
     _print_summary(asked, asked.status())
 
 

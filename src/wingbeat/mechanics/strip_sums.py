@@ -17,7 +17,10 @@ _FEW_STRIPS = 32
 
 
 def sum_over_strips(a: PerStrip) -> Phases:
-    """Return the sum over the strips; a few strips are added one by one, which XLA on CPU can vectorise."""
+    """Return the sum over the strips.
+
+    At most 32 strips are added one by one, because XLA, JAX's compiler, can vectorise this on a CPU.
+    """
     if a.shape[0] > _FEW_STRIPS:
         return jnp.sum(a, axis=0)
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])

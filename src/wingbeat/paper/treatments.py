@@ -151,7 +151,10 @@ def problem_of(case: Case) -> OrbitProblem:
 
 
 def chain(treatment: str, animal: str, speeds: Iterable[float]) -> list[Case]:
-    """Return an animal's cases, similar ones side by side: one model up in speed, then the other down."""
+    """Return the cases of an animal, ordered so that neighbours are similar.
+
+    The first coefficient model comes at increasing speeds, then the second at decreasing speeds.
+    """
     up = sorted(speeds)
     rows = zip(MODELS, (up, up[::-1]), strict=True)
     return [Case(treatment, animal, model, speed) for model, row in rows for speed in row]

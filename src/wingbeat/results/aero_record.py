@@ -1,4 +1,4 @@
-"""What makes the air loads, as a dictionary that a record shows, or from which the same loads are set up again."""
+"""The inputs of the air loads as a dictionary: for a record, or to set up the same air loads again."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from wingbeat.aero import (
     load_coefficients,
 )
 
-# Before the name of a function of the user's, and after what no file brings back.
+# Words before the name of a user's function, and after a function that no file can restore.
 OWN = "the user's own"
 SET_ANEW = "is not in the file; set up the problem with this function again"
 _FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
@@ -46,7 +46,7 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
 
 
 def further_terms(aero: BladeElement) -> dict[str, Any]:
-    """Return what the air loads have beyond those of Su et al., by name; nothing that is off."""
+    """Return the terms of the air loads that Su et al. do not have, by name; terms that are off are left out."""
     terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
     if aero.inflow != "none":
         terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
@@ -80,7 +80,7 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
 
 
 def _named(coefficients: CoefficientModel) -> dict[str, Any]:
-    """Return how a coefficient model is called, and a digest of a function."""
+    """Return name, extension and blend width of a coefficient model, and a digest if it is a function."""
     named = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
     named = {"coefficients": coefficients.name, **named}
     if isinstance(coefficients, FunctionCoefficients):
@@ -89,7 +89,7 @@ def _named(coefficients: CoefficientModel) -> dict[str, Any]:
 
 
 def _numbers(coefficients: Any) -> dict[str, Any]:
-    """Return the numbers that bring a coefficient model back; nothing if its name does."""
+    """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
     if isinstance(coefficients, TableCoefficients):
         return {"table": {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)}
     if isinstance(coefficients, FormulaCoefficients) and not _in_the_box(coefficients):
@@ -112,7 +112,7 @@ def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
 
 
 def _in_the_box(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
-    """Say whether the name alone brings back the formulas; a fit may carry a published model's name."""
+    """Return whether the library has this model under its name; a fit may have the name of a published model."""
     if coefficients.name not in LIBRARY:
         return False
     return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients

@@ -1,4 +1,4 @@
-"""A flight whose body moves as it was filmed: its loads, and the force that is missing to that motion."""
+"""A flight whose body moves as filmed: its loads, and the force that the model lacks for that motion."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class CarriedFlight(Saveable):
 
     Attributes
     ----------
-    model, wingbeat : what flew.
+    model, wingbeat : the flight model and its wingbeat.
     phase : beats since the start, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     accelerations : (x'', z'', psi''), shape (K, 3) [m/s2, m/s2, rad/s2].
@@ -69,7 +69,7 @@ class CarriedFlight(Saveable):
 
     @property
     def summary(self) -> dict[str, float]:
-        """Means over the flight [SI], and the mean and root mean square of what is missing.
+        """Means over the flight [SI], and the mean and root mean square of the missing force and moment.
 
         Missing forces are over the weight, the missing moment over weight times mean chord. A positive
         ``missing_force_z_mean`` is the share of the weight that the model's wings do not hold.
@@ -93,9 +93,9 @@ class CarriedFlight(Saveable):
 def carry(model: FlightModel, wingbeat: Wingbeat, path: Path, beats: int = 1, samples: int = 128) -> CarriedFlight:
     """Move a vehicle as it was filmed, wings and body, and evaluate its loads.
 
-    The body is not integrated. What its motion takes beyond the loads of the air and the weight is the missing
-    force, ``p' - F - M g`` with p the momentum of body and wings, and the missing moment about the body's centre of
-    mass.
+    The body's motion is prescribed, not integrated. This motion needs a force in addition to the air loads F and
+    the weight: the missing force ``p' - F - M g``, with p the momentum of body and wings. The missing moment is
+    about the body's centre of mass.
 
     Parameters
     ----------

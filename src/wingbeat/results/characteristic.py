@@ -26,10 +26,10 @@ def characteristic_speeds(
     Returns
     -------
     ``minimum_power``, ``maximum_range`` (minimum power over speed, the tangent from the origin) and, with a limit,
-    ``fastest_sustained`` and ``slowest_sustained``; each is None where there is none. Each holds ``speed`` [m/s],
-    ``power`` [W], ``at_edge`` (the range of speeds or a gap ends there, so the true speed may lie beyond) and
-    ``jump_beside`` (the curve changes branch there). The first two also hold ``within_2_percent``: the speeds
-    between which the minimised value is within 2 % of its minimum.
+    ``fastest_sustained`` and ``slowest_sustained``; an entry is None if the curve has no such speed. Each entry
+    holds ``speed`` [m/s], ``power`` [W], ``at_edge`` (the range of speeds ends there or a gap begins, so the true
+    speed may lie beyond) and ``jump_beside`` (the curve changes branch there). The first two also hold
+    ``within_2_percent``: the speeds between which the minimised value is within 2 % of its minimum.
 
     >>> u = np.arange(4.0, 13.0)
     >>> found = characteristic_speeds(u, 60 / u + 0.01 * u**3, np.ones(8, bool))
@@ -90,7 +90,7 @@ def _least(
 
 
 def _reach(speed: np.ndarray, value: np.ndarray, start: int, way: int, level: float) -> float:
-    """Return the first speed in one direction at which a value below a level reaches it, else the last speed."""
+    """Return the first speed in one direction at which the value rises above a level, or else the last speed."""
     here = start
     while 0 <= here + way < len(value) and np.isfinite(value[here + way]):
         there = here + way

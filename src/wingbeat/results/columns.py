@@ -1,4 +1,4 @@
-"""Nested records as flat columns: their dotted names, and the unit of each beside a data set."""
+"""Nested records as flat columns with dotted names, and the unit of each value."""
 
 from __future__ import annotations
 

@@ -42,7 +42,8 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     along = _ROWS[kind]
     columns = list(_columns(dataset, along))
     out = io.StringIO()
-    out.write(f"# {kind} of wingbeat, SI units and radians; a row for each {along.replace('_', ' ')}\n")
+    out.write(f"# {kind}, written by the package wingbeat; SI units, angles in radians; ")
+    out.write(f"one row per {along.replace('_', ' ')}\n")
     out.write("#\n# results: name = value [unit]; values are JSON\n")
     for path, value in _single_values(dataset, along, results):
         out.write(f"# {path} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")

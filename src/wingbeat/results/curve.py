@@ -1,4 +1,4 @@
-"""The power curve a user holds: certified orbits along speed, their branches, and its characteristic speeds."""
+"""The class `Curve`, certified orbits along speed with characteristic speeds, and functions that make one."""
 
 from __future__ import annotations
 

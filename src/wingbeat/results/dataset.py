@@ -37,7 +37,7 @@ def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: 
 def evaluate_carried(
     model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray, accelerations: np.ndarray
 ) -> tuple[Loads, MissingLoads]:
-    """Return the loads of a body with prescribed accelerations, shape (K, 3), and what they take in addition."""
+    """Return the loads of a body with prescribed accelerations, shape (K, 3), and the missing force and moment."""
     found = list(_in_blocks(carried_loads, model, wingbeat, phase, states, accelerations))
 
     def whole(parts: Iterable[Any]) -> list[np.ndarray]:

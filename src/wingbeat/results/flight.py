@@ -1,4 +1,4 @@
-"""Flights from an initial state, with prescribed wings or driven by torques: the verbs, and what they return."""
+"""Simulated flights from an initial state: the motion of the wings is prescribed, or torques drive them."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def simulate_torque_driven(
     Parameters
     ----------
     model : the flight model.
-    wingbeat : gives span, fold, sweep and twist; its flap and pitch laws do not enter.
+    wingbeat : gives span, fold, sweep and twist; its flap and pitch laws are not used.
     coordinates, rates : q and q' at the first time, shape (5,) each [m, rad; per s].
     torques : JAX-traceable function of time [s] and `args` that gives (flap, pitch) torques of both wings [N m].
     times : increasing sample times [s], shape (K,).

@@ -1,4 +1,4 @@
-"""A result as a MATLAB file: each series a variable of its own shape; units, meanings and results in structs."""
+"""A result as a MATLAB file: each series is a variable of its own shape; units, meanings, results are structs."""
 
 from __future__ import annotations
 

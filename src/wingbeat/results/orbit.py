@@ -1,4 +1,4 @@
-"""The orbit a user holds: record, time series, file; and the verbs that make one."""
+"""The class `Orbit`, one periodic orbit with its record, time series and file, and the function that reads one."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ class Summary(NamedTuple):
     relaxations: tuple[Relaxation, ...] = ()
 
 
-# A flight to be shown: problem, wingbeat, and the flight of the certifier.
+# What time series are computed from: problem, wingbeat, and the flight of the certifier.
 _Flown = tuple[OrbitProblem, Wingbeat, Certificate]
 
 
 def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[str, Any]) -> xr.Dataset:
-    """Return the time series of a wingbeat, as far as it was flown, with record and inputs as attributes."""
+    """Return the time series of a simulated wingbeat, with record and inputs as attributes."""
     problem, wingbeat, certificate = flown()
     flight = problem.model, wingbeat, certificate.phase, certificate.states
     return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
@@ -133,7 +133,7 @@ class Orbit(Saveable):
 
     @classmethod
     def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
-        """Return the orbit of a record; its time series are flown on demand.
+        """Return the orbit of a record; its time series are computed on demand.
 
         Parameters
         ----------

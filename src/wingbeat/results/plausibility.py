@@ -105,7 +105,7 @@ def _how(one: dict[str, Any]) -> str:
         return f"{value / end:.2g} times the power of muscle"
     factor, unit = (math.degrees(1.0), "deg") if one["unit"] == "rad" else (1.0, one["unit"])
     unit = "" if unit == "1" else f" {unit}"
-    # As many digits as it takes to tell the two apart.
+    # Enough digits to tell the value from the end of the range.
     digits = next(n for n in range(3, 17) if n == 16 or f"{value * factor:.{n}g}" != f"{end * factor:.{n}g}")
     name, side = _NAMES[one["name"]], "above" if above else "below"
     return f"{name} {value * factor:.{digits}g} {side} {end * factor:.{digits}g}{unit}"

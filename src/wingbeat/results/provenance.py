@@ -82,7 +82,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
 
 
 def own_functions(inputs: dict[str, Any]) -> list[str]:
-    """Return the names of objective, quantities and coefficients of the user's own, which a file cannot restore."""
+    """Return the names of the user's own objective, quantities and coefficients, which a file cannot restore."""
     names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
     own = [name for name in names if name.startswith(OWN)]
     aero = inputs["aero"]

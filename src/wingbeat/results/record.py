@@ -38,7 +38,7 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
-    """Return the vehicle that `vehicle_record` described; what is not in the record, such as a tail, it lacks.
+    """Return the vehicle that `vehicle_record` described; it has no part, such as a tail, that the record lacks.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers; those of laws that were added later only if they are on."""
+    """Return the wingbeat's numbers; numbers of laws that were added later are left out if these laws are off."""
     left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
     return {
         name: list(value) if isinstance(value, tuple) else value
@@ -132,7 +132,10 @@ def power_summary(solution: Solution, beat: Beat) -> dict[str, float | None]:
 
 
 def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: float) -> dict[str, float | None]:
-    """Return Strouhal number, reduced frequency and Reynolds number; None in hover; the chord is the mean chord."""
+    """Return Strouhal number, reduced frequency and Reynolds number; they are None in hover.
+
+    Reduced frequency and Reynolds number are those of the mean chord.
+    """
     wing, speed = problem.vehicle.wing, problem.speed
     if speed == 0:
         return {"strouhal": None, "reduced_frequency": None, "reynolds": None}

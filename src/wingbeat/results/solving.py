@@ -1,4 +1,4 @@
-"""The verbs that make orbits: of one problem, of many, of a series."""
+"""Functions that find orbits: of one problem, of many problems, or of a series of problems."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ def solve_orbit(
 ) -> Orbit:
     """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
-    A failure raises nothing: `Orbit.status` says how the solver ended, and `Orbit.message` what fails and what to
-    do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that fly.
+    A failure raises no exception: `Orbit.status` says how the solver ended, and `Orbit.message` says what fails and
+    what to do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that lead to
+    an orbit.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def solve_orbits(
     in_order: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Orbit]:
-    """Find and certify an orbit for each problem, in their order; similar problems help one another.
+    """Find and certify an orbit for each problem, in their order; results of similar problems serve as starts.
 
     Among problems that differ in numbers only, the first few are solved as by `solve_orbit`. For each later
     problem, the first start is predicted from their solutions; it counts only if it leads to a certified orbit. If

@@ -1,4 +1,4 @@
-"""How much an orbit's numbers vary with a measured wingbeat: the same flight, solved for other draws of it."""
+"""How uncertain an orbit's numbers are because its wingbeat was measured: the flight is solved for random draws."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ import numpy as np
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.kinematics import ANGLES, Wingbeat
 from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
+from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -44,7 +45,8 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
             notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
         if name in ("u", "w", "pitch_rate"):
-            notes.append(f"the initial {name} is at the solver's limit; do not trust this orbit")
+            what = NOMENCLATURE[name].short_label
+            notes.append(f"the initial {what} is at the solver's limit; do not trust this orbit")
     swing = float(np.ptp(solution.certificate.pitch))
     if swing > _SWING:
         notes.append(

@@ -1,7 +1,10 @@
-"""Laws of flight muscle: mass, leverage, speed and stress from the mass of the animal alone, each written once.
+"""Laws for flight muscle.
 
-No speed of shortening of a bird's flight muscle was found in print. It follows from the largest power of a
-cockatiel's pectoralis and the isometric stress, which is a guess: their product is measured, each of them is not.
+The mass of the depressors and, for birds, the share of the elevators follow from the mass of the animal alone. The
+other numbers are constants.
+
+We found no published speed of shortening of a bird's flight muscle. We derive it from the largest power of a
+cockatiel's pectoralis and the isometric stress. The stress is a guess, but its product with the speed is measured.
 """
 
 from __future__ import annotations

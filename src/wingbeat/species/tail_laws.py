@@ -1,4 +1,6 @@
-"""Laws of the tails of birds: length, area, arm, lift slope and drag from the mass alone, each written once.
+"""Laws for the tails of birds.
+
+Length, area and arm follow from the bird's mass alone; the lift slope and the drag coefficient are constants.
 
 A bird's tail is taken as a triangle that opens backwards from its root, spread by 60 degrees. No law of the tails
 of bats or of robots was found.

@@ -68,7 +68,9 @@ class RangeTable(BaseModel):
     high: _Finite | None = None
     unit: str = ""
     source: str = ""
-    speeds: _Pair | None = Field(default=None, description="flight speeds at which it applies [m/s]; default all")
+    speeds: _Pair | None = Field(
+        default=None, description="lowest and highest flight speed at which it applies [m/s]; all if not given"
+    )
 
 
 def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:

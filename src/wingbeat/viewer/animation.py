@@ -1,4 +1,4 @@
-"""A beat as an animated picture for slides and supplements: strips by angle of attack, with their air loads."""
+"""One beat as an animated GIF for slides and supplements: strips coloured by angle of attack, with air loads."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def animate(
 ) -> None:
     """Write the first beat of one flight, or of two side by side, as an animated GIF that repeats.
 
-    Strips are coloured by their effective angle of attack; arrows are their air loads, on one scale for both.
+    Strips are coloured by their effective angle of attack. Arrows are their air loads; both flights have one scale.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class _Panel:
         self.roots = dataset["strip_position"].values[beat] - place[:, None]
         self.forces = dataset["strip_force"].values[beat] * (0.6 * span / load if load > 0 else 0.0)
         self.colours, self.norm = colormaps["RdBu_r"], Normalize(-_MOST_ALPHA, _MOST_ALPHA)
-        # One collection of body and wings: matplotlib sorts faces by depth within each alone.
+        # Body and wings are one collection: matplotlib sorts faces by depth only within a collection.
         self.faces = Poly3DCollection([], linewidth=0.4)
         self.loads = Line3DCollection([], colors=GREEN, linewidths=1.3)
         body = json.loads(dataset.attrs["vehicle"])["body"]
@@ -118,7 +118,7 @@ class _Panel:
         nose, up = math.cos(self.pitch[k]), math.sin(self.pitch[k])
         turn = np.array([[nose, 0.0, -up], [0.0, 1.0, 0.0], [up, 0.0, nose]])
         trunk = self.body @ turn.T
-        # Lighter where it faces up: the roundness of the body is seen.
+        # Faces that point up are lighter, so that the body looks round.
         height = trunk.mean(axis=1)[:, 2] / np.abs(trunk[..., 2]).max()
         grey = np.repeat((0.62 + 0.22 * height)[:, None], 3, axis=1)
         wing = self.colours(self.norm(self.alpha[k]))[:, :3]

@@ -80,7 +80,10 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         raise FileError(f"cannot show {label!r}: it is {kind}, without the corners of its strips; {way}")
     reached = flown(dataset)
     if reached.sum() < 2:
-        raise FileError(f"cannot show {label!r}: nothing of it was flown; look at its status")
+        raise FileError(
+            f"cannot show {label!r}: it has fewer than two samples before the vehicle tumbled; "
+            "`wingbeat show` prints the status of a saved file"
+        )
     dataset = dataset.isel(phase=reached)
     vehicle, air = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air"))
     body, wing = vehicle["body"], vehicle["wing"]

@@ -1,4 +1,4 @@
-"""What a vehicle looks like where the model knows no shape: the body as an ellipsoid, the tail as a triangle."""
+"""Shapes for drawings, which the model does not contain: the body is an ellipsoid, the tail a triangle."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def tail_corners(tail: Tail, tilt: float = 0.0) -> np.ndarray:
 
     Parameters
     ----------
-    tail : gives the numbers.
+    tail : the numbers of the tail.
     tilt : added to the incidence [rad].
 
     >>> corners = tail_corners(Tail(area=0.0064, arm=0.16, lift_slope=math.pi))

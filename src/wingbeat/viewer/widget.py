@@ -1,4 +1,4 @@
-"""The viewer as a widget of Jupyter, marimo and their like; needs the extra `notebook`."""
+"""The viewer as a widget for notebooks such as Jupyter and marimo; needs the extra `notebook`."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Which balance fails where there is no orbit, and by how much.
 
 We look for the wingbeat, within bounds, that returns to its position and attitude and comes closest to its initial
-velocity. A force that is short on average changes the velocity over the beat; a moment that is short changes the
-pitch rate. Forces as shares of the weight, and moments as shares of weight times chord, can be compared.
+velocity. If the mean force is too small, the velocity changes over the beat; if the mean moment is too small, the
+pitch rate changes. We divide forces by the weight and moments by weight times chord, so that they can be compared.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes; else the closest one that fails a single balance; else one that fails all.
+        """Return a beat that closes, or else the closest beat in which one balance fails, or else all balances.
 
         If several balances would each suffice alone, the one with the smallest deficit is reported. An excess of
         force is reported only if no deficit suffices, because excess force can mostly be removed at the expense of

@@ -1,4 +1,4 @@
-"""Diagnosis of a problem without an orbit: which balance fails, and which changes or terms left out fly."""
+"""Diagnosis of a problem without an orbit: which balance fails, and which change or omitted term gives an orbit."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def _without_term(programme: Transcription, name: str, near: np.ndarray) -> Rela
     starts = [near, *(start_point(problem, i, 0, options.search) for i in range(options.diagnosis.term_starts))]
     trace = with_trace_of(problem, name, options.diagnosis.term_trace)
     if trace is not None:
-        # As everywhere, the stock wingbeat is flown as it is; the others are brought close to closure first.
+        # As elsewhere, the stock wingbeat is a start as it is; the others are first brought close to closure.
         almost = Transcription(trace, options)
         ends = (search(almost.uncorrected(), start, restore=i != 1) for i, start in enumerate(starts))
         starts = [almost.physical(end.scaled) for end in islice((end for end in ends if end.closed), 1)]

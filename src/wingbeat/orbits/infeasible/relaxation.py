@@ -92,9 +92,11 @@ class Relaxation:
 
     Parameters
     ----------
-    name, sign : which number, as in `Change`; or a term of the air loads, as in `terms.TERMS`, and ``=``.
-    old, new : its value in the problem, and in the changed problem [`unit`]; for a term that is a choice, 1 and 0.
-    unit : of both; SI, radians.
+    name : the number that changes, as in `Change`, or the term that is removed, one of `terms.TERMS`.
+    sign : as in `Change`; ``=`` if a term is removed.
+    old, new : the number before and after the change [`unit`]; for a term that can only be on or off (inflow,
+        unsteady, hand) they are 1 and 0.
+    unit : of `old` and `new`: SI, angles in radians.
     text : the change in words, angles in degrees.
     """
 
@@ -136,8 +138,8 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     Parameters
     ----------
     problem, change : the problem, and the number that changes.
-    value : the least change that is needed leads to this value, SI.
-    more : further steps of the last digit.
+    value : the number after the least change that suffices, SI.
+    more : by how many further steps of the last printed digit the number moves.
     """
     unit = _unit(problem, change)
     factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
@@ -285,10 +287,10 @@ def rounded_outward(change: Change, value: float, factor: float, more: int = 0) 
 
     Parameters
     ----------
-    change : of which number.
-    value : the least change that is needed leads to this value, SI.
+    change : the number that changes, and its direction.
+    value : the number after the least change that suffices, SI.
     factor : conversion factor from SI to the printed unit.
-    more : further steps of the last digit.
+    more : by how many further steps of the last printed digit the number moves.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor
     digits = 1 - math.floor(math.log10(moved))

@@ -116,7 +116,7 @@ class _RelaxedLimit(RelaxedProgramme):
         self._moved, self._unit = rows, change.scale / unit
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the inequalities with the limit moved; in the programme itself it is at its reach."""
+        """Return the inequalities with the limit moved; the wrapped programme has the limit at its reach."""
         inside = super().inequalities(scaled)
         inside[self._moved] += self._unit * (scaled[-1] - self.change.widest)
         return inside
@@ -129,7 +129,7 @@ class _RelaxedLimit(RelaxedProgramme):
 
 
 class _RelaxedNumber(RelaxedProgramme):
-    """The programme in which a number of vehicle, flight or wingbeat moves, with difference quotients by it."""
+    """The programme in which a number of vehicle, flight or wingbeat moves; derivatives by it are differences."""
 
     def __init__(self, problem: OrbitProblem, change: Change, options: SolverOptions) -> None:
         super().__init__(Transcription(problem, options), change)
@@ -178,7 +178,7 @@ def least_change(
 ) -> tuple[float, np.ndarray] | None:
     """Return the least change of a number, over its scale, that lets a beat close, and this beat, or None.
 
-    First the number is moved far, until a beat closes; then it is moved back as far as possible.
+    The search moves the number far, until a beat closes, and then back as far as possible.
 
     Parameters
     ----------

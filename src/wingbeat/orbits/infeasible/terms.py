@@ -24,7 +24,7 @@ def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
 def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
     """Return a number of a term in a problem, the number without the term, and the unit of both.
 
-    It is the upstroke factor, or the area of the tail. A term that is a choice has 1, and without it 0.
+    The number is the upstroke factor or the tail's area. A term that can only be on or off has 1, and 0 without it.
     """
     if name == UPSTROKE:
         return problem.aero.upstroke_factor, 1.0, "1"
@@ -47,9 +47,10 @@ def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
 
 
 def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProblem | None:
-    """Return the problem with a share `trace` of one of its terms, which the same compiled programs serve.
+    """Return the problem with a share `trace` of one of its terms; None for the hand, which has no share.
 
-    With inflow, the coefficients stay sectional. None for the hand, of which there is no share.
+    The compiled programs of the full problem serve this problem too. If the term is inflow, the coefficients stay
+    sectional.
     """
     aero = problem.aero
     if name == TAIL:

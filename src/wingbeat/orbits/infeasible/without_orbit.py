@@ -1,4 +1,4 @@
-"""The result if no start leads to an orbit: the closest wingbeat, its deficits, and the changes that fly."""
+"""The result if no start leads to an orbit: the closest wingbeat, its deficits, and changes that lead to one."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from wingbeat.orbits.status import Status
 
 @dataclass(frozen=True)
 class Ending:
-    """How the solver ended; without an orbit, the closest wingbeat's deficits and changes that lead to orbits."""
+    """How the solver ended; without an orbit also the closest wingbeat's deficits, and changes that lead to one."""
 
     status: Status
     message: str

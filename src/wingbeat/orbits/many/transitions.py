@@ -10,6 +10,9 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 
 GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
+# What a bound does that ceases to be active, or becomes active: for one name, and for several.
+_LEFT = "leaves its bound", "leave their bounds"
+_REACHED = "reaches its bound", "reach their bounds"
 
 
 class Mark(NamedTuple):
@@ -37,7 +40,11 @@ def marks_of(branches: Branches) -> list[Mark]:
             marks.append(Mark(BRANCH, *ends, _how_it_changes(branches, interval)))
         gone = [name for name in below.active_bounds if name not in above.active_bounds]
         come = [name for name in above.active_bounds if name not in below.active_bounds]
-        parts = [f"{', '.join(names)} {verb}" for names, verb in ((gone, "left"), (come, "met")) if names]
+        parts = [
+            f"{', '.join(names)} {words[len(names) > 1]}"
+            for names, words in ((gone, _LEFT), (come, _REACHED))
+            if names
+        ]
         if parts:
             marks.append(Mark(BOUNDS, *ends, "; ".join(parts)))
     return marks

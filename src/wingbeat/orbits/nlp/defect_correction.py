@@ -50,16 +50,16 @@ class Corrected:
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The solver's coarse flight makes the optimum slightly wrong. First, value and derivative of the closure are
-    replaced by those of a finer flight. Then, in each round, its value is replaced by that of the certifier's
-    flight. Newton's method follows the optimum.
+    The optimum of the solver's coarse flight is slightly wrong. We first replace value and derivative of the
+    closure by those of a finer flight. In each round after that, we replace the value of the closure by that of the
+    certifier's flight. After each replacement, Newton's method finds the new optimum.
     """
     programme = programme.uncorrected()
     return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)
 
 
 def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: np.ndarray) -> Corrected:
-    """Correct a candidate as `correct` does, with a given Newton's method; the programme is not corrected yet."""
+    """Correct a candidate of an uncorrected programme as `correct` does, with a given Newton's method."""
     options = programme.options.certificate
     for _ in range(options.linearisations):
         programme = programme.linearised_at(scaled, options.fine_blocks)

@@ -1,7 +1,7 @@
 """Least squares within bounds by the Levenberg-Marquardt method, with an active set of bounds in each step.
 
 Our problems have few unknowns, costly residuals, and bounds that are active at the solution. SciPy's reflective
-method stays strictly inside the bounds. It takes twice the flights, and a third of its time goes into its own
+method stays strictly inside the bounds. It needs twice as many flights, and spends a third of its time on its own
 arithmetic.
 """
 

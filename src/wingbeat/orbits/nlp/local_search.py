@@ -46,7 +46,17 @@ class Programme(Protocol):
 
 @dataclass(frozen=True)
 class Candidate:
-    """Where a local search ended, in the optimiser's scale, and the programme with its last flights."""
+    """The result of a local search.
+
+    Parameters
+    ----------
+    programme : the nonlinear programme that was searched; it caches the last flights.
+    scaled : the unknowns where the search ended, in the optimiser's scale.
+    objective : the minimised quantity there, in its own unit.
+    closed : whether closure and inequalities hold there.
+    optimal : whether the optimality conditions hold there, or the optimiser converged.
+    violation : largest violation of closure and inequalities there, in the optimiser's scale.
+    """
 
     programme: Transcription
     scaled: np.ndarray

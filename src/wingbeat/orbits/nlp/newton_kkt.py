@@ -1,7 +1,8 @@
 """Newton's method on the optimality conditions, with a fixed active set: the last digits of an optimum.
 
-A local search uses a quasi-Newton matrix. Along directions in which the objective hardly changes, it takes many
-flights for each further digit. Here the curvature along the few free directions is measured once.
+A local search estimates the curvature from its steps (a quasi-Newton matrix). Along directions in which the
+objective hardly changes, the search needs many flights for each further digit. Here the curvature along the few
+free directions is measured once.
 """
 
 from __future__ import annotations
@@ -99,8 +100,8 @@ class NewtonKKT:
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
         """Return a point from which the next step is shorter than `near`, or None as `converge` does.
 
-        That next step is not taken. From a prediction by certified optima, it would lead to the optimum of the
-        coarse flight, which is farther from the certified optimum.
+        The next step is not taken. If the search starts from a prediction by certified optima, that step would lead
+        to the optimum of the coarse flight, which is farther from the certified optimum.
         """
         steps = self._steps(programme, scaled)
         return next((here for here, step in steps if np.abs(step).max() <= near), None)
@@ -110,8 +111,8 @@ class NewtonKKT:
     ) -> np.ndarray | None:
         """Return the optimum next to a point, or None if the method finds none within the bounds.
 
-        It ends with a step shorter than the tolerance, by default that of the options, or when residuals and
-        gradient are as small as rounding permits.
+        The method ends when a step is shorter than the tolerance (by default that of the options), or when
+        residuals and gradient are as small as rounding permits.
         """
         still = self._options.step_tolerance if step_tolerance is None else step_tolerance
         for here, step in self._steps(programme, scaled):

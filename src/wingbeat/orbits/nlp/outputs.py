@@ -13,7 +13,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 class Outputs:
-    """Those values of objective and constraints that depend on the flown wingbeat, divided by their scales.
+    """The values of objective and constraints that depend on the simulated wingbeat, divided by their scales.
 
     A quantity that is a series has several values: its peaks.
 
@@ -38,7 +38,7 @@ class Outputs:
 
     @property
     def undefined(self) -> tuple[np.ndarray, np.ndarray]:
-        """Values and derivatives of a diverged flight: not-a-number, and zero."""
+        """Values (not-a-number) and derivatives (zero) of a diverged flight."""
         return np.full(self.count, np.nan), np.zeros((self.count, 4 + len(self._problem.free)))
 
     def of(self, unknowns: np.ndarray, flown: Flown) -> tuple[np.ndarray, np.ndarray]:

@@ -11,8 +11,8 @@ import numpy as np
 class Point(NamedTuple):
     """Values and derivatives at one point, in the optimiser's scale.
 
-    ``path`` holds the margins of body pitch above its lower and below its upper bound [rad], then those of the
-    stroke.
+    ``path`` holds the margins of body pitch above its lower bound and below its upper bound [rad], then the margins
+    of the stroke (`StrokeLimits.margins`).
     """
 
     closure: np.ndarray
@@ -25,7 +25,10 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Correction:
-    """Correction from a finer flight near one point: an offset to subtract, and a slope to add off the point."""
+    """Correction of a programme near one point, from a finer flight.
+
+    The offset is subtracted from the value. The slope times the distance from the point (`anchor`) is added.
+    """
 
     anchor: np.ndarray
     closure_offset: np.ndarray

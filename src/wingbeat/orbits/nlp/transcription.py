@@ -194,11 +194,14 @@ class Transcription:
         return self.point(scaled).outputs - by.outputs_offset + by.outputs_slope @ (scaled - by.anchor)
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the margin of everything that has a limit, negative if the limit is exceeded.
+        """Return the margin of everything that has a limit; a margin is negative if its limit is exceeded.
 
-        First come the margins of body pitch above its lower and below its upper bound [rad], then those of the
-        stroke, as named by `path_limits`. The constraints follow, in their scale. Last come the margins of the
-        epigraph variable above each peak that is minimised.
+        The margins have this order:
+
+        1. The limits along the path, as named by `path_limits`: body pitch above its lower bound and below its
+           upper bound [rad], then the stroke [wing lengths for strip corners, rad for the flap angle].
+        2. The constraints, each divided by the scale of its quantity.
+        3. If there is an epigraph variable, its excess over each peak of the objective, in the objective's scale.
         """
         path = self.point(scaled).path - self._correction.path_offset
         if self.outputs is None:

@@ -118,7 +118,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
     """
     phase = jnp.asarray(phase, dtype=float)
     fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), phase.shape).ravel() for f in state))
-    found = jax.lax.map(lambda at: _loads(model, wingbeat, *at), (fields, phase.ravel()))
+    found = jax.vmap(lambda at: _loads(model, wingbeat, *at))((fields, phase.ravel()))
     return jax.tree_util.tree_map(lambda a: a.reshape(*phase.shape, *a.shape[1:]), found)
 
 

@@ -159,12 +159,13 @@ def test_a_species_says_where_its_muscle_comes_from():
     assert len(sources) == 6
     guessed = {path.rpartition(".")[2] for path, number in sources.items() if "guess" in number.source}
     assert guessed == {"strain_per_angle", "isometric_stress"}
-    bats = wb.load_species("bat").with_muscle("bat").numbers
+    bats = wb.load_species("bat").with_muscle().numbers
     assert all("guess" in bats[path].source for path in sources)
-    bat = wb.load_species("bat").with_muscle("bat").vehicle.muscle
+    bat = wb.load_species("bat").with_muscle().vehicle.muscle
     assert bat.elevator_share > found.vehicle.muscle.elevator_share
-    with pytest.raises(wb.InvalidInputError, match="kind"):
-        PIGEON.with_muscle("robot")
+    robot = wb.robot(mass=0.1, wing_span=0.6, wing_area=0.06)
+    with pytest.raises(wb.InvalidInputError, match='kind = "bird"'):
+        robot.with_muscle()
 
 
 def test_a_muscle_with_missing_numbers_is_refused():

@@ -18,6 +18,7 @@ from tests.helpers.species_texts import MINIMAL, faults_of
 from wingbeat.kinematics import Wingbeat
 from wingbeat.species import json_schema, load_species, species_names, template
 from wingbeat.species.building import UNNAMED_PATHS
+from wingbeat.species.writing import species_text
 from wingbeat.species_schema import KEYS
 
 # --- the animals in the box ---
@@ -62,6 +63,20 @@ def test_our_own_defaults_are_those_of_the_literature_notes() -> None:
     assert wings == [(0.020, 2.0), (0.0048, 0.94)]
     assert [a.vehicle.body.pitch_inertia for a in (pigeon, bat)] == [3.6e-4, 2.4e-5]
     assert [a.wingbeat.span_retraction for a in (pigeon, bat)] == [0.3, 0.0]
+
+
+@pytest.mark.parametrize("name", species_names())
+def test_every_animal_in_the_box_says_its_kind(name: str) -> None:
+    """And its text written anew says it, too."""
+    animal = load_species(name)
+    assert animal.kind == ("bat" if name in ("bat", "noctule") else "bird")
+    assert f'kind = "{animal.kind}"' in species_text(animal).splitlines()
+
+
+def test_a_kind_is_optional_and_one_of_three(load: Any) -> None:
+    assert load(MINIMAL).kind == ""
+    assert load('kind = "robot"\n' + MINIMAL).kind == "robot"
+    assert "bird, bat or robot" in faults_of(load, 'kind = "fish"\n' + MINIMAL)["kind"]
 
 
 @pytest.mark.parametrize("name", ["pigeon", "bat"])

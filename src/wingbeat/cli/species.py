@@ -148,6 +148,7 @@ def _summary(animal: Species) -> dict[str, Any]:
     return {
         "name": animal.name,
         "common_name": animal.common_name,
+        "kind": animal.kind,
         "mass": animal.vehicle.mass,
         "semi_span": wing.semi_span,
         "chord": wing.mean_chord,
@@ -192,7 +193,7 @@ def _print_list(everyone: list[Species]) -> None:
 
 def _print_species(animal: Species) -> None:
     console = plain_console()
-    names = [name for name in (animal.common_name, animal.scientific_name) if name]
+    names = [name for name in (animal.common_name, animal.scientific_name, animal.kind) if name]
     console.print(f"{animal.name}{': ' if names else ''}{', '.join(names)}")
     sources: dict[str, int] = {}
     console.print(_numbers_table("numbers", animal.numbers, sources))

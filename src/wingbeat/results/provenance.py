@@ -27,6 +27,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
             "name": species.name,
             "common_name": species.common_name,
             "scientific_name": species.scientific_name,
+            "kind": species.kind,
             "free": species.free,
             "bounds": species.bounds,
             "guessed_bounds": sorted(species.guessed_bounds),
@@ -101,6 +102,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
         name=known["name"],
         common_name=known["common_name"],
         scientific_name=known["scientific_name"],
+        kind=known.get("kind", ""),  # a file of a version without kinds has none
         vehicle=vehicle_from(inputs["vehicle"]),
         wingbeat=Wingbeat(**inputs["stock_wingbeat"]),
         air=Air(**inputs["air"]),

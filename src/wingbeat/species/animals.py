@@ -165,7 +165,7 @@ def _species(
             or (where == "name" and not text)
         ):
             faults.add(where, shown(text), "must be a text on one line", "for example 'jackdaw'")
-    content = SpeciesText(*names)
+    content = SpeciesText(*names, kind.name)
     _check_size(size, faults)
     for name, value in measured.items():
         _put(content.numbers, name, plain(value), size, faults)

@@ -29,6 +29,7 @@ _SU_FAN = "Su et al., arXiv 2302.09602"
 class Kind:
     """The laws of birds, bats or robots, and guesses where there is no law."""
 
+    name: str
     wing_length: Law
     wing_mass: Law
     pitch_inertia: Law
@@ -40,6 +41,7 @@ class Kind:
 
 
 BIRD = Kind(
+    "bird",
     scaling.BIRD_SEMI_SPAN,
     scaling.BIRD_WING_MASS,
     scaling.BIRD_PITCH_INERTIA,
@@ -50,6 +52,7 @@ BIRD = Kind(
     plausible_of_birds,
 )
 BAT = Kind(
+    "bat",
     scaling.HALF_SPAN,
     scaling.BAT_WING_MASS,
     scaling.BAT_PITCH_INERTIA,
@@ -60,6 +63,7 @@ BAT = Kind(
     plausible_of_bats,
 )
 ROBOT = Kind(
+    "robot",
     scaling.HALF_SPAN,
     scaling.ROBOT_WING_MASS,
     scaling.ROBOT_PITCH_INERTIA,

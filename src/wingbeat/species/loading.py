@@ -102,6 +102,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         name=content.name,
         common_name=content.common_name,
         scientific_name=content.scientific_name,
+        kind=content.kind,
         free=tuple(content.free),
         bounds={key: bound.bounds for key, bound in content.free.items()},
         guessed_bounds=frozenset(key for key, bound in bounds.items() if bound.guessed),

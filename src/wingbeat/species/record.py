@@ -52,6 +52,7 @@ class Species:
     Parameters
     ----------
     name, common_name, scientific_name : its names.
+    kind : ``"bird"``, ``"bat"`` or ``"robot"``; empty if the file does not say it.
     vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
     free : the free parameters of the wingbeat.
     bounds : lowest and highest value of each free parameter, in SI units and radians.
@@ -76,6 +77,7 @@ class Species:
     name: str
     common_name: str
     scientific_name: str
+    kind: str
     vehicle: Vehicle
     wingbeat: Wingbeat
     air: Air
@@ -217,27 +219,25 @@ class Species:
         found.update(tail_numbers(self.vehicle.mass))
         return self._rebuilt(self.numbers | found, found, FaultList())
 
-    def with_muscle(self, kind: str = "bird") -> Species:
+    def with_muscle(self) -> Species:
         """Return this species with the flight muscle that laws give for its mass.
 
         Its sources say ``derived``; see `wingbeat.species.muscle_laws`. The mass does not change.
 
-        Parameters
-        ----------
-        kind : ``"bird"`` or ``"bat"``.
-
         Raises
         ------
-        InvalidInputError : another kind.
+        InvalidInputError : its kind is neither bird nor bat.
 
         >>> from wingbeat.species import load_species
         >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
         0.0442
         """
         faults, found = FaultList(), Numbers()
-        faults.choice("kind", kind, ("bird", "bat"))
+        if self.kind not in ("bird", "bat"):
+            fix = 'write kind = "bird" or kind = "bat" into its file, or give the numbers muscle.* yourself'
+            faults.add("kind", self.kind, "has no laws of muscle", fix)
         faults.raise_if_any()
-        found.update(muscle_numbers(self.vehicle.mass, kind == "bat"))
+        found.update(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
         return self._rebuilt(self.numbers | found, found, faults)
 
     def with_alternative(self, name: str) -> Species:

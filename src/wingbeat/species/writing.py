@@ -25,6 +25,8 @@ def species_text(species: Species) -> str:
     lines = [_HEAD]
     for name in ("name", "common_name", "scientific_name"):
         lines.append(f"{name} = {_quoted(getattr(species, name))}")
+    if species.kind:
+        lines.append(f"kind = {_quoted(species.kind)}")
     lines += _tables(species.numbers, "", BODY)
     lines += [
         "",

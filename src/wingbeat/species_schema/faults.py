@@ -121,6 +121,8 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
             return "must not be empty", ""
         case "bool_type":
             return "must be true or false", ""
+        case "literal_error":
+            return f"must be one of {context['expected']}".replace("'", ""), ""
         case "list_type":
             return "must be a list of numbers", ""
         case "too_short" | "too_long":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
@@ -15,6 +15,7 @@ _Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
 # Tags appear in pydantic's error paths; the blank keeps them apart from any key of a file.
 TAGS = NUMBER, LIST, TABLE = " number", " list", " table"
 
+KINDS = ("bird", "bat", "robot")
 NUMBER_FIELDS = ["value", "unit", "source", "range"]
 
 
@@ -135,6 +136,7 @@ SpeciesFile = _table(
         "name": (str, Field(default=None, min_length=1)),
         "common_name": (str, ""),
         "scientific_name": (str, ""),
+        "kind": (Literal[KINDS], Field(default=None, description="what it is, for laws of a kind of flyer")),
         **_sections(complete=True),
         "free": (_table("Free", _leaves(FREE, _bounded), []), None),
         "path": (_table("Path", _leaves(PATH, _bounded), []), None),

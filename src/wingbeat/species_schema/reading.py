@@ -11,6 +11,7 @@ from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.species_schema.keys import FREE, KEYS, PARTS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.models import KINDS
 
 Value = float | tuple[float, ...]
 
@@ -82,6 +83,7 @@ class SpeciesText:
     name: str
     common_name: str = ""
     scientific_name: str = ""
+    kind: str = ""
     numbers: Numbers = field(default_factory=Numbers)
     free: dict[str, Bound] = field(default_factory=dict)
     path: dict[str, Bound] = field(default_factory=dict)
@@ -122,6 +124,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     result.name = _line(raw.get("name")) or name
     result.common_name = _line(raw.get("common_name"))
     result.scientific_name = _line(raw.get("scientific_name"))
+    result.kind = kind if (kind := raw.get("kind")) in KINDS else ""
     result.numbers = _numbers(raw, (), faults)
     _note_missing(raw, faults)
     result.free = _bounds(raw, FREE, result.written, faults)

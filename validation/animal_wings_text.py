@@ -109,6 +109,9 @@ GUESSES = (
     from the lift-to-drag ratio of 3.33 that Crandell and Tobalske give at 46 degrees, and 1.53 from a force
     normal to the wing, as on revolving plates. The model uses the middle of the two. Use this model for hover
     and slow flight.""",
+    """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so it
+    holds for slow and fast flight. That the two join in this way is a guess. It is not meant for glides, in which
+    wings stall earlier.""",
     """- `membrane` is largely a guess, because we found no polar of a bat's wing that we could read. Only two
     of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie 2007, doi
     10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8 (Muijres et

@@ -182,4 +182,7 @@ def estimates() -> str:
         for term, (value, low, high, basis) in terms.items():
             if model == "feathered" or basis != feathered[term].basis:
                 lines.append(f"| {model} | {term} | {value:g} | {low:g} to {high:g} | {basis} |")
-    return "\n".join([*lines, "| feathered-revolving | all others | | | as feathered |"])
+    others = [
+        f"| {model} | all others | | | as feathered |" for model in ("feathered-revolving", "feathered-flapping")
+    ]
+    return "\n".join([*lines, *others])

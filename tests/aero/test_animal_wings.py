@@ -15,6 +15,7 @@ from wingbeat.aero import (
     CamberedCoefficients,
     CamberedTerms,
     Feathered,
+    FeatheredFlapping,
     FeatheredRevolving,
     Membrane,
     SuFan,
@@ -26,7 +27,12 @@ TURN = np.radians(np.linspace(-180.0, 180.0, 3601))
 TERMS = {name: estimate.value for name, estimate in WING_ESTIMATES["feathered"].items()}
 
 
-MAKERS = {"feathered": Feathered, "feathered-revolving": FeatheredRevolving, "membrane": Membrane}
+MAKERS = {
+    "feathered": Feathered,
+    "feathered-revolving": FeatheredRevolving,
+    "feathered-flapping": FeatheredFlapping,
+    "membrane": Membrane,
+}
 
 
 def model_of(name):

@@ -1,6 +1,13 @@
 """Air loads: quasi-steady coefficients of a wing strip, and blade elements that turn them into forces."""
 
-from wingbeat.aero.animal_wings import WING_ESTIMATES, Estimate, Feathered, FeatheredRevolving, Membrane
+from wingbeat.aero.animal_wings import (
+    WING_ESTIMATES,
+    Estimate,
+    Feathered,
+    FeatheredFlapping,
+    FeatheredRevolving,
+    Membrane,
+)
 from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.choosing import coefficients_of, load_coefficients
@@ -42,6 +49,7 @@ __all__ = [
     "Dickinson",
     "Estimate",
     "Feathered",
+    "FeatheredFlapping",
     "FeatheredRevolving",
     "FormulaCoefficients",
     "FormulaTerms",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from wingbeat.aero.animal_wings import Feathered, FeatheredRevolving, Membrane
+from wingbeat.aero.animal_wings import Feathered, FeatheredFlapping, FeatheredRevolving, Membrane
 from wingbeat.aero.cambered import CamberedCoefficients
 from wingbeat.aero.formula import FormulaCoefficients
 from wingbeat.aero.published import Byl, Dickinson, ParslewCrowther, SuFan, Wang2004, WhitneyWood
@@ -18,5 +18,6 @@ LIBRARY: dict[str, Callable[..., FormulaCoefficients | CamberedCoefficients]] = 
     "byl": Byl,
     "feathered": Feathered,
     "feathered-revolving": FeatheredRevolving,
+    "feathered-flapping": FeatheredFlapping,
     "membrane": Membrane,
 }

@@ -46,8 +46,8 @@ def polar(
     edge); the last two are empty where the model has no centre of pressure.
 
     Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl; of animal wings, for which --extension has
-    no effect: feathered, feathered-revolving, membrane. A table has the columns alpha_deg, c_l, c_d and, if known,
-    x_cp; a fitted model is what `wingbeat fit` wrote.
+    no effect: feathered, feathered-revolving, feathered-flapping, membrane. A table has the columns alpha_deg,
+    c_l, c_d and, if known, x_cp; a fitted model is what `wingbeat fit` wrote.
     """
     faults = FaultList()
     if csv and json:

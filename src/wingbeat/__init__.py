@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from wingbeat import aero as aero
     from wingbeat import experiment as experiment
+    from wingbeat import models as models
     from wingbeat import plots as plots
     from wingbeat import viewer as viewer
     from wingbeat.actuators import Motor as Motor
@@ -182,6 +183,7 @@ _HOME = {
 _MODULES = {
     "aero": "aero",
     "experiment": "experiment",
+    "models": "models",
     "objectives": "orbits.problem.quantities",
     "plots": "plots",
     "viewer": "viewer",

@@ -19,12 +19,13 @@ from wingbeat.cli import main
 
 # The names of the record as it is documented.
 NAMES = {
-    "": "status message species vehicle aero air speed climb objective objective_value constraints wingbeat "
+    "": "status message species model vehicle aero air speed climb objective objective_value constraints wingbeat "
     "initial_state active_bounds closure failed_balance relaxations optimality starts distinct_optima "
     "starts_at_best plausibility "
     "mean_power peak_power mean_positive_power mean_actuator_power peak_actuator_power cost_of_transport "
     "body_pitch_range strouhal reduced_frequency reynolds alpha_quarter_span alpha_three_quarter_span "
     "floquet_multipliers stable warnings solve_seconds version",
+    "model": "name choices changed",
     "vehicle": "body wing",
     "vehicle.body": "mass pitch_inertia drag_area",
     "vehicle.wing": "semi_span chord mass mass_exponent shoulder stroke_plane_angle",

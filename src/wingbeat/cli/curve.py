@@ -10,10 +10,9 @@ from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
-    DEFAULT_AIR_LOADS,
     SPECIES,
-    AirLoadOptions,
     Climb,
     Output,
     Settings,
@@ -22,12 +21,10 @@ from wingbeat.cli.options import (
     check_files,
     check_outputs,
     check_result,
-    species_with,
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
-from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.saving import save_figure
 from wingbeat.results.curve import solve_curve
 
@@ -40,11 +37,14 @@ def curve(
         Parameter(consume_multiple=True, negative=(), help="Speeds [m/s]: 3:20:1, or 0 3:20:1 with hover."),
     ],
     climb: Climb = 0.0,
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    model: ModelOptions = DEFAULT_MODEL,
     within_plausible: WithinPlausible = False,
     minimise: Annotated[
-        str, Parameter(help="Quantity to minimise at each speed: frequency, positive-power, power, peak-power, ...")
-    ] = "frequency",
+        str | None,
+        Parameter(
+            help="Quantity to minimise at each speed: frequency, positive-power, ...; default that of the model."
+        ),
+    ] = None,
     subject_to: Annotated[
         list[str] | None,
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
@@ -72,11 +72,11 @@ def curve(
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
     row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))
-    problem = OrbitProblem(
-        species_with(species, set_),
-        speed=row[-1] if row else 0.0,
+    problem = model.problem(
+        species,
+        row[-1] if row else 0.0,
+        set_,
         climb=climb,
-        aero=air.loads(),
         bounds="plausible" if within_plausible else {},
         minimise=minimise,
         subject_to=subject_to or (),

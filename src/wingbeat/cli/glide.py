@@ -11,17 +11,15 @@ import numpy as np
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
-    DEFAULT_AIR_LOADS,
     SPECIES,
-    AirLoadOptions,
     Output,
     Payload,
     Settings,
     check_files,
     check_outputs,
     check_result,
-    species_with,
 )
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
@@ -51,7 +49,7 @@ def glide(
         str,
         Parameter(help="What turns to trim the pitching moment: body-pitch, flap or tail (nothing without one)."),
     ] = "body-pitch",
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,
     payload: Payload = 0.0,
     json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
@@ -75,10 +73,9 @@ def glide(
     if not -90 < flap_deg < 90:
         faults.add("--flap-deg", flap_deg, "must be between -90 and 90 degrees")
     faults.raise_if_any()
-    animal = species_with(species, set_, payload)
-    loads = air.loads()
+    animal, whole = model.flown(species, set_, payload)
     check_outputs(output, plot)
-    polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
+    polar = glide_polar(animal, whole.aero, np.radians(angles), math.radians(flap_deg), trim)
     if output:
         polar.save(output)
     if plot:

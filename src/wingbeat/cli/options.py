@@ -6,21 +6,17 @@ import inspect
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, fields
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
-from wingbeat.aero.choosing import load_hand
-from wingbeat.aero.fitted import Fitted
-from wingbeat.aero.model_file import read_model
 from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
 from wingbeat.results.aero_record import NotInFileError
 from wingbeat.results.saving import check_result_name
-from wingbeat.species import Species, load_species, parse_setting
+from wingbeat.species import Species, parse_setting
 
 
 def _whole(type_: type, tokens: Sequence[Token]) -> int:
@@ -55,76 +51,8 @@ WingsMayCross = Annotated[
 ]
 
 
-@Parameter(name="*")
-@dataclass(frozen=True)
-class AirLoadOptions:
-    """The options of the air loads, which all commands share that fly an animal."""
-
-    aero: Annotated[
-        str, Parameter(help="Coefficients: su-fan, feathered, ... (see `polar`), a table (.csv) or a fit (.toml).")
-    ] = "su-fan"
-    extension: Annotated[str, Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}.")] = (
-        "mirrored"
-    )
-    blend_width_deg: Annotated[
-        float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg].")
-    ] = 1.0
-    force_point: Annotated[str, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}.")] = (
-        "quarter-chord"
-    )
-    airspeed: Annotated[
-        str,
-        Parameter(
-            help="Airspeed that determines a strip's loads: planar (across the span) or full (also along it)."
-        ),
-    ] = "planar"
-    strips: Annotated[Whole, Parameter(help="Number of strips of one wing.")] = 10
-    unsteady: Annotated[
-        str,
-        Parameter(help="Unsteady terms: none, or thin-aerofoil (rotation, added mass and couples)."),
-    ] = "none"
-    inflow: Annotated[
-        str, Parameter(help="Induced flow: none, or momentum (for coefficients whose aspect ratio is known).")
-    ] = "none"
-    induced_factor: Annotated[float, Parameter(help="Induced power of the inflow over that of an ideal disc.")] = (
-        1.2
-    )
-    hand: Annotated[
-        str,
-        Parameter(help="Coefficients of the hand, as for --aero, which are then the arm's; none for one model."),
-    ] = "none"
-    hand_from: Annotated[float, Parameter(help="Span fraction where the hand of --hand begins.")] = 0.5
-    upstroke_factor: Annotated[
-        float, Parameter(help="Factor on the loads where air meets the wing from above: 1, or less, to 0.")
-    ] = 1.0
-
-    def loads(self) -> BladeElement:
-        """Return the air loads that the options ask for."""
-        reach = self.extension, self.blend_width_deg
-        return BladeElement(
-            load_coefficients(self.aero, *reach),
-            self.strips,
-            self.force_point,
-            self.airspeed,
-            self.unsteady,
-            self.inflow,
-            self.induced_factor,
-            load_hand(self.hand, *reach),
-            self.hand_from,
-            self.upstroke_factor,
-        )
-
-    def fit(self) -> Fitted | None:
-        """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
-        return read_model(self.aero) if self.aero.lower().endswith(".toml") else None
-
-
-DEFAULT_AIR_LOADS = AirLoadOptions()
-
-
-def species_with(name: str, settings: list[str] | None, payload: float = 0.0) -> Species:
+def with_settings(species: Species, settings: list[str] | None, payload: float = 0.0) -> Species:
     """Return a species with the numbers of ``--set`` and a payload; all its faults are reported at once."""
-    species = load_species(name)
     values, faults = {}, FaultList()
     if settings is not None and not settings:
         faults.add("--set", "", "must be PATH=VALUE", "for example wing.mass=0.02")
@@ -146,7 +74,7 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
     defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}
     names = []
     for name, value in values.items():
-        if isinstance(value, AirLoadOptions):
+        if is_dataclass(value):
             names += [field.name for field in fields(value) if getattr(value, field.name) != field.default]
         elif name not in allowed and value != defaults[name]:
             names.append(name)

@@ -20,10 +20,9 @@ from wingbeat.cli.filmed import (
     spread_record,
 )
 from wingbeat.cli.influence import print_influence
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
-    DEFAULT_AIR_LOADS,
     SPECIES,
-    AirLoadOptions,
     Climb,
     Output,
     Payload,
@@ -35,7 +34,6 @@ from wingbeat.cli.options import (
     check_outputs,
     check_result,
     given_beside,
-    species_with,
     unpacking,
 )
 from wingbeat.cli.progress import progress_bar
@@ -62,7 +60,7 @@ def orbit(
     *,
     speed: Annotated[float | None, Parameter(help="Mean forward speed [m/s]; 0 is hover.")] = None,
     climb: Climb = 0.0,
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    model: ModelOptions = DEFAULT_MODEL,
     flap_amplitude_max: Annotated[
         float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
@@ -71,8 +69,8 @@ def orbit(
         str | None,
         Parameter(
             help="Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
-            "peak-flap-torque, peak-pitch-torque, body-pitch-range, roughness, ...; default frequency, or "
-            "positive-power if a film gives the frequency"
+            "peak-flap-torque, body-pitch-range, metabolic-power, ...; default that of the model, "
+            "or positive-power if a film gives the frequency"
         ),
     ] = None,
     subject_to: Annotated[
@@ -143,22 +141,21 @@ def orbit(
     else:
         assert species is not None
         assert speed is not None
-        animal = species_with(species, set_, payload)
+        animal, whole = model.flown(species, set_, payload)
         bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), list(subject_to or ())
         if within_plausible and bounds:
             limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
-        loads = air.loads()
-        asked: dict[str, Any] = {"climb": climb, "aero": loads, "subject_to": limits}
+        asked: dict[str, Any] = {"climb": climb, "subject_to": limits}
         asked["bounds"] = "plausible" if within_plausible else bounds
         if wings_may_cross:
             asked["wings_may_cross"] = True
         if minimise is not None:
             asked["minimise"] = minimise
         if kinematics is None:
-            problem = OrbitProblem(animal, speed, **asked)
+            problem = whole.problem(animal, speed, **asked)
         else:
             beat = fit_film(read_film(kinematics))
-            problem = filmed_problem(beat, animal, speed, **asked)
+            problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     check_outputs(output, plot, tornado)
     found = _solve(problem, starts, seed)
     if output:
@@ -174,7 +171,7 @@ def orbit(
         record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
     influence, bars = None, []
     if certified and (sensitivities or tornado):
-        influence, bars = _influence(found, air, tornado)
+        influence, bars = _influence(found, model, tornado)
     if influence and sensitivities:
         record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
     if power:
@@ -203,14 +200,14 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
     return {"flap_amplitude": (least, math.radians(most_deg))}
 
 
-def _influence(found: Orbit, air: AirLoadOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
+def _influence(found: Orbit, model: ModelOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
     """Compute the sensitivities of an orbit, and draw the effects of its uncertain parameters."""
     influence = differentiate(found)
     if tornado is not None:
         from wingbeat.plots import save_figure, tornado_page
 
         save_figure(tornado_page(influence), tornado)
-    fit = air.fit()
+    fit = model.fit()
     return influence, [influence.error_bar(name, fit) for name in influence.values]
 
 

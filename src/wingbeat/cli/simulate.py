@@ -15,10 +15,9 @@ from rich.table import Table
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.carried import carried, report_carried
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
-    DEFAULT_AIR_LOADS,
     SPECIES,
-    AirLoadOptions,
     Output,
     Settings,
     Whole,
@@ -26,7 +25,6 @@ from wingbeat.cli.options import (
     check_outputs,
     check_result,
     given_beside,
-    species_with,
     unpacking,
 )
 from wingbeat.errors import FaultList
@@ -53,7 +51,7 @@ def simulate(
     w: Annotated[float | None, Parameter(help="Initial upward velocity [m/s].")] = None,
     body_pitch_deg: Annotated[float | None, Parameter(help="Initial body pitch, nose up [deg].")] = None,
     pitch_rate: Annotated[float | None, Parameter(help="Initial pitch rate [rad/s].")] = None,
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,
     kinematics: Kinematics = None,
     plot_kinematics: Annotated[
@@ -95,17 +93,17 @@ def simulate(
     if from_ is not None:
         orbit = load_orbit(from_)
         with unpacking(from_):
-            model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+            flown_by, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
         start = start._replace(**disturbed)
     else:
         assert species is not None
-        animal = species_with(species, set_)
+        animal, whole = model.flown(species, set_)
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = filmed_species(beat, animal)
             if beat.film.shows_body:
                 check_outputs(output, plot_kinematics)
-                flown, errors = carried(beat, animal, air.loads(), given, beats, samples)
+                flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
                 if output:
                     flown.save(output)
                 if plot_kinematics:
@@ -113,9 +111,10 @@ def simulate(
                 report_carried(flown, errors, beat, json)
                 return EXIT_GOOD
         wingbeat, start = animal.wingbeat, State(u=10.0)._replace(**disturbed)
-        model = FlightModel(animal.vehicle, air.loads(), animal.air, velocity=(float(start.u), float(start.w)))
+        velocity = float(start.u), float(start.w)
+        flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     check_outputs(output, plot_kinematics)
-    flight = fly(model, wingbeat, start, beats, samples)
+    flight = fly(flown_by, wingbeat, start, beats, samples)
     if output:
         flight.save(output)
     if plot_kinematics and beat:

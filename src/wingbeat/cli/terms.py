@@ -10,23 +10,20 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
-    DEFAULT_AIR_LOADS,
     SPECIES,
-    AirLoadOptions,
     Climb,
     Settings,
     Whole,
     WithinPlausible,
     check_files,
     check_outputs,
-    species_with,
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList
-from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots import save_figure, terms_page
 from wingbeat.results.terms import found_any, trace_terms
 
@@ -36,12 +33,15 @@ def terms(
     *,
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
     climb: Climb = 0.0,
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
+    model: ModelOptions = DEFAULT_MODEL,
     shares: Annotated[str, Parameter(help="Shares of the terms, 0 for none and 1 for all, start:stop:step.")] = (
         "0:1:0.25"
     ),
     within_plausible: WithinPlausible = False,
-    minimise: Annotated[str, Parameter(help="Quantity to minimise: frequency, positive-power, ...")] = "frequency",
+    minimise: Annotated[
+        str | None,
+        Parameter(help="Quantity to minimise: frequency, ...; default that of the model."),
+    ] = None,
     subject_to: Annotated[
         list[str] | None,
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
@@ -64,11 +64,11 @@ def terms(
     check_files(faults, None, plot=plot)
     faults.raise_if_any()
     row = [float(share) for share in parse_range(shares, "--shares")]
-    problem = OrbitProblem(
-        species_with(species, set_),
-        speed=speed,
+    problem = model.problem(
+        species,
+        speed,
+        set_,
         climb=climb,
-        aero=air.loads(),
         bounds="plausible" if within_plausible else {},
         minimise=minimise,
         subject_to=subject_to or (),

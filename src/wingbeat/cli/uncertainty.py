@@ -10,9 +10,9 @@ from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.influence import in_words, ranked_in_words
-from wingbeat.cli.options import DEFAULT_AIR_LOADS, SPECIES, AirLoadOptions, Climb, Settings, Whole, species_with
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
+from wingbeat.cli.options import SPECIES, Climb, Settings, Whole
 from wingbeat.cli.progress import progress_bar
-from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.results.sensitivities import Comparison, sensitivities, uncertainty_by_samples
 from wingbeat.results.solving import solve_orbit
@@ -24,8 +24,8 @@ def uncertainty(
     *,
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
     climb: Climb = 0.0,
-    air: AirLoadOptions = DEFAULT_AIR_LOADS,
-    minimise: Annotated[str, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = "frequency",
+    model: ModelOptions = DEFAULT_MODEL,
+    minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
     share: Annotated[float, Parameter(help="Share of every plausible range to sample, around the value.")] = 1.0,
     seed: Annotated[Whole, Parameter(help="Seed of the samples.")] = 0,
@@ -41,13 +41,7 @@ def uncertainty(
 
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
-    problem = OrbitProblem(
-        species_with(species, set_),
-        speed=speed,
-        climb=climb,
-        aero=air.loads(),
-        minimise=minimise,
-    )
+    problem = model.problem(species, speed, set_, climb=climb, minimise=minimise)
     orbit = solve_orbit(problem, seed=seed)
     if orbit.status is not Status.CONVERGED:
         Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
@@ -57,7 +51,7 @@ def uncertainty(
             sensitivities(orbit),
             samples=samples,
             seed=seed,
-            fit=air.fit(),
+            fit=model.fit(),
             share=share,
             processes=_processes(samples),
             progress=progress,

@@ -10,6 +10,7 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.origin import origin_from
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_quantity
 from wingbeat.results.aero_record import OWN, SET_ANEW, NotInFileError, aero_from, aero_inputs
@@ -52,6 +53,8 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
         "starts": starts,
         "seed": seed,
     }
+    if problem.origin is not None:
+        inputs["model"] = problem.origin.record()
     if options != DEFAULTS:
         inputs["options"] = options.changed()
     return json.loads(json.dumps(inputs))
@@ -79,6 +82,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
             for c in inputs["constraints"]
         ],
         air=species.air,
+        origin=origin_from(inputs["model"]) if "model" in inputs else None,
     )
 
 

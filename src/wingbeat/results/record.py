@@ -69,6 +69,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "status": solution.status.value,
         "message": solution.message,
         "species": problem.species.name,
+        **({} if problem.origin is None else {"model": problem.origin.record()}),
         "vehicle": vehicle_record(problem.vehicle),
         "aero": aero_record(problem.aero),
         "air": dict(vars(problem.air)),

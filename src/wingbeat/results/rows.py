@@ -31,7 +31,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     terms = [f"{aero[name]} {name}" for name in ("unsteady", "inflow") if name in aero]
     loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
     return {
-        "flight": [("species, mean speed", place), ("air loads", loads), *flight_rows(record)],
+        "flight": [("species, mean speed", place), *_model_rows(record), ("air loads", loads), *flight_rows(record)],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
         "smallest single changes that fly": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
@@ -41,6 +41,14 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "certificate": certificate_rows(record),
         "stability": stability_rows(record),
     }
+
+
+def _model_rows(record: dict[str, Any]) -> Rows:
+    """Return the name of the model that made the problem, and what the user chose in place of it."""
+    if "model" not in record:
+        return []
+    changed = [name.replace("_", "-") for name in record["model"]["changed"]]
+    return [("model", record["model"]["name"] + (f", but your own {', '.join(changed)}" if changed else ""))]
 
 
 def flight_rows(record: dict[str, Any]) -> Rows:

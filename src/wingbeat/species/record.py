@@ -42,7 +42,8 @@ from wingbeat.vehicle import Air, Vehicle
 
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 
-_SET_BY_HAND = "set by hand in place of"
+_BY_HAND = "set by hand"
+_SET_BY_HAND = f"{_BY_HAND} in place of"
 
 
 @dataclass(frozen=True)
@@ -173,11 +174,20 @@ class Species:
             numbers.pop("wingbeat.tail_tilt", None)
         return dataclasses.replace(changed, numbers=in_order(numbers))
 
+    def is_set_by_hand(self, path: str) -> bool:
+        """Return whether a number was set, by `with_values` or ``--set``, after the species was made.
+
+        Parameters
+        ----------
+        path : of the number.
+        """
+        return path in self.numbers and self.numbers[path].source.startswith(_BY_HAND)
+
     def _by_hand(self, path: str) -> str:
         """Return the source of a number that is set in place of this species' own."""
         old = self.numbers.get(path)
         if old is None:
-            return "set by hand"
+            return _BY_HAND
         if old.source.startswith(_SET_BY_HAND):
             return old.source
         return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
@@ -215,9 +225,7 @@ class Species:
         >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
         0.164
         """
-        found = Numbers()
-        found.update(tail_numbers(self.vehicle.mass))
-        return self._rebuilt(self.numbers | found, found, FaultList())
+        return self.with_derived(tail_numbers(self.vehicle.mass))
 
     def with_muscle(self) -> Species:
         """Return this species with the flight muscle that laws give for its mass.
@@ -232,13 +240,27 @@ class Species:
         >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
         0.0442
         """
-        faults, found = FaultList(), Numbers()
+        faults = FaultList()
         if self.kind not in ("bird", "bat"):
             fix = 'write kind = "bird" or kind = "bat" into its file, or give the numbers muscle.* yourself'
             faults.add("kind", self.kind, "has no laws of muscle", fix)
         faults.raise_if_any()
-        found.update(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
-        return self._rebuilt(self.numbers | found, found, faults)
+        return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
+
+    def with_derived(self, numbers: Mapping[str, Number]) -> Species:
+        """Return this species with numbers that laws gave, with their own sources and ranges.
+
+        Parameters
+        ----------
+        numbers : by their paths.
+
+        Raises
+        ------
+        InvalidInputError : the changed numbers make no vehicle.
+        """
+        found = Numbers()
+        found.update(numbers)
+        return self._rebuilt(self.numbers | found, found, FaultList())
 
     def with_alternative(self, name: str) -> Species:
         """Return this species with the numbers of one of its `alternatives`.

@@ -17,6 +17,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
@@ -57,6 +58,7 @@ class OrbitProblem:
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
+    origin : the model that the problem was made by, see `wingbeat.models`; it has no effect on the solution.
     wings_may_cross : whether a wing may cross the plane of symmetry, and flap angles may leave their range. A
         stroke whose parameters are all fixed may do so anyway, with a warning.
 
@@ -79,6 +81,7 @@ class OrbitProblem:
     air: Air = None  # type: ignore[assignment]  # the species' own, once constructed
     subject_to: Sequence[Any] = ()
     wings_may_cross: bool = False
+    origin: Origin | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()

@@ -1,0 +1,149 @@
+"""The options that say what a species is flown with: the model, and the air loads that replace its own."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, fields
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
+from wingbeat.aero.choosing import load_hand
+from wingbeat.aero.fitted import Fitted
+from wingbeat.aero.model_file import read_model
+from wingbeat.cli.options import Whole, with_settings
+from wingbeat.errors import FaultList
+from wingbeat.models import MODELS, Model, animal, paper
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.species import Species, load_species
+
+_OF_COEFFICIENTS = ("aero", "extension", "blend_width_deg", "hand")
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ModelOptions:
+    """The options of model and air loads, which all commands share that fly an animal.
+
+    An option that is not given is as the model says.
+    """
+
+    model: Annotated[
+        str,
+        Parameter(
+            help="What the species is flown with: paper (as Su et al. 2023), or animal (wing, tail, body drag, "
+            "terms and muscle of its kind). Other options replace parts of it; their defaults are those of paper."
+        ),
+    ] = "paper"
+    aero: Annotated[
+        str | None,
+        Parameter(
+            help="Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml)."
+        ),
+    ] = None
+    extension: Annotated[
+        str | None,
+        Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored."),
+    ] = None
+    blend_width_deg: Annotated[
+        float | None, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg]; default 1.")
+    ] = None
+    force_point: Annotated[
+        str | None, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}; default quarter-chord.")
+    ] = None
+    airspeed: Annotated[
+        str | None,
+        Parameter(
+            help="Airspeed that determines a strip's loads: planar (default, across the span) or full (also along)."
+        ),
+    ] = None
+    strips: Annotated[Whole | None, Parameter(help="Number of strips of one wing; default 10.")] = None
+    unsteady: Annotated[
+        str | None,
+        Parameter(help="Unsteady terms: none (default), or thin-aerofoil (rotation, added mass and couples)."),
+    ] = None
+    inflow: Annotated[
+        str | None,
+        Parameter(help="Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),
+    ] = None
+    induced_factor: Annotated[
+        float | None, Parameter(help="Induced power of the inflow over that of an ideal disc; default 1.2.")
+    ] = None
+    hand: Annotated[
+        str | None,
+        Parameter(
+            help="Coefficients of the hand, as for --aero, which are then the arm's; none (default) for one model."
+        ),
+    ] = None
+    hand_from: Annotated[
+        float | None, Parameter(help="Span fraction where the hand of --hand begins; default 0.5.")
+    ] = None
+    upstroke_factor: Annotated[
+        float | None, Parameter(help="Factor on the loads where air meets the wing from above: 1 (default) to 0.")
+    ] = None
+
+    def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
+        """Return a species as the model flies it, with the numbers of ``--set`` and a payload, and the model.
+
+        Raises
+        ------
+        FileError, InvalidInputError : as `load_species`, `chosen` and `with_settings`.
+        """
+        species = load_species(name)
+        model = self.chosen(species)
+        return with_settings(model.species(species), settings, payload), model
+
+    def problem(
+        self, name: str, speed: float, settings: list[str] | None, payload: float = 0.0, **asked: Any
+    ) -> OrbitProblem:
+        """Return the problem of a species by its name or file; of `asked`, None stands for the model's own choice.
+
+        Raises
+        ------
+        FileError, InvalidInputError : as `flown`; what `OrbitProblem` refuses.
+        """
+        species, model = self.flown(name, settings, payload)
+        given = {key: value for key, value in asked.items() if value is not None}
+        return model.problem(species, speed, **given)
+
+    def chosen(self, species: Species) -> Model:
+        """Return the model for a species, with the air loads that were given in place of its own.
+
+        Raises
+        ------
+        InvalidInputError : an unknown model, a species of unknown kind, air loads that are refused.
+        """
+        faults = FaultList()
+        faults.choice("--model", self.model, MODELS)
+        faults.raise_if_any()
+        whole = animal(species) if self.model == "animal" else paper()
+        given = self.given()
+        if not given:
+            return whole
+        others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
+        coefficients = self._coefficients(whole.aero)
+        loads = dataclasses.replace(whole.aero, **coefficients, **others)
+        return dataclasses.replace(whole, aero=loads, replaced=tuple(given))
+
+    def given(self) -> dict[str, Any]:
+        """Return the options of the air loads that were given."""
+        values = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "model"}
+        return {name: value for name, value in values.items() if value is not None}
+
+    def fit(self) -> Fitted | None:
+        """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
+        return read_model(self.aero) if self.aero is not None and self.aero.lower().endswith(".toml") else None
+
+    def _coefficients(self, own: BladeElement) -> dict[str, Any]:
+        """Return the coefficient models of arm and hand; a new extension makes those of the model anew."""
+        reach = self.extension or "mirrored", 1.0 if self.blend_width_deg is None else self.blend_width_deg
+        found: dict[str, Any] = {}
+        if self.aero is not None or self.extension is not None or self.blend_width_deg is not None:
+            found["coefficients"] = load_coefficients(self.aero or own.coefficients.name, *reach)
+        if self.hand is not None:
+            found["hand"] = load_hand(self.hand, *reach)
+        return found
+
+
+DEFAULT_MODEL = ModelOptions()

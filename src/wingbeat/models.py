@@ -1,0 +1,227 @@
+"""What a species is flown with: the choices of the paper, or those that suit a live animal of its kind.
+
+The model of a flight is many choices: coefficients, terms of the air loads, parts of the vehicle, free parameters
+and the objective. `paper` makes those of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), `animal` those of a bird,
+a bat or a robot. Choices depend on what the flyer is. None is fitted to a measured flight.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat.aero import BladeElement
+from wingbeat.errors import FaultList
+from wingbeat.orbits.problem.origin import Choice, Origin
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.species import Species
+from wingbeat.species.scaling import BODY_DRAG_AREA
+
+MODELS = ("paper", "animal")
+
+# Coefficients for each kind of wing, and what they are.
+_WINGS = {
+    "bird": (
+        "feathered-flapping",
+        "a feathered wing: attached flow as in a glide, stall as late as on revolving wings",
+    ),
+    "bat": ("membrane", "a membrane wing: a thin plate with the camber of bats; mostly guesses"),
+    "robot": ("su-fan", "a rigid wing: the flat plate measured by Su et al. 2023"),
+}
+# Free beyond what the species file frees: bounds [rad, 1] and their reasons.
+_FREE = {
+    "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: half of the angle by which a tail can spread"),
+    "downstroke_fraction": ((0.4, 0.6), "guess: measured birds and bats change it with speed, around a half"),
+}
+
+
+@dataclass(frozen=True)
+class Model:
+    """All choices of a flight but species and speed; made by `paper` and `animal`.
+
+    Attributes
+    ----------
+    name : ``"paper"`` or ``"animal"``.
+    kind : kind of flyer that it is for; empty for any.
+    aero : the air loads.
+    replaced : names of the air loads that the user chose in place of the model's own.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> wb.models.animal(pigeon).problem(pigeon, speed=12.0).minimise.name
+    'metabolic_power'
+    """
+
+    name: str
+    kind: str
+    aero: BladeElement
+    replaced: tuple[str, ...] = ()
+
+    def problem(self, species: Species, speed: float, climb: float = 0.0, **changes: Any) -> OrbitProblem:
+        """Return the problem of a flight with this model.
+
+        Parameters
+        ----------
+        species : the animal or robot, of the model's kind.
+        speed, climb : mean horizontal and vertical velocity [m/s].
+        changes : other parameters of `OrbitProblem`, such as ``minimise`` or ``subject_to``. They replace the
+            model's own choices.
+
+        Raises
+        ------
+        InvalidInputError : a species of another kind; what `OrbitProblem` refuses.
+        """
+        flown = self.species(species)
+        asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
+        replaced = sorted({*self.replaced, *(name for name, value in changes.items() if value)})
+        origin = Origin(self.name, tuple(self._choices(species, flown)), tuple(replaced))
+        return OrbitProblem(flown, speed, climb, origin=origin, **asked)
+
+    def objective(self, species: Species) -> str:
+        """Return the name of the quantity that it minimises.
+
+        Parameters
+        ----------
+        species : as flown, from `Model.species`.
+        """
+        if self.name == "paper":
+            return "frequency"
+        drive = species.vehicle.drive
+        if drive.muscle is not None:
+            return "metabolic_power"
+        return "electrical_power" if drive.motor is not None else "positive_power"
+
+    def species(self, species: Species) -> Species:
+        """Return the species with what the model adds to it: body drag, tail, muscle, free parameters.
+
+        What the species file gives stays as it is.
+
+        Parameters
+        ----------
+        species : the animal or robot.
+
+        Raises
+        ------
+        InvalidInputError : a species of another kind.
+        """
+        if self.name == "paper":
+            return species
+        _check_kind(species, self.kind)
+        flown, vehicle = species, species.vehicle
+        if not vehicle.body.drag_area and not species.is_set_by_hand("vehicle.body.drag_area"):
+            flown = _with_body_drag(flown)
+        if self.kind == "bird" and vehicle.tail is None:
+            flown = flown.with_tail()
+        if self.kind != "robot" and vehicle.muscle is None:
+            flown = flown.with_muscle()
+        return _freed(flown)
+
+    def _choices(self, given: Species, flown: Species) -> list[Choice]:
+        aero, objective = self.aero, self.objective(flown).replace("_", " ")
+        if self.name == "paper":
+            paper = "as in Su et al. 2023"
+            return [
+                Choice("coefficients", aero.coefficients.name, f"{paper}: measured on a flat plate"),
+                Choice("terms of the air loads", "none", f"{paper}: quasi-steady, no induced flow"),
+                Choice("vehicle and free parameters", "as in the species file", paper),
+                Choice("objective", objective, paper),
+            ]
+        body, tail, muscle = flown.vehicle.body, flown.vehicle.tail, flown.vehicle.muscle
+        numbers = flown.numbers
+        found = [
+            Choice("coefficients", aero.coefficients.name, _WINGS[self.kind][1]),
+            Choice("unsteady terms", aero.unsteady, "rotation and added mass: wings turn within a beat"),
+            Choice(
+                "inflow",
+                f"{aero.inflow}, {aero.induced_factor:g} times that of an ideal disc",
+                "a cockatiel's power fits 1.2 (Morris and Askew 2010, J Exp Biol 213:2781, abstract)",
+            ),
+            Choice("body drag area", f"{1e4 * body.drag_area:.2g} cm2", numbers["vehicle.body.drag_area"].source),
+        ]
+        if tail is not None:
+            found.append(Choice("tail area", f"{1e4 * tail.area:.2g} cm2", numbers["vehicle.tail.area"].source))
+        if muscle is not None:
+            mass = Choice(
+                "mass of the depressors", f"{1e3 * muscle.mass:.2g} g", numbers["vehicle.muscle.mass"].source
+            )
+            found.append(mass)
+        for name in flown.free:
+            if name not in given.free:
+                found.append(Choice(f"free: {name}", _limits(name), flown.reasons[name]))
+        return [*found, Choice("objective", objective, "what the beat costs the animal or its motor")]
+
+
+def paper() -> Model:
+    """Return the model of Su et al. 2023: a flat plate in quasi-steady air, least frequency.
+
+    >>> paper().aero.coefficients.name
+    'su-fan'
+    """
+    return Model("paper", "", BladeElement("su-fan"))
+
+
+def animal(species: Species) -> Model:
+    """Return the model that suits a live animal, or a robot, of the species' kind.
+
+    The wing is that of the kind. Air loads include rotation, added mass and induced flow; body, tail and muscle are
+    those of the species file or, where it gives none, of published laws. The tail's tilt and the length of the
+    downstroke are free. The objective is the metabolic power; for a robot, the electrical power of its motor, or
+    the positive power if no motor is known.
+
+    Parameters
+    ----------
+    species : the animal or robot; only its kind matters.
+
+    Raises
+    ------
+    InvalidInputError : a species whose kind is not known.
+
+    >>> import wingbeat as wb
+    >>> animal(wb.load_species("bat")).aero.coefficients.name
+    'membrane'
+    """
+    _check_kind(species, species.kind)
+    coefficients, _ = _WINGS[species.kind]
+    return Model("animal", species.kind, BladeElement(coefficients, unsteady="thin-aerofoil", inflow="momentum"))
+
+
+def _check_kind(species: Species, kind: str) -> None:
+    faults = FaultList()
+    if species.kind not in _WINGS:
+        fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
+        faults.add("kind", species.kind, "the model animal needs to know whether it is bird, bat or robot", fix)
+    elif species.kind != kind:
+        faults.add(
+            "species", species.name, f"is a {species.kind}, and this is the model of a {kind}", "make its own"
+        )
+    faults.raise_if_any()
+
+
+def _with_body_drag(species: Species) -> Species:
+    """Return the species with the body drag of its own alternative, or else of the law of birds."""
+    if "body-drag" in species.alternatives:
+        return species.with_alternative("body-drag")
+    return species.with_derived({"vehicle.body.drag_area": BODY_DRAG_AREA.number(species.vehicle.mass)})
+
+
+def _freed(species: Species) -> Species:
+    """Return the species with the tail's tilt and the downstroke's share free."""
+    added = [name for name in _FREE if name not in species.free]
+    if species.vehicle.tail is None and "tail_tilt" in added:
+        added.remove("tail_tilt")
+    return dataclasses.replace(
+        species,
+        free=(*species.free, *added),
+        bounds=species.bounds | {name: _FREE[name][0] for name in added},
+        guessed_bounds=species.guessed_bounds | set(added),
+        reasons=species.reasons | {name: _FREE[name][1] for name in added},
+    )
+
+
+def _limits(name: str) -> str:
+    low, high = _FREE[name][0]
+    if name == "tail_tilt":
+        return f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
+    return f"{low:g} to {high:g} of a beat"

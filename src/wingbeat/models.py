@@ -79,6 +79,13 @@ class Model:
         origin = Origin(self.name, tuple(self._choices(species, flown)), tuple(replaced))
         return OrbitProblem(flown, speed, climb, origin=origin, **asked)
 
+    @property
+    def gliding(self) -> BladeElement:
+        """The air loads of a glide: a feathered wing that is held still stalls as early as gliding wings do."""
+        if self.aero.coefficients.name != "feathered-flapping" or "aero" in self.replaced:
+            return self.aero
+        return dataclasses.replace(self.aero, coefficients="feathered")
+
     def objective(self, species: Species) -> str:
         """Return the name of the quantity that it minimises.
 
@@ -193,9 +200,7 @@ def _check_kind(species: Species, kind: str) -> None:
         fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
         faults.add("kind", species.kind, "the model animal needs to know whether it is bird, bat or robot", fix)
     elif species.kind != kind:
-        faults.add(
-            "species", species.name, f"is a {species.kind}, and this is the model of a {kind}", "make its own"
-        )
+        faults.add("species", species.name, f"is a {species.kind}, not a {kind}", "make a model of its own")
     faults.raise_if_any()
 
 

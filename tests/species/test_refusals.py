@@ -157,7 +157,10 @@ def test_missing_file_folder_pipe_and_impossible_paths(tmp_path: Path) -> None:
 
 def test_unknown_names_and_things_that_are_no_name() -> None:
     assert "did you mean pigeon" in faults_of(load_species, "Pigeons")["species"]
-    assert "barn-swallow, bat, common-murre" in faults_of(load_species, "template")["species"]
+    assert (
+        "annas-hummingbird, barn-swallow, bat, cockatiel, common-murre"
+        in faults_of(load_species, "template")["species"]
+    )
     assert "must be a name or a path" in faults_of(load_species, 3)["species"]
 
 

@@ -75,7 +75,7 @@ def glide(
     faults.raise_if_any()
     animal, whole = model.flown(species, set_, payload)
     check_outputs(output, plot)
-    polar = glide_polar(animal, whole.aero, np.radians(angles), math.radians(flap_deg), trim)
+    polar = glide_polar(animal, whole.gliding, np.radians(angles), math.radians(flap_deg), trim)
     if output:
         polar.save(output)
     if plot:

@@ -31,7 +31,12 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     terms = [f"{aero[name]} {name}" for name in ("unsteady", "inflow") if name in aero]
     loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
     return {
-        "flight": [("species, mean speed", place), *_model_rows(record), ("air loads", loads), *flight_rows(record)],
+        "flight": [
+            ("species, mean speed", place),
+            *_model_rows(record),
+            ("air loads", loads),
+            *flight_rows(record),
+        ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
         "smallest single changes that fly": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),

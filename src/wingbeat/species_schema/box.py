@@ -1,4 +1,4 @@
-"""The files in the box: the template to start from and the animals."""
+"""The files in the box: the template to start from, the animals and the robots."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def species_names() -> tuple[str, ...]:
     """Return the names of the built-in species.
 
     >>> species_names()[:3]
-    ('barn-swallow', 'bat', 'common-murre')
+    ('annas-hummingbird', 'barn-swallow', 'bat')
     """
     files = (entry.name for entry in resources.files("wingbeat").joinpath("data").iterdir())
     names = {name.removesuffix(".toml") for name in files if name.endswith(".toml")}

@@ -194,6 +194,28 @@ def animal(species: Species) -> Model:
     return Model("animal", species.kind, BladeElement(coefficients, unsteady="thin-aerofoil", inflow="momentum"))
 
 
+def model_of(name: str, species: Species) -> Model:
+    """Return the model of a name for a species.
+
+    Parameters
+    ----------
+    name : one of `MODELS`.
+    species : the animal or robot.
+
+    Raises
+    ------
+    InvalidInputError : an unknown name; what `animal` refuses.
+
+    >>> import wingbeat as wb
+    >>> model_of("animal", wb.load_species("bat")).kind
+    'bat'
+    """
+    faults = FaultList()
+    faults.choice("model", name, MODELS)
+    faults.raise_if_any()
+    return animal(species) if name == "animal" else paper()
+
+
 def _check_kind(species: Species, kind: str) -> None:
     faults = FaultList()
     if species.kind not in _WINGS:

@@ -13,8 +13,7 @@ from wingbeat.aero.choosing import load_hand
 from wingbeat.aero.fitted import Fitted
 from wingbeat.aero.model_file import read_model
 from wingbeat.cli.options import Whole, with_settings
-from wingbeat.errors import FaultList
-from wingbeat.models import MODELS, Model, animal, paper
+from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.species import Species, load_species
 
@@ -114,10 +113,7 @@ class ModelOptions:
         ------
         InvalidInputError : an unknown model, a species of unknown kind, air loads that are refused.
         """
-        faults = FaultList()
-        faults.choice("--model", self.model, MODELS)
-        faults.raise_if_any()
-        whole = animal(species) if self.model == "animal" else paper()
+        whole = model_of(self.model, species)
         given = self.given()
         if not given:
             return whole

@@ -88,6 +88,7 @@ class StudyForm(BaseModel):
 
     model_config = _STRICT
     species: _Texts
+    model: _Texts = Field(default=["paper"])
     aero: _Texts = Field(default=["su-fan"])
     extension: _Texts = Field(default=["mirrored"])
     blend_width_deg: _Numbers = Field(default=[1.0])

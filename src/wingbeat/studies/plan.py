@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import hashlib
 import itertools
@@ -18,8 +19,9 @@ from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
+from wingbeat.models import Model, model_of
 from wingbeat.nomenclature import plain_unit
-from wingbeat.species import load_species
+from wingbeat.species import Species, load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import dotted
@@ -33,7 +35,7 @@ MOST_POINTS = 10_000_000
 _ENOUGH = 100
 # What multiplies, in the order of its loops.
 _TOP = (
-    *("species", "aero", *OF_COEFFICIENTS, *OF_ELEMENTS, "minimise"),
+    *("species", "model", "aero", *OF_COEFFICIENTS, *OF_ELEMENTS, "minimise"),
     *("subject_to", "speed", "climb", "payload", "starts", "seed", "most_starts"),
 )
 
@@ -216,15 +218,40 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
 def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
     """Return functions that make the parts of a base from top-level keys; equal keys are evaluated only once."""
 
-    def loads(name: str, extension: str, blend_width_deg: float, *elements: Any) -> BladeElement:
-        given, reach = dict(zip(OF_ELEMENTS, elements, strict=True)), (extension, blend_width_deg)
-        arm, hand = (_beside(one, folder, (".csv", ".toml")) for one in (name, given.pop("hand")))
-        return BladeElement(load_coefficients(arm, *reach), hand=load_hand(hand, *reach), **given)
+    @functools.cache
+    def flown(species: str, model: str) -> tuple[Species, Model]:
+        own = load_species(_beside(species, folder, (".toml",)))
+        return own, model_of(model, own)
 
+    def animal(species: str, model: str) -> Species:
+        own, whole = flown(species, model)
+        complete = whole.species(own)
+        return complete.with_values(form.settings) if form.settings else complete
+
+    def loads(
+        species: str, model: str, name: str, extension: str, width_deg: float, *elements: Any
+    ) -> BladeElement:
+        own, chosen = flown(species, model)[1].aero, form.model_fields_set
+        reach = extension, width_deg
+        given = dict(zip(OF_ELEMENTS, elements, strict=True))
+        if model != "paper":  # what the study does not give is as the model says
+            given = {key: value for key, value in given.items() if key in chosen}
+            name = name if "aero" in chosen else own.coefficients.name
+        if "hand" in given:
+            given["hand"] = load_hand(_beside(given["hand"], folder, (".csv", ".toml")), *reach)
+        arm = load_coefficients(_beside(name, folder, (".csv", ".toml")), *reach)
+        return dataclasses.replace(own, coefficients=arm, **given)
+
+    def objective(species: str, model: str, name: str) -> dict[str, str]:
+        if model != "paper" and "minimise" not in form.model_fields_set:
+            name = flown(species, model)[1].objective(animal(species, model))
+        return as_inputs(name, folder)
+
+    of_model = "species", "model"
     makers = {
-        "species": (("species",), lambda name: _species(form, _beside(name, folder, (".toml",)))),
-        "aero": (("aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
-        "minimise": (("minimise",), lambda name: as_inputs(name, folder)),
+        "species": (of_model, animal),
+        "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
+        "minimise": ((*of_model, "minimise"), objective),
         "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }
     return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
@@ -273,11 +300,6 @@ def _hashable(fault: Fault) -> Fault:
 def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
     """Return the path of a file in the study's folder; a name without one of the suffixes stays as it is."""
     return str(folder / name) if name.lower().endswith(suffixes) else name
-
-
-def _species(form: StudyForm, name: str) -> Any:
-    species = load_species(name)
-    return species.with_values(form.settings) if form.settings else species
 
 
 def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:

@@ -315,3 +315,35 @@ def test_a_mistyped_subcommand_is_not_taken_for_a_file(tmp_path, monkeypatch, ca
     (tmp_path / "statu").write_text("species = 3")
     assert main(["study", "statu"]) == 2
     assert "species = 3: must be a text" in capsys.readouterr().err
+
+
+def test_a_study_by_both_models():
+    """What the study does not give is as the model says; what it gives replaces that."""
+    bases = plan(species=["pigeon", "bat"], model=["paper", "animal"], speed=8.0).bases
+    assert [(base.told["species"], base.told["model"]) for base in bases] == [
+        (species, model) for species in ("pigeon", "bat") for model in ("paper", "animal")
+    ]
+    for base in bases:
+        species = wb.load_species(base.told["species"])
+        model = wb.models.model_of(base.told["model"], species)
+        found, wanted = base.recipe.example, model.problem(species, 10.0)
+        assert (found.vehicle, found.aero, found.free, found.bounds) == (
+            wanted.vehicle,
+            wanted.aero,
+            wanted.free,
+            wanted.bounds,
+        )
+        assert found.minimise.name == wanted.minimise.name
+    own = plan(model="animal", aero="dickinson", inflow="none", minimise="frequency", speed=8.0).bases[0].recipe
+    assert (own.aero.coefficients.name, own.aero.unsteady, own.aero.inflow) == (
+        "dickinson",
+        "thin-aerofoil",
+        "none",
+    )
+    assert own.objective == {"name": "frequency"}
+    assert own.species.vehicle.muscle is not None
+
+
+def test_an_unknown_model_of_a_study_is_refused():
+    with pytest.raises(wb.InvalidInputError, match=r"model = 'beast'"):
+        plan(model="beast", speed=8.0)

@@ -285,10 +285,16 @@ def _base(
     try:
         _ = recipe.example
         told = {name: chosen[name] for name in _TOP if name in chosen and len(getattr(form, name)) > 1}
-        return Base(recipe, hashlib.sha256(canonical(recipe.inputs()).encode()).hexdigest(), told, motion)
+        return Base(recipe, hashlib.sha256(canonical(_decisive(recipe)).encode()).hexdigest(), told, motion)
     except InvalidInputError as error:
         faults.faults += [_hashable(fault) for fault in error.faults]
         return None
+
+
+def _decisive(recipe: Recipe) -> dict[str, Any]:
+    """Return the inputs that results depend on; whether the species is a bird or a bat is not among them."""
+    inputs = recipe.inputs()
+    return inputs | {"species": {key: value for key, value in inputs["species"].items() if key != "kind"}}
 
 
 def _hashable(fault: Fault) -> Fault:

@@ -1,16 +1,18 @@
 """Flights with unsteady air and inflow that several tests use."""
 
 import dataclasses
+import math
 
 import numpy as np
 
 import wingbeat as wb
 from tests.helpers.oracle_laws import wing_angles
-from wingbeat._jax.config import jax
+from wingbeat.results.dataset import evaluate
 
 NAMES = ("pigeon", "bat")
 CRUISE = (8.0, 0.5)
 PHASES = np.linspace(0.0, 1.0, 17)[:-1]
+SAMPLES = 4096  # of a beat that is flown
 # Every law of the wingbeat, and what only some vehicles have.
 EVERY_LAW = {
     "flap_mean": 0.1,
@@ -51,6 +53,20 @@ def vehicle_and_beat(name, every_law):
     return wb.Vehicle(body, wing, TAIL), dataclasses.replace(species.wingbeat, **EVERY_LAW)
 
 
+def section():
+    """Return the coefficients of `SuFan` as those of a section: with inflow they stay what they are."""
+    return dataclasses.replace(wb.aero.SuFan(), aspect_ratio=math.inf)
+
+
+# Every term at once. Compiling takes up to half a minute for each set of terms, so few sets are flown.
+ALL_TERMS = {
+    "inflow": "momentum",
+    "induced_factor": 1.35,
+    "force_point": "centre-of-pressure",
+    "airspeed": "full",
+}
+
+
 def flown_with(name, every_law=True, coefficients="su-fan", velocity=CRUISE, **terms):
     """Return a model with unsteady air and, unless told otherwise, nothing else beyond the plate, and its beat."""
     vehicle, beat = vehicle_and_beat(name, every_law)
@@ -58,8 +74,9 @@ def flown_with(name, every_law=True, coefficients="su-fan", velocity=CRUISE, **t
     return wb.FlightModel(vehicle, aero, velocity=velocity), beat
 
 
-def all_terms(name, every_law=True, **terms):
-    return flown_with(name, every_law, **{"inflow": "momentum", **terms})
+def all_terms(name):
+    """Return a model and beat with every law and every term."""
+    return flown_with(name, True, section(), **ALL_TERMS)
 
 
 def states_at(phase, seed=0):
@@ -69,7 +86,8 @@ def states_at(phase, seed=0):
 
 
 def loads(model, beat, states, phase):
-    return jax.tree.map(np.asarray, wb.flight_loads(model, beat, states, phase))
+    """Return the loads, in blocks of phases: they are one compiled program however many phases there are."""
+    return evaluate(model, beat, phase, np.stack(states, axis=-1))
 
 
 def coordinates(beat, now, states, phase):

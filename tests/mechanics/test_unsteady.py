@@ -9,18 +9,22 @@ from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
 from tests.helpers import oracle, unsteady_oracle
-from tests.helpers.differences import differences
+from tests.helpers.differences import ORDER_8, differences
 from tests.helpers.differences import miss as of_jacobians
 from tests.helpers.models import changed
+from tests.helpers.programs import compiled
 from tests.helpers.unsteady_flights import (
+    ALL_TERMS,
     CHORD,
     CRUISE,
     NAMES,
     PHASES,
+    SAMPLES,
     all_terms,
     coordinates,
     flown_with,
     loads,
+    section,
     states_at,
 )
 from wingbeat._jax.config import jax, jnp, unchecked
@@ -39,19 +43,18 @@ def wang(alpha):
     return c_l, c_d, 0.25
 
 
-# Coefficient model, the oracle's formula of it, and what it is flown with.
+# Coefficient model, the oracle's formula of it, whether every law is on, and the terms.
 KINDS = {
     "stock": ("su-fan", oracle.su_fan, False, {}),
-    "every law": ("su-fan", oracle.su_fan, True, {}),
-    "centre of pressure": (
-        "su-fan",
-        oracle.su_fan,
-        True,
-        {"force_point": "centre-of-pressure", "airspeed": "full"},
-    ),
-    "inflow": ("wang", wang, True, {"inflow": "momentum", "induced_factor": 1.35}),
-    "inflow alone": ("wang", wang, True, {"inflow": "momentum", "unsteady": "none"}),
+    "all terms": (section(), oracle.su_fan, True, ALL_TERMS),
+    "inflow alone": ("wang", wang, False, {"inflow": "momentum", "unsteady": "none"}),
 }
+UNSTEADY = ("stock", "all terms")
+
+
+def flown_as(name, kind):
+    coefficients, _, every_law, terms = KINDS[kind]
+    return flown_with(name, every_law, coefficients, **terms)
 
 
 def flier_of(model, beat, formula, terms):
@@ -80,8 +83,8 @@ def flier_of(model, beat, formula, terms):
 @functools.cache
 def against_the_oracle(name, kind):
     """Return a model, its beat, the oracle's flier, and states where every strip flies outside the blends."""
-    coefficients, formula, every_law, terms = KINDS[kind]
-    model, beat = flown_with(name, every_law, coefficients, **terms)
+    _, formula, _, terms = KINDS[kind]
+    model, beat = flown_as(name, kind)
     flier = flier_of(model, beat, formula, terms)
     found, random = [], np.random.default_rng(NAMES.index(name))
     for _ in range(400):
@@ -99,11 +102,7 @@ def against_the_oracle(name, kind):
     return model, beat, flier, states, phases, wanted
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("name", NAMES)
-def test_accelerations_torques_and_powers_are_those_of_the_oracle(name, kind):
-    model, beat, flier, states, phases, wanted = against_the_oracle(name, kind)
-    now = loads(model, beat, wb.State(*states.T), phases)
+def assert_flies_as(flier, now, states, phases, wanted):
     np.testing.assert_allclose(now.acceleration, wanted, rtol=1e-9, atol=1e-9)
     rows = [unsteady_oracle.torques_and_powers(flier, *at) for at in zip(states, phases, strict=True)]
     rows_of = {key: np.array([row[key] for row in rows]) for key in rows[0]}
@@ -113,9 +112,27 @@ def test_accelerations_torques_and_powers_are_those_of_the_oracle(name, kind):
         np.testing.assert_allclose(found[key], value, rtol=1e-9, atol=1e-10 * np.abs(value).max(), err_msg=key)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", NAMES)
+def test_accelerations_torques_and_powers_are_those_of_the_oracle(name, kind):
+    model, beat, flier, states, phases, wanted = against_the_oracle(name, kind)
+    assert_flies_as(flier, loads(model, beat, wb.State(*states.T), phases), states, phases, wanted)
+
+
+@pytest.mark.parametrize("kind", UNSTEADY)
+@pytest.mark.parametrize("share", [0.0, 0.3])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_share_of_the_unsteady_terms_is_that_of_the_oracle(name, share, kind):
+    model, beat, flier, states, phases, _ = against_the_oracle(name, kind)
+    flier = dataclasses.replace(flier, share=share)
+    wanted = [unsteady_oracle.accelerations(flier, *at) for at in zip(states, phases, strict=True)]
+    now = loads(changed(model, unsteady=np.asarray(share)), beat, wb.State(*states.T), phases)
+    assert_flies_as(flier, now, states, phases, np.array(wanted))
+
+
 def test_the_comparison_sees_each_unsteady_term():
     """A share of the terms that is off by a millionth, and a wind that is, are found."""
-    model, beat, flier, states, phases, _ = against_the_oracle("bat", "inflow")
+    model, beat, flier, states, phases, _ = against_the_oracle("bat", "all terms")
     now = loads(model, beat, wb.State(*states.T), phases).acceleration[0]
     for other in (
         dataclasses.replace(flier, share=1.0 + 1e-6),
@@ -128,17 +145,10 @@ def test_the_comparison_sees_each_unsteady_term():
 # --- The two forms
 
 
-FORMS = {
-    "unsteady": {},
-    "all terms": {"inflow": "momentum", "force_point": "centre-of-pressure", "airspeed": "full"},
-}
-
-
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("every_law", [False, True])
+@pytest.mark.parametrize("kind", UNSTEADY)
 @pytest.mark.parametrize("name", NAMES)
-def test_the_five_coordinates_need_no_force_but_the_hinge_torques(name, every_law, form):
-    model, beat = flown_with(name, every_law, **FORMS[form])
+def test_the_five_coordinates_need_no_force_but_the_hinge_torques(name, kind):
+    model, beat = flown_as(name, kind)
     states = states_at(PHASES)
     now = loads(model, beat, states, PHASES)
     motion = coordinates(beat, now, states, PHASES)
@@ -170,27 +180,27 @@ def test_air_forces_fall_by_the_added_mass_with_acceleration(name):
 # --- Energy, momentum
 
 
-@jax.jit
-def rates_along(model, beat, state, phase):
-    """Return the loads, and the exact rates of energy and momentum along the flight."""
-    now = wb.flight_loads(model, beat, state, phase)
-    flow = wb.State(state.u, state.w, state.pitch_rate, *jnp.moveaxis(now.acceleration, -1, 0))
+def rates_along(model, beat, now, states, phase):
+    """Return the rates of energy and momentum along the flight, by differences over fractions of a millisecond."""
+    flow = np.stack([states.u, states.w, states.pitch_rate, *now.acceleration.T])
 
-    def held(state, phase):
-        then = wb.flight_loads(model, beat, state, phase)
-        return then.kinetic_energy + then.potential_energy, then.momentum
+    def held(after):
+        later = wb.State(*(np.stack(states) + after * flow))
+        then = loads(model, beat, later, phase + after * beat.frequency)
+        return np.column_stack([then.kinetic_energy + then.potential_energy, then.momentum])
 
-    per_second = beat.frequency * jnp.ones_like(phase)
-    return now, jax.jvp(held, (state, phase), (flow, per_second))[1]
+    step = 2e-4
+    rates = sum(w * (held(k * step) - held(-k * step)) for k, w in ORDER_8.items()) / step
+    return rates[:, 0], rates[:, 1:]
 
 
-@pytest.mark.parametrize(
-    ("name", "every_law", "airspeed"),
-    [("bat", False, "planar"), ("pigeon", True, "full")],
-)
-def test_energy_changes_by_the_actuators_and_the_air_and_momentum_by_the_air(name, every_law, airspeed):
-    model, beat = all_terms(name, every_law, airspeed=airspeed)
-    now, (energy, momentum) = jax.tree.map(np.asarray, rates_along(model, beat, states_at(PHASES), PHASES))
+@pytest.mark.parametrize("kind", UNSTEADY)
+@pytest.mark.parametrize("name", NAMES)
+def test_energy_changes_by_the_actuators_and_the_air_and_momentum_by_the_air(name, kind):
+    model, beat = flown_as(name, kind)
+    states = states_at(PHASES)
+    now = loads(model, beat, states, PHASES)
+    energy, momentum = rates_along(model, beat, now, states, PHASES)
     peak = np.abs(now.actuator_power).max()
     assert np.abs(energy - now.actuator_power - now.air_power).max() <= 1e-10 * peak
     pushed = now.air_force[:, :2] - [0.0, model.vehicle.mass * model.air.gravity]
@@ -212,13 +222,14 @@ def spline_torques(time, spline):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_torques_drive_the_wing_along_its_prescribed_flight(name):
-    model, beat = all_terms(name, every_law=False)
-    phase, states = fly_beats(model, beat, wb.State(0.0, 0.0, 0.2, *CRUISE, 0.0), 1, 2048)
+    # The terms and the number of samples are those of the orbits in `test_unsteady_orbits`.
+    model, beat = flown_with(name, False, inflow="momentum")
+    phase, states = fly_beats(model, beat, wb.State(0.0, 0.0, 0.2, *CRUISE, 0.0), 1, SAMPLES)
     now = evaluate(model, beat, phase, states)
     q = np.column_stack([states[:, :3], now.flap, now.wing_pitch])
     rates = np.column_stack([states[:, 3:], now.flap_rate, now.wing_pitch_rate])
     torques = np.column_stack([now.flap_torque, now.pitch_torque])
-    upto = slice(0, 257, 32)  # an eighth of a beat
+    upto = slice(0, SAMPLES // 8 + 1, SAMPLES // 64)  # an eighth of a beat
 
     def miss(flown):
         spline = CubicSpline(phase / beat.frequency, torques)
@@ -230,40 +241,22 @@ def test_torques_drive_the_wing_along_its_prescribed_flight(name):
 
     assert miss(model) <= 1e-6
     # In steady air the same torques drive another motion.
-    assert miss(changed(model, unsteady=0.0)) > 1e-3
+    assert miss(changed(model, unsteady=np.asarray(0.0))) > 1e-3
 
 
 # --- Derivatives
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_derivatives_by_the_state_are_those_of_differences(name):
-    model, beat = all_terms(name, force_point="centre-of-pressure", airspeed="full")
-    phase = np.array([0.13, 0.4, 0.71])
-    rates = jax.jit(lambda pitch_state: body_rates(model, motion_table(model, beat, phase), pitch_state))
-    state = np.array([0.3, 8.0, 0.4, 1.5])
-
-    def at(row):
-        return np.asarray(rates(np.tile(row[:, None], phase.size))).ravel()
-
-    def tangent(row):
-        along = [(np.tile(one[:, None], phase.size),) for one in (state, row)]
-        return np.asarray(jax.jvp(rates, *along)[1]).ravel()
-
-    tangents = [tangent(row) for row in np.eye(4)]
-    found = differences(at, state, [1e-4, 1e-3, 1e-3, 1e-2])
-    assert of_jacobians(np.stack(tangents, axis=-1), found) <= 1e-7
+def changed_record(record, **fields):
+    return unchecked(type(record), vars(record) | fields)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_derivatives_by_wingbeat_vehicle_and_air_are_those_of_differences(name):
-    model, beat = all_terms(name)
-    phase = np.array([0.13, 0.4, 0.71])
-    state = np.tile(np.array([0.3, 8.0, 0.4, 1.5])[:, None], phase.size)
+@compiled
+def rates_and_change(model, beat, phase, numbers, direction):
+    """Return the rates of the pitch state, and their change with numbers of state, wingbeat, vehicle and air."""
 
-    @jax.jit
     def rates(numbers):
-        chord, density, share, frequency, fold, sweep, twist = numbers
+        chord, density, share, frequency, fold, sweep, twist, *pitch_state = numbers
         wing = changed_record(model.vehicle.wing, chord=chord * jnp.asarray(CHORD))
         flown = changed(
             model,
@@ -274,13 +267,23 @@ def test_derivatives_by_wingbeat_vehicle_and_air_are_those_of_differences(name):
         flapped = changed_record(
             beat, frequency=frequency, fold_amplitude=fold, sweep_amplitude=sweep, twist_ratio=twist
         )
+        state = jnp.stack(pitch_state)[:, None] * jnp.ones_like(phase)
         return body_rates(flown, motion_table(flown, flapped, phase), state).ravel()
 
-    numbers = np.array([1.0, 1.2, 0.9, 6.0, 0.3, 0.2, 0.7])
-    exact = np.asarray(jax.jacfwd(rates)(numbers))
-    found = differences(lambda at: np.asarray(rates(at)), numbers, 1e-3)
+    return jax.jvp(rates, (numbers,), (direction,))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_derivatives_by_state_wingbeat_vehicle_and_air_are_those_of_differences(name):
+    model, beat = all_terms(name)
+    numbers = np.array([1.0, 1.2, 0.9, 6.0, 0.3, 0.2, 0.7, 0.3, 8.0, 0.4, 1.5])
+    steps = [*[1e-3] * 7, 1e-4, 1e-3, 1e-3, 1e-2]
+
+    def at(numbers, direction):
+        return [
+            np.asarray(a) for a in rates_and_change(model, beat, np.array([0.13, 0.4, 0.71]), numbers, direction)
+        ]
+
+    exact = np.stack([at(numbers, direction)[1] for direction in np.eye(numbers.size)], axis=-1)
+    found = differences(lambda near: at(near, 0.0 * near)[0], numbers, steps)
     assert of_jacobians(exact, found) <= 1e-7
-
-
-def changed_record(record, **fields):
-    return unchecked(type(record), vars(record) | fields)

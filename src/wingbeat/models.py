@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -46,7 +47,6 @@ class Model:
     name : ``"paper"`` or ``"animal"``.
     kind : kind of flyer that it is for; empty for any.
     aero : the air loads.
-    replaced : names of the air loads that the user chose in place of the model's own.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -57,7 +57,6 @@ class Model:
     name: str
     kind: str
     aero: BladeElement
-    replaced: tuple[str, ...] = ()
 
     def problem(self, species: Species, speed: float, climb: float = 0.0, **changes: Any) -> OrbitProblem:
         """Return the problem of a flight with this model.
@@ -75,14 +74,13 @@ class Model:
         """
         flown = self.species(species)
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
-        replaced = sorted({*self.replaced, *(name for name, value in changes.items() if value)})
-        origin = Origin(self.name, tuple(self._choices(species, flown)), tuple(replaced))
+        origin = Origin(self.name, tuple(self._choices(species, flown)), tuple(self._changed(flown, changes)))
         return OrbitProblem(flown, speed, climb, origin=origin, **asked)
 
     @property
     def gliding(self) -> BladeElement:
         """The air loads of a glide: a feathered wing that is held still stalls as early as gliding wings do."""
-        if self.aero.coefficients.name != "feathered-flapping" or "aero" in self.replaced:
+        if self.aero.coefficients.name != "feathered-flapping":
             return self.aero
         return dataclasses.replace(self.aero, coefficients="feathered")
 
@@ -98,7 +96,7 @@ class Model:
         drive = species.vehicle.drive
         if drive.muscle is not None:
             return "metabolic_power"
-        return "electrical_power" if drive.motor is not None else "positive_power"
+        return "electrical_power" if drive.motor is not None else "mean_positive_power"
 
     def species(self, species: Species) -> Species:
         """Return the species with what the model adds to it: body drag, tail, muscle, free parameters.
@@ -124,6 +122,15 @@ class Model:
         if self.kind != "robot" and vehicle.muscle is None:
             flown = flown.with_muscle()
         return _freed(flown)
+
+    def _changed(self, flown: Species, changes: Mapping[str, Any]) -> Iterator[str]:
+        """Yield the names of what the user chose otherwise than the model."""
+        own = _air_loads(self.name, self.kind)
+        for place in dataclasses.fields(BladeElement):
+            if getattr(self.aero, place.name) != getattr(own, place.name):
+                yield "aero" if place.name == "coefficients" else place.name
+        usual = {"minimise": self.objective(flown), "free": flown.free}
+        yield from (name for name, value in changes.items() if value and value != usual.get(name))
 
     def _choices(self, given: Species, flown: Species) -> list[Choice]:
         aero, objective = self.aero, self.objective(flown).replace("_", " ")
@@ -166,7 +173,7 @@ def paper() -> Model:
     >>> paper().aero.coefficients.name
     'su-fan'
     """
-    return Model("paper", "", BladeElement("su-fan"))
+    return Model("paper", "", _air_loads("paper", ""))
 
 
 def animal(species: Species) -> Model:
@@ -190,8 +197,7 @@ def animal(species: Species) -> Model:
     'membrane'
     """
     _check_kind(species, species.kind)
-    coefficients, _ = _WINGS[species.kind]
-    return Model("animal", species.kind, BladeElement(coefficients, unsteady="thin-aerofoil", inflow="momentum"))
+    return Model("animal", species.kind, _air_loads("animal", species.kind))
 
 
 def model_of(name: str, species: Species) -> Model:
@@ -214,6 +220,12 @@ def model_of(name: str, species: Species) -> Model:
     faults.choice("model", name, MODELS)
     faults.raise_if_any()
     return animal(species) if name == "animal" else paper()
+
+
+def _air_loads(name: str, kind: str) -> BladeElement:
+    if name == "paper":
+        return BladeElement("su-fan")
+    return BladeElement(_WINGS[kind][0], unsteady="thin-aerofoil", inflow="momentum")
 
 
 def _check_kind(species: Species, kind: str) -> None:

@@ -9,9 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wingbeat import models
 from wingbeat.aero import EXTENSIONS, LIBRARY
+from wingbeat.app.controls import choices_of
 from wingbeat.app.links import from_json, from_plain, from_query, to_json, to_plain, to_query
-from wingbeat.app.scenario import LARGEST_FILE, Scenario, problem_of
+from wingbeat.app.scenario import LARGEST_FILE, Scenario, problem_of, species_in
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.species import load_species, species_names, template
 
@@ -21,6 +23,7 @@ scenarios = st.builds(
     species=st.sampled_from(species_names()),
     speed=st.floats(0, 100),
     climb=st.floats(-100, 100),
+    model=st.sampled_from(models.MODELS),
     aero=st.sampled_from(sorted(LIBRARY)),
     extension=st.sampled_from(EXTENSIONS),
     blend_width_deg=st.floats(0.01, 3),
@@ -169,3 +172,25 @@ def test_bounds_of_a_tail_tilt_that_the_species_frees_only_replace_its_own():
     for scenario in (own, dataclasses.replace(own, bounds={"tail_tilt": (-0.1, 0.1)})):
         assert problem_of(scenario).free.count("tail_tilt") == 1
     assert problem_of(scenario).bounds["tail_tilt"] == (-0.1, 0.1)
+
+
+@pytest.mark.parametrize("name", ["pigeon", "bat", "purdue-hummingbird"])
+def test_a_model_that_is_chosen_is_that_of_the_command(name):
+    """The page takes its air loads and objective, and the problem is the model's own; the link keeps it."""
+    species = load_species(name)
+    model = models.animal(species)
+    scenario = Scenario(species=name, model="animal", speed=9.0, **choices_of("animal", species))
+    back = from_query(to_query(scenario))
+    assert back == scenario
+    found, wanted = problem_of(back), model.problem(species, 9.0)
+    assert (found.vehicle, found.aero, found.free) == (wanted.vehicle, wanted.aero, wanted.free)
+    assert (found.bounds, found.minimise, found.origin) == (wanted.bounds, wanted.minimise, wanted.origin)
+    assert problem_of(Scenario(species=name)).origin == models.paper().problem(species, 10.0).origin
+
+
+def test_a_model_for_a_species_of_unknown_kind_is_refused():
+    text = template().replace('kind = "bird"', "")
+    scenario = Scenario(species="mine", species_file=text, model="animal")
+    assert species_in(scenario).vehicle.muscle is None
+    with pytest.raises(InvalidInputError, match='kind = "bird", "bat" or "robot"'):
+        problem_of(scenario)

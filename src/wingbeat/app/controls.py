@@ -9,13 +9,16 @@ from typing import Any
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
-from wingbeat.app.scenario import Scenario, species_in
+from wingbeat.app.scenario import Scenario, own_species, species_in
 from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
+from wingbeat.errors import InvalidInputError
+from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.species import species_names
+from wingbeat.species import Species, species_names
 
 _OWN = "(loaded file)"
+_CHOICES = ("model", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 
 
@@ -31,7 +34,7 @@ class Controls:
     def __init__(self, scenario: Scenario, change: Callable[..., Any]) -> None:
         self._scenario, self._change = scenario, change
         self._fields: dict[str, Field] = {}
-        self._species = ""
+        self._species = "", ""
 
     def build_flight(self) -> None:
         """Make the main controls: animal and flight."""
@@ -45,6 +48,8 @@ class Controls:
             self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
+            whole = [("paper", "paper: the plate of Su et al."), ("animal", "animal: wing and muscle of its kind")]
+            self._fields["model"] = choice_field("Flown as", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
 
@@ -96,7 +101,7 @@ class Controls:
         self._build_numbers()
 
     def _build_numbers(self) -> None:
-        self._species = self._scenario.species_file or self._scenario.species
+        self._species = _animal_of(self._scenario)
         self._numbers_place.clear()
         with self._numbers_place:
             self._numbers = Numbers(species_in(self._scenario), self._scenario, self._change)
@@ -104,7 +109,7 @@ class Controls:
     def show(self, scenario: Scenario) -> None:
         """Show another scenario."""
         before, self._scenario = self._scenario, scenario
-        if (scenario.species_file or scenario.species) != self._species:
+        if _animal_of(scenario) != self._species:
             self._own = (_OWN, f"{scenario.species} (loaded file)") if scenario.species_file else None
             self._animal_place.clear()
             with self._animal_place:
@@ -114,7 +119,7 @@ class Controls:
             self._numbers.show(scenario)
         for name in ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor"):
             self._fields[name].show(f"{getattr(scenario, name):g}")
-        for name in ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise"):
+        for name in _CHOICES:
             self._fields[name].show(getattr(scenario, name))
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)
@@ -143,9 +148,21 @@ class Controls:
         return self._fields.get(name) or self._numbers.field_of(where)
 
     def _choose_animal(self, name: str) -> None:
-        if name != _OWN:
-            # The numbers that were changed were another animal's.
-            self._change(species=name, species_file="", values={}, bounds={})
+        if name == _OWN:
+            return
+        # The numbers that were changed were another animal's, and a model depends on the kind of flyer.
+        model = self._scenario.model
+        loads = {} if model == "paper" else choices_of(model, own_species(Scenario(species=name)))
+        self._change(species=name, species_file="", values={}, bounds={}, **loads)
+
+    def _choose_model(self, name: str) -> None:
+        """Take the air loads and the objective of a model; the numbers that were changed may be none of its own."""
+        try:
+            chosen = choices_of(name, own_species(self._scenario))
+        except InvalidInputError as error:
+            self._fields["model"].refuse("; ".join(fault.fix for fault in error.faults))
+            return
+        self._change(model=name, values={}, bounds={}, **chosen)
 
     def _word(self, name: str) -> Callable[[str], None]:
         return lambda text: self._change(**{name: text})
@@ -171,6 +188,18 @@ class Controls:
 
     def _limits(self, text: str) -> None:
         self._change(limits=tuple(part.strip() for part in text.split(",") if part.strip()))
+
+
+def choices_of(name: str, species: Species) -> dict[str, Any]:
+    """Return the choices of the page that a model makes for a species."""
+    model = model_of(name, species)
+    loads = {place: getattr(model.aero, place) for place in ("unsteady", "inflow", "induced_factor")}
+    return {"aero": model.aero.coefficients.name, "minimise": model.objective(model.species(species)), **loads}
+
+
+def _animal_of(scenario: Scenario) -> tuple[str, str]:
+    """Return what decides which numbers the species has: the species and its model."""
+    return scenario.species_file or scenario.species, scenario.model
 
 
 def _quantity(name: str) -> str:

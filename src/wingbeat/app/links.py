@@ -22,7 +22,18 @@ _VERSION = 1
 _PAIRS = "bounds"
 _NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
 _WHOLE = ("strips", "starts", "seed")
-_WORDS = ("species", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
+_WORDS = (
+    "species",
+    "model",
+    "aero",
+    "extension",
+    "force_point",
+    "airspeed",
+    "unsteady",
+    "inflow",
+    "hand",
+    "minimise",
+)
 _LONGEST_WORD = 200
 
 

@@ -20,6 +20,7 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import Species, load_species, species_names
@@ -42,6 +43,8 @@ class Scenario:
     species : name of a built-in species, or of the one in `species_file`.
     species_file : TOML text of the visitor's own species, empty for a built-in one.
     speed, climb : mean velocity [m/s].
+    model : ``"paper"`` or ``"animal"``, see `wingbeat.models`: what it adds to the species. The page sets the
+        air loads and the objective of a model when it is chosen; they can be changed afterwards.
     aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
         hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
@@ -58,6 +61,7 @@ class Scenario:
     species_file: str = ""
     speed: float = 10.0
     climb: float = 0.0
+    model: str = "paper"
     aero: str = "su-fan"
     extension: str = "mirrored"
     blend_width_deg: float = 1.0
@@ -87,6 +91,7 @@ class Scenario:
             faults.add("species_file", f"{len(self.species_file)} characters", f"must be <= {LARGEST_FILE}")
         faults.number("speed", self.speed, **SPEED_LIMITS, fix="0 is hover")
         faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
+        faults.choice("model", self.model, MODELS)
         faults.choice("aero", self.aero, tuple(LIBRARY))
         faults.choice("extension", self.extension, EXTENSIONS)
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
@@ -155,7 +160,16 @@ def _species_in_box(name: str) -> Species:
 
 
 def species_in(scenario: Scenario) -> Species:
-    """Return the species with the numbers of its file, before the user's changes."""
+    """Return the species with the numbers of its file and of its model, before the user's changes.
+
+    A model that has none for the species' kind adds nothing; `problem_of` says so.
+    """
+    own = own_species(scenario)
+    return model_of(scenario.model, own).species(own) if own.kind else own
+
+
+def own_species(scenario: Scenario) -> Species:
+    """Return the species with the numbers of its file alone."""
     if scenario.species_file:
         return species_from_text(scenario.species_file, f"{scenario.species}.toml")
     return _species_in_box(scenario.species)
@@ -170,9 +184,10 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
     """
     faults = scenario.faults()
     faults.raise_if_any()
-    species, loads = None, None
+    species, loads, model = None, None, None
     try:
         species = species_in(scenario)
+        model = model_of(scenario.model, species)
         if scenario.values:
             species = species.with_values(dict(scenario.values))
     except InvalidInputError as error:
@@ -188,12 +203,12 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         faults.faults += error.faults
     faults.raise_if_any()
     assert species is not None
+    assert model is not None
     freed = [name for name in (TAIL_TILT,) if name in scenario.bounds and name not in species.free]
-    return OrbitProblem(
+    return dataclasses.replace(model, aero=loads).problem(
         species,
         scenario.speed,
         climb=scenario.climb,
-        aero=loads,
         free=(*species.free, *freed),
         bounds=dict(scenario.bounds),
         minimise=scenario.minimise,

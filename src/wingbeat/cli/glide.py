@@ -74,8 +74,9 @@ def glide(
         faults.add("--flap-deg", flap_deg, "must be between -90 and 90 degrees")
     faults.raise_if_any()
     animal, whole = model.flown(species, set_, payload)
+    loads = whole.gliding if model.aero is None else whole.aero
     check_outputs(output, plot)
-    polar = glide_polar(animal, whole.gliding, np.radians(angles), math.radians(flap_deg), trim)
+    polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
     if output:
         polar.save(output)
     if plot:

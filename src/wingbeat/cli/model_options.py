@@ -120,7 +120,7 @@ class ModelOptions:
         others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
         coefficients = self._coefficients(whole.aero)
         loads = dataclasses.replace(whole.aero, **coefficients, **others)
-        return dataclasses.replace(whole, aero=loads, replaced=tuple(given))
+        return dataclasses.replace(whole, aero=loads)
 
     def given(self) -> dict[str, Any]:
         """Return the options of the air loads that were given."""

@@ -74,7 +74,7 @@ class Model:
         """
         flown = self.species(species)
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
-        origin = Origin(self.name, tuple(self._choices(species, flown)), tuple(self._changed(flown, changes)))
+        origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)))
         return OrbitProblem(flown, speed, climb, origin=origin, **asked)
 
     @property
@@ -132,7 +132,7 @@ class Model:
         usual = {"minimise": self.objective(flown), "free": flown.free}
         yield from (name for name, value in changes.items() if value and value != usual.get(name))
 
-    def _choices(self, given: Species, flown: Species) -> list[Choice]:
+    def _choices(self, flown: Species) -> list[Choice]:
         aero, objective = self.aero, self.objective(flown).replace("_", " ")
         if self.name == "paper":
             paper = "as in Su et al. 2023"
@@ -161,9 +161,9 @@ class Model:
                 "mass of the depressors", f"{1e3 * muscle.mass:.2g} g", numbers["vehicle.muscle.mass"].source
             )
             found.append(mass)
-        for name in flown.free:
-            if name not in given.free:
-                found.append(Choice(f"free: {name}", _limits(name), flown.reasons[name]))
+        for name, (_, reason) in _FREE.items():
+            if name in flown.free and flown.reasons.get(name) == reason:
+                found.append(Choice(f"free: {name}", _limits(name), reason))
         return [*found, Choice("objective", objective, "what the beat costs the animal or its motor")]
 
 

@@ -82,6 +82,35 @@ def test_choices_have_reasons_and_tell_what_was_changed():
     assert numbers_of(back) == numbers_of(problem)
 
 
+def test_what_equals_the_models_own_choice_is_no_change():
+    model = wb.models.animal(PIGEON)
+
+    def changed(**choices):
+        origin = model.problem(PIGEON, 12.0, **choices).origin
+        assert origin is not None
+        return origin.changed
+
+    assert changed(minimise="metabolic-power", subject_to=[], climb=0.0) == ()
+    assert changed(minimise="frequency", subject_to="peak_power<=30") == ("minimise", "subject_to")
+    other = model.problem(PIGEON, 12.0, aero="feathered")
+    assert (other.aero.unsteady, other.aero.inflow) == ("thin-aerofoil", "momentum")
+    assert other.origin is not None
+    assert other.origin.changed == ("aero",)
+    assert other.origin.choices == model.problem(PIGEON, 12.0).origin.choices
+
+
+def test_a_model_and_a_film_are_refused_together(capsys):
+    assert main(["orbit", "pigeon", "--speed", "8", "--model", "animal", "--kinematics", "beat.csv"]) == 2
+    assert "cannot be combined with a film" in capsys.readouterr().err
+
+
+def test_a_glide_keeps_the_width_of_the_blends():
+    wide = dataclasses.replace(
+        wb.models.animal(PIGEON).aero, coefficients=wb.aero.FeatheredFlapping("mirrored", 3.0)
+    )
+    assert dataclasses.replace(wb.models.animal(PIGEON), aero=wide).gliding.coefficients.blend_width_deg == 3.0
+
+
 @pytest.fixture(scope="module")
 def answer(tmp_path_factory):
     """The orbit that the real command finds and saves for a pigeon by the model animal, with one start."""
@@ -99,6 +128,9 @@ def test_the_command_solves_the_problem_of_the_model(answer):
     record = answer.record()
     assert record["status"] == "converged"
     assert (record["model"]["name"], record["model"]["changed"]) == ("animal", ["unsteady"])
+    assert expected.origin is not None
+    assert record["model"]["choices"] == expected.origin.record()["choices"]
+    assert "free: tail_tilt" in {choice["what"] for choice in record["model"]["choices"]}
     assert record["objective"] == "metabolic_power"
 
 

@@ -13,10 +13,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat.aero import BladeElement
+from wingbeat.aero import BladeElement, Feathered
 from wingbeat.errors import FaultList
 from wingbeat.orbits.problem.origin import Choice, Origin
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import named_objective
 from wingbeat.species import Species
 from wingbeat.species.scaling import BODY_DRAG_AREA
 
@@ -33,7 +34,7 @@ _WINGS = {
 }
 # Free beyond what the species file frees: bounds [rad, 1] and their reasons.
 _FREE = {
-    "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: half of the angle by which a tail can spread"),
+    "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: no measured range of a tail's tilt was found"),
     "downstroke_fraction": ((0.4, 0.6), "guess: measured birds and bats change it with speed, around a half"),
 }
 
@@ -66,7 +67,7 @@ class Model:
         species : the animal or robot, of the model's kind.
         speed, climb : mean horizontal and vertical velocity [m/s].
         changes : other parameters of `OrbitProblem`, such as ``minimise`` or ``subject_to``. They replace the
-            model's own choices.
+            model's own choices; another coefficient model as ``aero`` keeps the model's terms.
 
         Raises
         ------
@@ -74,6 +75,8 @@ class Model:
         """
         flown = self.species(species)
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
+        if not isinstance(asked["aero"], BladeElement):
+            asked["aero"] = dataclasses.replace(self.aero, coefficients=asked["aero"])
         origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)))
         return OrbitProblem(flown, speed, climb, origin=origin, **asked)
 
@@ -82,7 +85,8 @@ class Model:
         """The air loads of a glide: a feathered wing that is held still stalls as early as gliding wings do."""
         if self.aero.coefficients.name != "feathered-flapping":
             return self.aero
-        return dataclasses.replace(self.aero, coefficients="feathered")
+        width = self.aero.coefficients.blend_width_deg
+        return dataclasses.replace(self.aero, coefficients=Feathered(blend_width_deg=width))
 
     def objective(self, species: Species) -> str:
         """Return the name of the quantity that it minimises.
@@ -101,7 +105,8 @@ class Model:
     def species(self, species: Species) -> Species:
         """Return the species with what the model adds to it: body drag, tail, muscle, free parameters.
 
-        What the species file gives stays as it is.
+        What the species file gives stays, but a body drag of 0 counts as not given unless it was set by hand. Laws
+        take the whole mass, so add a payload afterwards: ``model.species(pigeon).with_payload(0.03)``.
 
         Parameters
         ----------
@@ -129,11 +134,14 @@ class Model:
         for place in dataclasses.fields(BladeElement):
             if getattr(self.aero, place.name) != getattr(own, place.name):
                 yield "aero" if place.name == "coefficients" else place.name
-        usual = {"minimise": self.objective(flown), "free": flown.free}
-        yield from (name for name, value in changes.items() if value and value != usual.get(name))
+        usual = {"minimise": named_objective(self.objective(flown)), "free": flown.free}
+        for name, value in changes.items():
+            given = named_objective(value) if name == "minimise" and isinstance(value, str) else value
+            if given and given != usual.get(name):
+                yield name
 
     def _choices(self, flown: Species) -> list[Choice]:
-        aero, objective = self.aero, self.objective(flown).replace("_", " ")
+        aero, objective = _air_loads(self.name, self.kind), self.objective(flown).replace("_", " ")
         if self.name == "paper":
             paper = "as in Su et al. 2023"
             return [
@@ -164,7 +172,7 @@ class Model:
         for name, (_, reason) in _FREE.items():
             if name in flown.free and flown.reasons.get(name) == reason:
                 found.append(Choice(f"free: {name}", _limits(name), reason))
-        return [*found, Choice("objective", objective, "what the beat costs the animal or its motor")]
+        return [*found, Choice("objective", objective, "what the beat costs")]
 
 
 def paper() -> Model:
@@ -234,7 +242,9 @@ def _check_kind(species: Species, kind: str) -> None:
         fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
         faults.add("kind", species.kind, "the model animal needs to know whether it is bird, bat or robot", fix)
     elif species.kind != kind:
-        faults.add("species", species.name, f"is a {species.kind}, not a {kind}", "make a model of its own")
+        faults.add(
+            "species", species.name, f"is a {species.kind}, not a {kind}", "use wb.models.animal of this species"
+        )
     faults.raise_if_any()
 
 

@@ -110,6 +110,15 @@ def test_the_joins_make_no_lift_of_their_own():
         assert (np.diff(model.drag(lower)) < 0).all()
 
 
+def test_a_flapping_wing_glides_as_a_gliding_one_and_stalls_as_a_revolving_one():
+    flapping, revolving, gliding = (model_of(f"feathered{kind}") for kind in ("-flapping", "-revolving", ""))
+    stalled, attached = math.radians(43.0), math.radians(4.0)
+    assert flapping.lift(stalled) == pytest.approx(float(revolving.lift(stalled)), abs=0.01)
+    assert flapping.drag(stalled) == pytest.approx(0.87, abs=0.005)
+    assert flapping.lift(attached) == pytest.approx(float(gliding.lift(attached)), abs=0.03)
+    assert flapping.drag(attached) == pytest.approx(float(gliding.drag(attached)), rel=0.05)
+
+
 def test_the_ratio_of_feathered_wings_is_that_of_the_jackdaw():
     """Klein Heerenbrink et al. 2016: about 15 for the wings alone, of an aspect ratio of 5.6 in the frames."""
     model = model_of("feathered")

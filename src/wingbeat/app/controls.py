@@ -16,6 +16,7 @@ from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.species import Species, species_names
+from wingbeat.studies.recipe import OF_ELEMENTS
 
 _OWN = "(loaded file)"
 _CHOICES = ("model", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
@@ -193,7 +194,7 @@ class Controls:
 def choices_of(name: str, species: Species) -> dict[str, Any]:
     """Return the choices of the page that a model makes for a species."""
     model = model_of(name, species)
-    loads = {place: getattr(model.aero, place) for place in ("unsteady", "inflow", "induced_factor")}
+    loads = {place: getattr(model.aero, place) for place in OF_ELEMENTS if place != "strips"}
     return {"aero": model.aero.coefficients.name, "minimise": model.objective(model.species(species)), **loads}
 
 

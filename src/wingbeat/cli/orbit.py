@@ -128,6 +128,9 @@ def orbit(
         faults.add(
             "--within-plausible", str(kinematics), "cannot be combined with a film, which gives the wingbeat", fix
         )
+    if model.model == "animal" and kinematics is not None:
+        fix = "give its parts instead, such as --aero feathered --inflow momentum"
+        faults.add("--model", model.model, "cannot be combined with a film, which gives the wingbeat", fix)
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
     if from_ is None and speed is None:

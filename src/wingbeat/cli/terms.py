@@ -54,7 +54,7 @@ def terms(
 ) -> int:
     """Find the best wingbeats as a term of the air loads grows from none to all, and where their family changes.
 
-    Name the terms with --unsteady and --inflow; if both are named, they grow together.
+    Name the terms with --unsteady and --inflow; if both are named, they grow together. --model animal names both.
     Exit code 3: no share has a certified orbit.
 
     Examples: wingbeat terms pigeon --speed 8 --unsteady thin-aerofoil;

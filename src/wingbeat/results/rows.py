@@ -53,7 +53,7 @@ def _model_rows(record: dict[str, Any]) -> Rows:
     if "model" not in record:
         return []
     changed = [name.replace("_", "-") for name in record["model"]["changed"]]
-    return [("model", record["model"]["name"] + (f", but your own {', '.join(changed)}" if changed else ""))]
+    return [("model", record["model"]["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
 
 
 def flight_rows(record: dict[str, Any]) -> Rows:

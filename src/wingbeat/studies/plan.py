@@ -226,7 +226,7 @@ def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], C
     def animal(species: str, model: str) -> Species:
         own, whole = flown(species, model)
         complete = whole.species(own)
-        return complete.with_values(form.settings) if form.settings else complete
+        return whole.species(complete.with_values(form.settings)) if form.settings else complete
 
     def loads(
         species: str, model: str, name: str, extension: str, width_deg: float, *elements: Any
@@ -267,6 +267,8 @@ def _base(
     before = len(faults.faults)
     made: dict[str, Any] = {}
     for name, (keys, make) in makers.items():
+        if "species" in keys and name != "species" and "species" not in made:
+            continue  # its fault is the species'
         try:
             made[name] = make(*(chosen[key] for key in keys))
         except InvalidInputError as error:

@@ -13,6 +13,8 @@ from wingbeat.vehicle import Vehicle
 
 # How far filmed wing pitch may be moved to trim the flight, if too little else is free [rad].
 _TRIM_RANGE = math.radians(20.0)
+# Free parameters that cannot control forward and vertical speed.
+_NO_CONTROL = "tail_tilt", "downstroke_fraction"
 
 
 class Filmed(Protocol):
@@ -52,7 +54,7 @@ def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, 
     """
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
-        if len(free) < 2 and name not in free:
+        if len([one for one in free if one not in _NO_CONTROL]) < 2 and name not in free:
             filmed = beat.numbers_of(species.vehicle, species.wingbeat)
             here = filmed.get(name, getattr(species.wingbeat, name))
             least = here - _TRIM_RANGE if name == "pitch_mean" else max(here - _TRIM_RANGE, 0.0)

@@ -27,7 +27,8 @@ class Origin(NamedTuple):
     ----------
     name : of the model, ``"paper"`` or ``"animal"``.
     choices : all its choices.
-    changed : parameters of `OrbitProblem` that the user chose in place of the model.
+    changed : air loads and parameters of `OrbitProblem` that were chosen otherwise than by the model. Numbers of
+        the species that were changed are not among them; their sources say so.
     """
 
     name: str

@@ -4,10 +4,10 @@ from wingbeat._jax.config import jax
 from wingbeat._jax.exported import _SOON_ON_CPU
 
 
-def compiled(function):
-    """Return a function as `jax.jit` does, compiled in two thirds of the time.
+def compiled(function, **options):
+    """Return a function as `jax.jit` does with these options, compiled in two thirds of the time.
 
     What differs between calls should be an argument: a program in which a vehicle's numbers are constants is
-    compiled again for the next vehicle.
+    compiled again for the next vehicle. Inside another program call the function's `__wrapped__`.
     """
-    return jax.jit(function, compiler_options=dict(_SOON_ON_CPU))
+    return jax.jit(function, compiler_options=dict(_SOON_ON_CPU), **options)

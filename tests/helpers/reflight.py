@@ -8,6 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
+from tests.helpers.programs import compiled
 from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.flight_loads import flight_loads
 from wingbeat.mechanics.flights import state_rates
@@ -30,7 +31,7 @@ def dop853(rates, phases, start, rtol=1e-11):
     return found.y[:, -1]
 
 
-@functools.partial(jax.jit, static_argnames=("kind", "shapes"))
+@functools.partial(compiled, static_argnames=("kind", "shapes"))
 def _rates_and_integrands(held, phase, state, kind, shapes):
     ends = np.cumsum([math.prod(shape) for shape in shapes])[:-1]
     leaves = [part.reshape(shape) for part, shape in zip(jnp.split(held, ends), shapes, strict=True)]
@@ -53,7 +54,7 @@ def refly(model, wingbeat, start):
     return Reflight(end[:6], dict(zip(INTEGRALS, end[6:], strict=True)))
 
 
-@jax.jit
+@compiled
 def _many_rates(model, wingbeat, phase, states):
     return jax.vmap(lambda s: state_rates(model, wingbeat, phase, s))(states) / wingbeat.frequency
 

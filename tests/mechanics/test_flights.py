@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
-from wingbeat._jax.config import jnp
+from tests.helpers.driven import BETWEEN, KNOTS, spline_torques
 from wingbeat.mechanics.flights import fly_beats
 from wingbeat.results.dataset import evaluate
 
@@ -81,12 +81,12 @@ def test_a_tumbling_flight_is_reported_not_raised(tmp_path):
 
 
 def test_samples_between_the_steps_are_those_of_a_flight_that_steps_onto_them(solved):
-    """Every fourth sample is stepped onto: of 1 024 all those of 256, of 256 every fourth."""
+    """Every fourth sample is stepped onto: of 2 048 all those of 256, of 256 every fourth."""
     start = wb.State(*solved.start)
-    few, many = (fly_beats(solved.model, solved.wingbeat, start, 1, count)[1] for count in (256, 1024))
-    apart = np.abs(few - many[::4]).max(axis=1)
+    few, many = (fly_beats(solved.model, solved.wingbeat, start, 1, count)[1] for count in (256, KNOTS))
+    apart = np.abs(few - many[::8]).max(axis=1)
     assert apart.max() <= 1e-7
-    assert np.abs(many[2::4] - 0.5 * (few[1:] + few[:-1])).max() > 1e-5  # the comparison sees straight lines
+    assert np.abs(many[4::8] - 0.5 * (few[1:] + few[:-1])).max() > 1e-5  # the comparison sees straight lines
 
 
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, "fast", None, True, 1j])
@@ -122,15 +122,6 @@ def test_a_saved_flight_reads_back(tmp_path):
         wb.load_orbit(tmp_path / "flight.nc")
 
 
-def spline_torques(time, spline):
-    """Return the hinge torques at a time from the pieces of cubic splines (4, pieces, 2) over knots."""
-    knots, pieces = spline
-    i = jnp.clip(jnp.searchsorted(knots, time, side="right") - 1, 0, pieces.shape[1] - 1)
-    a, b, c, d = pieces[:, i]
-    rest = time - knots[i]
-    return ((a * rest + b) * rest + c) * rest + d
-
-
 def finely_flown(solved, samples):
     """Return times, q, q' and the hinge torques along an orbit, `samples` + 1 rows each."""
     phase, states = fly_beats(solved.model, solved.wingbeat, wb.State(*solved.start), 1, samples)
@@ -147,15 +138,15 @@ def finely_flown(solved, samples):
 
 def test_torques_drive_the_wing_along_its_prescribed_flight(solved):
     """Half a beat comes back to 5e-5 (m, rad; rates over their peaks): samples are not the function."""
-    time, q, rates, torques = finely_flown(solved, 2048)
+    time, q, rates, torques = finely_flown(solved, KNOTS)
 
     def miss(scale):
         spline = CubicSpline(time, scale * torques)
         found = wb.simulate_torque_driven(
-            solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::128], (spline.x, spline.c)
+            solved.model, solved.wingbeat, q[0], rates[0], spline_torques, time[::BETWEEN], (spline.x, spline.c)
         )
-        by_rates = np.abs(found.rates - rates[::128]) / np.abs(rates).max(axis=0)
-        return np.maximum(np.abs(found.coordinates - q[::128]), by_rates).max(axis=1)
+        by_rates = np.abs(found.rates - rates[::BETWEEN]) / np.abs(rates).max(axis=0)
+        return np.maximum(np.abs(found.coordinates - q[::BETWEEN]), by_rates).max(axis=1)
 
     assert miss(1.0)[:9].max() <= 5e-5
     # And the comparison would see torques that are off by a thousandth.

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.differences import flow_of, rates_along
 from tests.helpers.models import changed
-from tests.helpers.reflight import refly
+from tests.helpers.programs import compiled
+from tests.helpers.reflight import refly, refly_many
 from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.equations_of_motion import generalised_torques
 
@@ -39,19 +41,19 @@ def momenta_at_both_ends(model, wingbeat, *states):
     return loads(model, wingbeat, wb.State(*between.T)).momentum[[0, -1]]
 
 
-@jax.jit
-def rates_of_change(model, wingbeat, state, phase):
-    """Return the loads, and the exact rates along the flight of energy, momenta and centre of mass."""
-    now = wb.flight_loads(model, wingbeat, state, phase)
-    flow = wb.State(state.u, state.w, state.pitch_rate, *jnp.moveaxis(now.acceleration, -1, 0))
+def held_by(flight):
+    """Return what a flight holds: energy, momentum (x, z), angular momentum, centre of mass (x, z)."""
+    energy = flight.kinetic_energy + flight.potential_energy
+    return jnp.stack([energy, *flight.momentum.T, flight.angular_momentum, *flight.centre_of_mass.T])
 
-    def held(state, phase):
-        then = wb.flight_loads(model, wingbeat, state, phase)
-        energy = then.kinetic_energy + then.potential_energy
-        return energy, then.momentum, then.angular_momentum, then.centre_of_mass
 
+@compiled
+def exact_rates(model, wingbeat, state, phase, flow):
+    """Return the rates of `held_by` along a flight, as JAX differentiates the loads."""
     per_second = wingbeat.frequency * jnp.ones_like(phase)
-    return now, jax.jvp(held, (wb.State(*state), phase), (flow, per_second))[1]
+    return jax.jvp(lambda *at: held_by(wb.flight_loads(model, wingbeat, *at)), (state, phase), (flow, per_second))[
+        1
+    ]
 
 
 def along_orbit(solved):
@@ -70,8 +72,9 @@ def flown(request):
         model, *flight = along_nothing("full" if request.param == "full airspeed" else "planar")
     else:
         model, *flight = along_orbit(request.getfixturevalue(f"{request.param}_orbit"))
-    now, rates = jax.tree.map(np.asarray, rates_of_change(model, *flight))
-    return model, flight[1], now, rates
+    now = loads(model, *flight)
+    energy, x, z, angular, *centre = rates_along(loads, held_by, model, *flight, now.acceleration)
+    return model, flight[1], now, (energy, np.stack([x, z], axis=-1), angular, np.stack(centre, axis=-1))
 
 
 def test_energy_changes_by_the_actuators_and_the_air(flown):
@@ -97,6 +100,14 @@ def test_angular_momentum_changes_by_the_moment_about_the_centre_of_mass(flown):
     assert np.abs(angular - moment).max() <= EXACT * np.abs(moment).max()
     # About the body it is another moment.
     assert np.abs(angular - now.air_force[:, 2]).max() > 1e-3 * np.abs(moment).max()
+
+
+def test_loads_can_be_differentiated_by_state_and_phase():
+    model, beat, state, phase = along_nothing()
+    acceleration = loads(model, beat, state).acceleration
+    wanted = rates_along(loads, held_by, model, beat, state, phase, acceleration)
+    found = np.asarray(exact_rates(model, beat, state, phase, flow_of(state, acceleration)))
+    assert (np.abs(found - wanted).max(axis=1) <= EXACT * np.abs(wanted).max(axis=1)).all()
 
 
 def test_impulse_of_a_beat_is_the_change_of_momentum(solved, reflight):
@@ -175,7 +186,8 @@ def test_the_whole_airspeed_multiplies_the_loads_of_a_strip_and_turns_none():
 
 def test_an_orbit_of_the_planar_airspeed_does_not_close_with_the_whole(bat_orbit):
     whole = changed(bat_orbit.model, full_airspeed=True)
-    miss = np.abs(refly(whole, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])
+    (end,) = refly_many(whole, bat_orbit.wingbeat, bat_orbit.start[None])
+    miss = np.abs(end[4] - bat_orbit.start[4])
     assert 0.01 < miss < 1.0
     same = np.abs(refly(bat_orbit.model, bat_orbit.wingbeat, bat_orbit.start).end[4] - bat_orbit.start[4])
     assert same < 1e-6

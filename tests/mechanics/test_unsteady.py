@@ -9,8 +9,9 @@ from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
 from tests.helpers import oracle, unsteady_oracle
-from tests.helpers.differences import ORDER_8, differences
+from tests.helpers.differences import differences, rates_along
 from tests.helpers.differences import miss as of_jacobians
+from tests.helpers.driven import spline_torques
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from tests.helpers.unsteady_flights import (
@@ -180,18 +181,9 @@ def test_air_forces_fall_by_the_added_mass_with_acceleration(name):
 # --- Energy, momentum
 
 
-def rates_along(model, beat, now, states, phase):
-    """Return the rates of energy and momentum along the flight, by differences over fractions of a millisecond."""
-    flow = np.stack([states.u, states.w, states.pitch_rate, *now.acceleration.T])
-
-    def held(after):
-        later = wb.State(*(np.stack(states) + after * flow))
-        then = loads(model, beat, later, phase + after * beat.frequency)
-        return np.column_stack([then.kinetic_energy + then.potential_energy, then.momentum])
-
-    step = 2e-4
-    rates = sum(w * (held(k * step) - held(-k * step)) for k, w in ORDER_8.items()) / step
-    return rates[:, 0], rates[:, 1:]
+def held_by(flight):
+    """Return energy and momentum (x, z)."""
+    return np.stack([flight.kinetic_energy + flight.potential_energy, *flight.momentum.T])
 
 
 @pytest.mark.parametrize("kind", UNSTEADY)
@@ -200,24 +192,16 @@ def test_energy_changes_by_the_actuators_and_the_air_and_momentum_by_the_air(nam
     model, beat = flown_as(name, kind)
     states = states_at(PHASES)
     now = loads(model, beat, states, PHASES)
-    energy, momentum = rates_along(model, beat, now, states, PHASES)
+    energy, *momentum = rates_along(loads, held_by, model, beat, states, PHASES, now.acceleration)
     peak = np.abs(now.actuator_power).max()
     assert np.abs(energy - now.actuator_power - now.air_power).max() <= 1e-10 * peak
     pushed = now.air_force[:, :2] - [0.0, model.vehicle.mass * model.air.gravity]
-    assert np.abs(momentum - pushed).max() <= 1e-10 * np.abs(pushed).max()
+    assert np.abs(np.transpose(momentum) - pushed).max() <= 1e-10 * np.abs(pushed).max()
     shares = now.aerodynamic_power + now.inertial_power + now.body_power
     np.testing.assert_allclose(shares, now.hinge_power, rtol=0, atol=1e-11 * np.abs(now.hinge_power).max())
 
 
 # --- Torques drive the wings
-
-
-def spline_torques(time, spline):
-    knots, pieces = spline
-    i = jnp.clip(jnp.searchsorted(knots, time, side="right") - 1, 0, pieces.shape[1] - 1)
-    a, b, c, d = pieces[:, i]
-    rest = time - knots[i]
-    return ((a * rest + b) * rest + c) * rest + d
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,12 +1,14 @@
 """Exact derivatives against finite differences of high order, and stability against flights of SciPy."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
 
 import wingbeat as wb
 from tests.helpers.differences import differences, miss
+from tests.helpers.programs import compiled
 from tests.helpers.reflight import refly_many
 from wingbeat._jax.config import jax, jnp
 from wingbeat.kinematics import unpack
@@ -21,16 +23,6 @@ from wingbeat.orbits.nlp.transcription import Transcription
 TOLERANCE = 1e-7
 
 
-@jax.jit
-def accelerations(model, wingbeat, free_values, phase, pitch_state):
-    beat = unpack(FREE, wingbeat, free_values)
-    return body_rates(model, motion_table(model, beat, phase), pitch_state)
-
-
-by_motion = jax.jit(jax.jacfwd(accelerations, argnums=(2, 4)))
-by_model = jax.jit(jax.jacfwd(accelerations, argnums=0))
-
-
 def random_states(count):
     low, high = [-1, -2, -3, -8], [1, 12, 3, 8]
     random = np.random.default_rng(3)
@@ -43,51 +35,61 @@ FREE = tuple(field.name for field in dataclasses.fields(wb.Wingbeat)[:8])
 FREE_VALUES = np.array([getattr(ODD_BEAT, name) for name in FREE])
 
 
-def odd_model(airspeed="planar"):
-    """Return a bat with nothing at zero."""
+@functools.cache
+def odd_flight(airspeed):
+    """Return the numbers of a bat with nothing at zero, and its accelerations as a function.
+
+    The function takes the bat's numbers, the free parameters and the pitch state in one vector, a phase, and a
+    direction in which the numbers change; it returns the accelerations and their change.
+    """
     bat = wb.load_species("bat").with_values(
         {"wing.shoulder": [0.02, 0.01, 0.01], "wing.stroke_plane_angle_deg": 75.0, "body.drag_area": 1e-3}
     )
-    return wb.FlightModel(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
+    model = wb.FlightModel(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
+    leaves, tree = jax.tree.flatten(model)
+    ends = np.cumsum([np.size(leaf) for leaf in leaves] + [FREE_VALUES.size])
+
+    @compiled
+    def along(numbers, phase, direction):
+        def at(numbers):
+            *parts, values, state = jnp.split(numbers, ends)
+            flown = [part.reshape(np.shape(leaf)) for part, leaf in zip(parts, leaves, strict=True)]
+            beat, flying = unpack(FREE, ODD_BEAT, values), jax.tree.unflatten(tree, flown)
+            return body_rates(flying, motion_table(flying, beat, phase), state)
+
+        return jax.jvp(at, (numbers,), (direction,))
+
+    return np.concatenate([np.ravel(leaf) for leaf in leaves]).astype(float), along
+
+
+def miss_of_accelerations(airspeed, state, phase, those_of_the_model):
+    """Return the miss of the derivatives by the model's numbers, or by free parameters and pitch state."""
+    own, along = odd_flight(airspeed)
+    whole = np.concatenate([own, FREE_VALUES, state])
+    these = slice(own.size) if those_of_the_model else slice(own.size, None)
+
+    def function(point):
+        moved = whole.copy()
+        moved[these] = point
+        return np.asarray(along(moved, phase, 0.0 * whole)[0])
+
+    point = whole[these]
+    scale = np.where(point == 0, 1.0, np.abs(point)) if those_of_the_model else np.ones_like(point)
+    exact = np.stack([along(whole, phase, one)[1] for one in np.eye(whole.size)[these]], axis=-1)
+    # So small a step that no strip crosses the joins of a blend, where only two derivatives go on.
+    return miss(exact * scale, differences(function, point, 3e-5 * scale) * scale)
 
 
 @pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
 def test_accelerations_by_state_and_wingbeat(airspeed):
-    model, size = odd_model(airspeed), FREE_VALUES.size
     for state, phase in random_states(20):
-        exact = np.concatenate(by_motion(model, ODD_BEAT, FREE_VALUES, phase, state), axis=1)
-
-        def function(point, phase=phase):
-            return np.asarray(accelerations(model, ODD_BEAT, point[:size], phase, point[size:]))
-
-        # So small a step that no strip crosses the joins of a blend, where only two derivatives go on.
-        found = differences(function, np.concatenate([FREE_VALUES, state]), 3e-5)
-        assert miss(exact, found) <= TOLERANCE
+        assert miss_of_accelerations(airspeed, state, phase, those_of_the_model=False) <= TOLERANCE
 
 
 @pytest.mark.parametrize("airspeed", wb.aero.AIRSPEEDS)
 def test_accelerations_by_every_number_of_vehicle_air_and_coefficients(airspeed):
-    model = odd_model(airspeed)
-    leaves, shape = jax.tree.flatten(model)
-    sizes = np.array([np.size(leaf) for leaf in leaves])
-    point = np.concatenate([np.ravel(leaf) for leaf in leaves]).astype(float)
-
-    def rebuilt(values):
-        pieces = np.split(values, np.cumsum(sizes)[:-1])
-        parts = [p.reshape(np.shape(leaf)) for p, leaf in zip(pieces, leaves, strict=True)]
-        return jax.tree.unflatten(shape, parts)
-
-    floats = jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=float), model)
     for state, phase in random_states(3):
-        exact = by_model(floats, ODD_BEAT, FREE_VALUES, phase, state)
-        exact = np.concatenate([np.reshape(leaf, (4, -1)) for leaf in jax.tree.leaves(exact)], axis=1)
-
-        def function(values, state=state, phase=phase):
-            return np.asarray(accelerations(rebuilt(values), ODD_BEAT, FREE_VALUES, phase, state))
-
-        scale = np.where(point == 0, 1.0, np.abs(point))
-        found = differences(function, point, 3e-5 * scale)
-        assert miss(exact * scale, found * scale) <= TOLERANCE
+        assert miss_of_accelerations(airspeed, state, phase, those_of_the_model=True) <= TOLERANCE
 
 
 def unknowns_of(solved):

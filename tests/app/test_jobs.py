@@ -36,7 +36,8 @@ def known(answer):
 
 
 def test_an_orbit_is_that_of_the_library(answer):
-    record = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), 10.0), starts=1).record()
+    problem = wb.models.paper().problem(wb.load_species("pigeon"), 10.0)
+    record = wb.solve_orbit(problem, starts=1).record()
     same = {name: value for name, value in answer["record"].items() if name != "solve_seconds"}
     assert same == {name: value for name, value in record.items() if name != "solve_seconds"}
     assert json.loads(answer["scene"])["flights"][0]["label"] == "this answer"

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
+from tests.helpers.programs import compiled
 from wingbeat._jax.config import jax, jnp
 from wingbeat.mechanics.frames import stroke_pitch, to_world
 from wingbeat.mechanics.wing_motion import mass_points, shape_at, strips_of, wing_motion, with_time_axes
@@ -29,7 +30,7 @@ def times_first(array):
     return jnp.moveaxis(array, -1, 0)
 
 
-@jax.jit
+@compiled
 def tabulate(vehicle, wingbeat, phase):
     """Return the table with phases as the first axis, then strips."""
     return jax.tree.map(times_first, wing_motion(vehicle, wingbeat, phase, STRIPS))
@@ -44,7 +45,7 @@ class Places(NamedTuple):
     mass: Any
 
 
-@jax.jit
+@compiled
 def places(vehicle, wingbeat, phase):
     """Place the wing in body axes."""
     strips = with_time_axes(strips_of(vehicle.wing, STRIPS), phase)
@@ -270,7 +271,10 @@ def test_mass_points_have_the_moments_of_a_uniform_strip():
 
 
 def test_strips_that_fill_a_vector_up_bear_no_load_and_no_mass():
-    plain, filled = (wing_motion(VEHICLE, BEAT, PHASES, 5, vector) for vector in (1, 8))
+    plain, filled = (
+        compiled(lambda vehicle, vector=vector: wing_motion(vehicle, BEAT, PHASES, 5, vector))(VEHICLE)
+        for vector in (1, 8)
+    )
     for name, found in filled._asdict().items():
         leaves = zip(jax.tree.leaves(found), jax.tree.leaves(getattr(plain, name)), strict=True)
         for leaf, of_five in leaves:

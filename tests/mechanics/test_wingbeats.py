@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import wingbeat as wb
 from tests.helpers.differences import differences, miss
 from tests.helpers.models import changed
+from tests.helpers.programs import compiled
 from wingbeat._jax.config import jax
 from wingbeat.harmonics import HARMONIC_NAMES
 from wingbeat.kinematics import (
@@ -63,7 +64,7 @@ NEW = {
 }
 RICH = with_parameters(PLAIN, NEW)
 PHASES = np.linspace(-0.5, 2.0, 41)
-table = jax.jit(motion_table)
+table = compiled(motion_table)
 
 
 def model_of(name, **settings):
@@ -83,7 +84,7 @@ def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
     waves = "flap_cos_2", "flap_sin_3", "pitch_sin_2", "span_cos_1", "sweep_cos_2", "chord_sin_1", "twist_cos_1"
     free, values = (*OFF, *waves), np.array([*OFF.values(), *[0.0] * len(waves)])
     model = model_of("bat")
-    on = jax.jit(lambda values: motion_table(model, unpack(free, PLAIN, values), PHASES))(values)
+    on = compiled(lambda values: motion_table(model, unpack(free, PLAIN, values), PHASES))(values)
     off = table(model, PLAIN, PHASES)
     assert off.unpitched is off.sweeping_speed is off.tilt is None
     assert np.all(on.unpitched[0] == 1.0)

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from tests.helpers.unsteady_flights import flown_with, states_at
+from tests.helpers.unsteady_flights import all_terms, states_at
 from wingbeat.cli.app import main
 from wingbeat.experiment import BodyPath, Film, fit_body_path, fit_film, read_film, synthetic_film
 from wingbeat.results.carried import carry
@@ -22,8 +22,8 @@ SERIES[:, :5] = [[0.0, 1e-3, -2e-3, 4e-4, 0.0], [0.0, 3e-3, 6e-3, 0.0, -5e-4], [
 
 @pytest.fixture(scope="module")
 def flown():
-    """A flight with unsteady air and every law of the wingbeat."""
-    return flown_with("pigeon", coefficients="su-fan")
+    """A flight with every term of the air loads and every law of the wingbeat."""
+    return all_terms("pigeon")
 
 
 def test_a_body_that_flies_freely_misses_nothing_and_any_other_its_share(flown):

@@ -247,7 +247,7 @@ def test_markup_in_a_file_is_text(run: Any, tmp_path: Path) -> None:
     path.write_text(template().replace('name = "my-flyer"', 'name = "[bold]:bat:[/x]"'))
     code, out, _ = run("species", str(path))
     assert code == 0
-    assert out.startswith("[bold]:bat:[/x]\n")
+    assert out.startswith("[bold]:bat:[/x]: bird\n")
 
 
 def test_the_schema_is_json(run: Any) -> None:

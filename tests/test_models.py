@@ -115,19 +115,19 @@ def test_a_glide_keeps_the_width_of_the_blends():
 def answer(tmp_path_factory):
     """The orbit that the real command finds and saves for a pigeon by the model animal, with one start."""
     file = tmp_path_factory.mktemp("animal") / "pigeon.nc"
-    line = "orbit pigeon --speed 12 --model animal --starts 1 --set muscle.isometric_stress=3e5 --unsteady none -o"
-    assert main([*line.split(), str(file)]) == 0
+    line = "orbit pigeon --speed 12 --model animal --starts 1 --set muscle.isometric_stress=3e5"
+    assert main([*line.split(), "--induced-factor", "1.1", "-o", str(file)]) == 0
     return wb.load_orbit(file)
 
 
 def test_the_command_solves_the_problem_of_the_model(answer):
     stronger = wb.models.animal(PIGEON).species(PIGEON).with_values({"muscle.isometric_stress": 3e5})
-    still = dataclasses.replace(wb.models.animal(PIGEON).aero, unsteady="none")
+    still = dataclasses.replace(wb.models.animal(PIGEON).aero, induced_factor=1.1)
     expected = wb.models.animal(PIGEON).problem(stronger, 12.0, aero=still)
     assert numbers_of(answer.problem) == numbers_of(expected)
     record = answer.record()
     assert record["status"] == "converged"
-    assert (record["model"]["name"], record["model"]["changed"]) == ("animal", ["unsteady"])
+    assert (record["model"]["name"], record["model"]["changed"]) == ("animal", ["induced_factor"])
     assert expected.origin is not None
     assert record["model"]["choices"] == expected.origin.record()["choices"]
     assert "free: tail_tilt" in {choice["what"] for choice in record["model"]["choices"]}

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import wingbeat as wb
 from tests.helpers.species_texts import faults_of
 from wingbeat.species import scaling, species_text
-from wingbeat.species.record import DERIVED
+from wingbeat.species.warnings import DERIVED
 
 SIZE = {"mass": 0.3, "wing_span": 0.62, "wing_area": 0.06}
 MAKERS = {"bird": wb.bird, "bat": wb.bat, "robot": wb.robot}

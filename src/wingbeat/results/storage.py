@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 # What a record holds that is no number.
 _KINDS: dict[str, tuple[type, ...]] = {
     **dict.fromkeys(("status", "message", "species", "objective", "version"), (str,)),
-    **dict.fromkeys(("vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints"), (dict,)),
+    **dict.fromkeys(
+        ("model", "vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints"), (dict,)
+    ),
     **dict.fromkeys(("active_bounds", "failed_balance", "relaxations", "plausibility", "warnings"), (list,)),
     **dict.fromkeys(("floquet_multipliers", "alpha_quarter_span", "alpha_three_quarter_span"), (list,)),
     "inputs": (dict,),

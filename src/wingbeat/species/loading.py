@@ -21,7 +21,8 @@ from wingbeat.species.building import (
     derive_body,
     in_order,
 )
-from wingbeat.species.record import Species, find_warnings
+from wingbeat.species.record import Species
+from wingbeat.species.warnings import find_warnings
 from wingbeat.species_schema import (
     KEYS,
     Bound,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import hashlib
 import itertools
@@ -16,17 +15,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat.models import Model, model_of
-from wingbeat.nomenclature import plain_unit
-from wingbeat.species import Species, load_species
 from wingbeat.species.settings import settable
 from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import dotted
 from wingbeat.studies.form import StudyForm, number
-from wingbeat.studies.objective import as_inputs
+from wingbeat.studies.makers import makers_of
 from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe
 from wingbeat.studies.sampling import unit_points
 
@@ -199,7 +193,7 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
         faults.add("file", combinations, rule, "vary numbers under [vary] instead")
         faults.raise_if_any()
     bases: dict[str, Base] = {}
-    makers = _makers(form, folder)
+    makers = makers_of(form, folder)
     for values in itertools.product(*lists.values()):
         base = _base(form, dict(zip(lists, values, strict=True)), makers, faults)
         if base is not None and len(faults.faults) < _ENOUGH:
@@ -213,48 +207,6 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
         faults.add("vary", len(plan), rule, "vary less, or split it into several studies")
         faults.raise_if_any()
     return plan
-
-
-def _makers(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-    """Return functions that make the parts of a base from top-level keys; equal keys are evaluated only once."""
-
-    @functools.cache
-    def flown(species: str, model: str) -> tuple[Species, Model]:
-        own = load_species(_beside(species, folder, (".toml",)))
-        return own, model_of(model, own)
-
-    def animal(species: str, model: str) -> Species:
-        own, whole = flown(species, model)
-        complete = whole.species(own)
-        return whole.species(complete.with_values(form.settings)) if form.settings else complete
-
-    def loads(
-        species: str, model: str, name: str, extension: str, width_deg: float, *elements: Any
-    ) -> BladeElement:
-        own, chosen = flown(species, model)[1].aero, form.model_fields_set
-        reach = extension, width_deg
-        given = dict(zip(OF_ELEMENTS, elements, strict=True))
-        if model != "paper":  # what the study does not give is as the model says
-            given = {key: value for key, value in given.items() if key in chosen}
-            name = name if "aero" in chosen else own.coefficients.name
-        if "hand" in given:
-            given["hand"] = load_hand(_beside(given["hand"], folder, (".csv", ".toml")), *reach)
-        arm = load_coefficients(_beside(name, folder, (".csv", ".toml")), *reach)
-        return dataclasses.replace(own, coefficients=arm, **given)
-
-    def objective(species: str, model: str, name: str) -> dict[str, str]:
-        if model != "paper" and "minimise" not in form.model_fields_set:
-            name = flown(species, model)[1].objective(animal(species, model))
-        return as_inputs(name, folder)
-
-    of_model = "species", "model"
-    makers = {
-        "species": (of_model, animal),
-        "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
-        "minimise": ((*of_model, "minimise"), objective),
-        "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
-    }
-    return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
 
 
 def _base(
@@ -303,28 +255,6 @@ def _hashable(fault: Fault) -> Fault:
     """Return a fault in a hashable form, so that each fault is reported once."""
     value = fault.value if isinstance(fault.value, str | int | float | type(None)) else shown(fault.value)
     return Fault(fault.where, value if isinstance(value, str | int | float) else repr(value), fault.rule, fault.fix)
-
-
-def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
-    """Return the path of a file in the study's folder; a name without one of the suffixes stays as it is."""
-    return str(folder / name) if name.lower().endswith(suffixes) else name
-
-
-def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
-    """Return bounds in radians; those of a name that ends in _deg are given in degrees."""
-    found, faults = {}, FaultList()
-    for name, (low, high) in given.items():
-        own = name.removesuffix("_deg")
-        degrees = name != own
-        if degrees and plain_unit(own) != "rad":
-            faults.add(
-                f"bounds.{name}", [low, high], "is not the name of an angle", f"give bounds.{own} in its unit"
-            )
-        elif degrees and own in given:
-            faults.add(f"bounds.{name}", [low, high], f"is given as {own} too", "keep one of the two")
-        found[own] = (math.radians(low), math.radians(high)) if degrees else (low, high)
-    faults.raise_if_any()
-    return found
 
 
 def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:

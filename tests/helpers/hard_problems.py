@@ -27,7 +27,7 @@ _OBJECTIVES = ("frequency", "frequency", "frequency", "mean_positive_power", "co
 
 
 def odd_species(random):
-    """Return a species in the box, or a derived one of any size, some of its numbers moved by decades."""
+    """Return a built-in species, or a derived one of any size, some of its numbers moved by decades."""
     if random.random() < 0.4:
         species = wb.load_species(str(random.choice(["pigeon", "bat", "barn-swallow", "common-murre"])))
     else:

@@ -19,7 +19,7 @@ from wingbeat.species.building import UNNAMED_PATHS
 from wingbeat.species.writing import species_text
 from wingbeat.species_schema import KEYS
 
-# --- the animals in the box ---
+# --- the built-in animals ---
 
 
 def test_the_box_holds_the_two_animals_of_the_paper_and_others() -> None:

@@ -155,7 +155,7 @@ def species_from_text(text: str, label: str) -> Species:
 
 
 @functools.lru_cache(maxsize=64)
-def _species_in_box(name: str) -> Species:
+def _built_in(name: str) -> Species:
     return load_species(name)
 
 
@@ -172,7 +172,7 @@ def own_species(scenario: Scenario) -> Species:
     """Return the species with the numbers of its file alone."""
     if scenario.species_file:
         return species_from_text(scenario.species_file, f"{scenario.species}.toml")
-    return _species_in_box(scenario.species)
+    return _built_in(scenario.species)
 
 
 def problem_of(scenario: Scenario) -> OrbitProblem:

@@ -1,4 +1,4 @@
-"""The files in the box: the template to start from, the animals and the robots."""
+"""The files of the built-in species, and the template to start from."""
 
 from __future__ import annotations
 

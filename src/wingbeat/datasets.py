@@ -25,6 +25,21 @@ def flown(dataset: xr.Dataset) -> np.ndarray:
     return np.isfinite(dataset["hinge_power"].values) & np.isfinite(dataset["u"].values)
 
 
+def downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[tuple[float, float]]:
+    """Return the phases between which the wing goes down, each a first and a last one.
+
+    Parameters
+    ----------
+    phase, flap_rate : of the samples, shape (K,) [1, rad/s].
+
+    >>> downstrokes(np.array([0.0, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, -1.0, 0.0, 1.0, 0.0]))
+    [(0.0, 0.5)]
+    """
+    down = (flap_rate[1:] + flap_rate[:-1]) < 0
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], down, [False]]).astype(int)))
+    return [(float(phase[a]), float(phase[b])) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
 def at_station(values: np.ndarray, station: float) -> np.ndarray:
     """Interpolate values at strip centres (last axis) linearly to one span fraction."""
     count = values.shape[-1]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -70,13 +70,23 @@ def dress(axes: Axes, xlabel: str, ylabel: str) -> None:
     axes.locator_params(nbins=6)
 
 
-def shade_downstrokes(axes: Axes, first: float, last: float) -> None:
-    """Shade every downstroke between two phases, and make these phases the limits of the axis."""
+def shade_downstrokes(
+    axes: Axes, first: float, last: float, strokes: Sequence[tuple[float, float]] | None = None
+) -> None:
+    """Shade every downstroke between two phases, and make these phases the limits of the axis.
+
+    Parameters
+    ----------
+    axes : the panel.
+    first, last : phases.
+    strokes : phases between which the wing goes down; the first half of every beat if left out.
+    """
     from matplotlib.collections import PolyCollection
 
     axes.set_xlim(first, last)
-    starts = np.arange(math.floor(first), math.ceil(last))
-    boxes = [[(s, 0), (s + 0.5, 0), (s + 0.5, 1), (s, 1)] for s in starts]
+    if strokes is None:
+        strokes = [(start, start + 0.5) for start in np.arange(math.floor(first), math.ceil(last))]
+    boxes = [[(start, 0), (end, 0), (end, 1), (start, 1)] for start, end in strokes]
     # One collection and not a patch each: a flight may have thousands of beats.
     shade = PolyCollection(boxes, facecolor=SHADE, linewidth=0, zorder=0, gid="downstroke")
     shade.set_transform(axes.get_xaxis_transform())

@@ -1,5 +1,6 @@
 """The page of a wingbeat: what is on it, that it can be read, and how figures are saved."""
 
+import dataclasses
 import itertools
 import json
 import re
@@ -106,6 +107,23 @@ def test_every_downstroke_is_shaded_over_phase(orbit, flight, which):
             ends = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in shade.get_paths()]
             assert ends == [(beat, beat + 0.5) for beat in range(beats)]
             assert axes.get_xlim() == (0, beats)
+
+
+def test_a_long_downstroke_is_shaded_to_its_end_and_marked_there():
+    species = wb.load_species("pigeon")
+    beat = dataclasses.replace(species.wingbeat, downstroke_fraction=0.625)
+    model = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    flight = wb.simulate(model, beat, wb.State(u=10.0), beats=1, samples=64)
+    page = panels(wingbeat_page(flight.dataset))
+    for place in TIME_PANELS:
+        (shade,) = (c for c in page[place].collections if c.get_gid() == "downstroke")
+        vertices = np.concatenate([path.vertices[:, 0] for path in shade.get_paths()])
+        assert vertices.min() == 0.0
+        assert np.unique(vertices) == pytest.approx([0.0, 0.625], abs=0.01)
+    tops, bottoms = (line.get_xdata() for line in page[3].get_lines()[-3:-1])
+    x, phase = flight.dataset["x"].values, flight.dataset["phase"].values
+    assert tops == pytest.approx(np.interp([0.0, 1.0], phase, x))
+    assert bottoms == pytest.approx(np.interp([0.625], phase, x), rel=0.02)
 
 
 def test_the_title_says_what_flies(orbit, page):

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import flown
+from wingbeat.datasets import downstrokes, flown
 from wingbeat.style import FIRST, FONT, SECOND, THIRD, dress, legend_above, shade_downstrokes
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     """Draw wing kinematics, body pitch and power."""
     wing, pitch, power = panels
     phase = dataset["phase"].values
-    _over_phase(wing, phase, "wing angles [deg]")
+    _over_phase(wing, dataset, "wing angles [deg]")
     curves = [("flap", "flap φ", FIRST), ("wing_pitch", "pitch θ", SECOND), ("fold", "fold", THIRD)]
     for name, label, style in curves if np.ptp(dataset["fold"].values) > 1e-9 else curves[:2]:
         wing.plot(phase, np.degrees(dataset[name].values), label=label, **style)
@@ -41,9 +42,9 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
         dots = {**THIRD, "linestyle": (0, (3, 1, 1, 1))}
         lines = [*lines, *span.plot(phase, dataset["span_ratio"].values, label="span", **dots)]
     legend_above(wing, lines)
-    _over_phase(pitch, phase, "body pitch ψ [deg]")
+    _over_phase(pitch, dataset, "body pitch ψ [deg]")
     pitch.plot(phase, np.degrees(dataset["body_pitch"].values), **FIRST)
-    _over_phase(power, phase, "power of both wings [W]")
+    _over_phase(power, dataset, "power of both wings [W]")
     lines = power.plot(phase, dataset["hinge_power"].values, label="hinge", **FIRST)
     lines += power.plot(phase, dataset["actuator_power"].values, label="actuator", **SECOND)
     mean = mean_power(dataset)
@@ -60,12 +61,13 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
     u, w = dataset["u"].values, dataset["w"].values
     pitch, rate = np.degrees(dataset["body_pitch"].values), np.degrees(dataset["pitch_rate"].values)
     phase, time, reached = dataset["phase"].values, dataset["time"].values, flown(dataset)
+    strokes = _strokes(dataset)
     dress(panels[0], f"displacement x [{x_unit}]", "forward velocity u [m/s]")
     dress(panels[1], f"height z [{z_unit}]", "upward velocity w [m/s]")
     dress(panels[2], "body pitch ψ [deg]", "pitch rate q [deg/s]")
-    _portrait(panels[0], phase, x, u)
-    lines, _ = _portrait(panels[1], phase, z, w)
-    _, marks = _portrait(panels[2], phase, pitch, rate)
+    _portrait(panels[0], phase, x, u, strokes)
+    lines, _ = _portrait(panels[1], phase, z, w, strokes)
+    _, marks = _portrait(panels[2], phase, pitch, rate, strokes)
     if reached.sum() > 1:
         # The mean advance: what a closed orbit gains in a beat.
         first, last = np.flatnonzero(reached)[[0, -1]]
@@ -78,25 +80,38 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
     legend_above(panels[2], [tuple(marks)], **starts)
 
 
-def _portrait(axes: Axes, phase: np.ndarray, place: np.ndarray, speed: np.ndarray) -> tuple[list, list]:
+def _portrait(
+    axes: Axes,
+    phase: np.ndarray,
+    place: np.ndarray,
+    speed: np.ndarray,
+    strokes: Sequence[tuple[float, float]],
+) -> tuple[list, list]:
     """Draw one portrait; return the lines of both strokes and the marks of their starts."""
     axes.locator_params(axis="x", nbins=5)
     axes.margins(0.08)
-    down = np.mod(phase, 1.0) < 0.5 - 1e-9
+    down = np.zeros(len(phase), dtype=bool)
+    for first, last in strokes:
+        down |= (first <= phase) & (phase < last)
     lines = []
     for mask, label, style in ((down, "downstroke", FIRST), (~down, "upstroke", SECOND)):
         # Each piece between two samples belongs to the stroke of its first.
         on = mask | np.concatenate([[False], mask[:-1]])
         lines += axes.plot(place, np.where(on, speed, np.nan), label=label, **style)
     size = 1.0 if phase[-1] - phase[0] <= 6 else 0.6
-    halves = np.arange(math.ceil(2 * phase[0] - 1e-9), math.floor(2 * phase[-1] + 1e-9) + 1)
+    tops = sorted({first for first, _ in strokes} | ({phase[-1]} if _ends_at_the_top(phase, strokes) else set()))
     marks = []
-    for odd, marker, points in ((0, (8, 2, 0), 7), (1, "o", 4)):
-        starts = halves[halves % 2 == odd] / 2
+    for starts, marker, points in ((tops, (8, 2, 0), 7), ([last for _, last in strokes], "o", 4)):
         look = {"linestyle": "", "marker": marker, "markersize": size * points, "mew": 0.9 * size}
         at = [np.interp(starts, phase, values) for values in (place, speed)]
         marks += axes.plot(*at, color="k", zorder=3, **look)
     return lines, marks
+
+
+def _ends_at_the_top(phase: np.ndarray, strokes: Sequence[tuple[float, float]]) -> bool:
+    """Say whether the last sample is a whole number of beats after the begin of a downstroke."""
+    beats = phase[-1] - np.array([first for first, _ in strokes])
+    return bool(np.any(np.abs(beats - np.round(beats)) < 1e-9))
 
 
 def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
@@ -109,7 +124,7 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
         (panels[1], force[..., 0], "horizontal force / weight [-]"),
         (panels[2], force[..., 1], "vertical force / weight [-]"),
     ):
-        _over_phase(axes, phase, label)
+        _over_phase(axes, dataset, label)
         if flown(dataset).any():  # alone, it would set limits of some 1e-17
             axes.axhline(0, color=_MEAN["color"], linewidth=0.5)
         for station, name, style in ((0.25, "1/4 span", FIRST), (0.75, "3/4 span", SECOND)):
@@ -139,7 +154,13 @@ def _turned(angle: np.ndarray) -> np.ndarray:
     return np.where(np.abs(np.diff(degrees, prepend=degrees[:1])) > 180.0, np.nan, degrees)
 
 
-def _over_phase(axes: Axes, phase: np.ndarray, ylabel: str) -> None:
+def _strokes(dataset: xr.Dataset) -> list[tuple[float, float]]:
+    """Return the phases of the downstrokes; the wing's motion is prescribed, so it goes on where a flight ended."""
+    return downstrokes(dataset["phase"].values, dataset["flap_rate"].values)
+
+
+def _over_phase(axes: Axes, dataset: xr.Dataset, ylabel: str) -> None:
     """Prepare a panel over phase with every downstroke shaded."""
     dress(axes, "phase t/T [-]", ylabel)
-    shade_downstrokes(axes, phase[0], phase[-1])
+    phase = dataset["phase"].values
+    shade_downstrokes(axes, phase[0], phase[-1], _strokes(dataset))

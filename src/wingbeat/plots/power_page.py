@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.datasets import downstrokes
 from wingbeat.results.power import SHARES, power_account
 from wingbeat.style import (
     FIRST,
@@ -61,7 +62,7 @@ def power_page(dataset: xr.Dataset) -> Figure:
 
 def _draw_shares(axes: Axes, dataset: xr.Dataset) -> None:
     phase = dataset["phase"].values
-    shade_downstrokes(axes, 0.0, 1.0)
+    shade_downstrokes(axes, 0.0, 1.0, downstrokes(phase, dataset["flap_rate"].values))
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.plot(phase, dataset["hinge_power"].values, label="hinge power", **_WHOLE)
     for name, variable in SHARES.items():

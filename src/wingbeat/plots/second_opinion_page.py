@@ -52,7 +52,7 @@ def second_opinion_page(opinion: SecondOpinion) -> Figure:
     share = np.mean(opinion.beyond, axis=-1)
     for axes, below, force in zip(*panels, ("lift", "thrust"), strict=True):
         _draw_force(axes, opinion, force)
-        shade_downstrokes(below, 0.0, 1.0)
+        shade_downstrokes(below, 0.0, 1.0, opinion.strokes)
         look = {"step": "mid", "facecolor": "none", "edgecolor": "0.3", "hatch": "/////", "linewidth": 0.6}
         below.fill_between(_closed(opinion.phase, 1.0), _closed(share), label="strips beyond 15 deg", **look)
         below.set(ylim=(0, 1), yticks=(0, 1), ylabel="share of\nstrips [-]")
@@ -63,7 +63,7 @@ def second_opinion_page(opinion: SecondOpinion) -> Figure:
 
 
 def _draw_force(axes: Axes, opinion: SecondOpinion, force: str) -> None:
-    shade_downstrokes(axes, 0.0, 1.0)
+    shade_downstrokes(axes, 0.0, 1.0, opinion.strokes)
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     phase = _closed(opinion.phase, 1.0)
     axes.plot(phase, _closed(getattr(opinion.theirs, force)) / opinion.weight, label="vortex lattice", **_THEIRS)

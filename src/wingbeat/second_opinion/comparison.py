@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.aero.blade_element import BladeElement
+from wingbeat.datasets import downstrokes
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.results.aero_record import aero_from
 from wingbeat.second_opinion.lattice import LatticeOptions, lattice_of, sum_of_panels
@@ -41,6 +42,7 @@ class SecondOpinion:
     weight : [N].
     options : of the lattice.
     phase : phases of the samples, shape (K,).
+    strokes : phases between which the wing goes down.
     terms : (unsteady, inflow), the terms with which the orbit was computed.
     ours : our loads for each pair of terms; None if the coefficients do not allow these terms.
     refused : for each pair of terms without loads, the reason.
@@ -53,6 +55,7 @@ class SecondOpinion:
     weight: float
     options: LatticeOptions
     phase: np.ndarray
+    strokes: list[tuple[float, float]]
     terms: tuple[str, str]
     ours: dict[tuple[str, str], WingLoads | None]
     refused: dict[tuple[str, str], str]
@@ -127,9 +130,9 @@ def compare_with_lattice(
     theirs = lattice_loads(motion, options, progress)
     weight = motion.vehicle.mass * motion.air.gravity
     name, speed = inputs["species"]["name"], float(inputs["speed"])
-    return SecondOpinion(
-        code, name, speed, weight, options, phase, (aero.unsteady, aero.inflow), ours, refused, theirs
-    )
+    strokes = downstrokes(orbit.dataset["phase"].values, orbit.dataset["flap_rate"].values)
+    terms = (aero.unsteady, aero.inflow)
+    return SecondOpinion(code, name, speed, weight, options, phase, strokes, terms, ours, refused, theirs)
 
 
 def lattice_loads(

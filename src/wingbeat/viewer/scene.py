@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import KIND, at_station, climb_text, flown
+from wingbeat.datasets import KIND, at_station, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body, Tail
@@ -99,7 +99,7 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
         "body_axes": body_axes(Body(**body)),
         **({} if tail is None else {"tail": tail.ravel().tolist()}),
-        "downstrokes": _downstrokes(dataset["phase"].values, dataset["flap_rate"].values),
+        "downstrokes": [list(ends) for ends in downstrokes(dataset["phase"].values, dataset["flap_rate"].values)],
         "arrays": {name: _packed(*array) for name, array in _arrays(dataset, weight).items()},
     }
 
@@ -120,13 +120,6 @@ def _summary(dataset: xr.Dataset, frequency: float) -> str:
     loads = json.loads(about["aero"])["coefficients"]
     status = "" if about["status"] == "converged" else f"; NOT CERTIFIED ({about['status']})"
     return f"{about['species']} at {about['speed']:.3g} m/s{climb}, {loads}, {frequency:.3g} Hz{status}"
-
-
-def _downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[list[float]]:
-    """Return the phases between which the wing goes down."""
-    down = (flap_rate[1:] + flap_rate[:-1]) < 0
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], down, [False]]).astype(int)))
-    return [[float(phase[a]), float(phase[b])] for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:

@@ -54,7 +54,7 @@ def test_an_orbit_comes_back_with_the_scenario_that_asks_for_it(orbit_file):
     assert found["why_not"] == ""
 
 
-def test_a_species_that_is_not_in_the_box_is_written_out(orbit_file, tmp_path):
+def test_a_species_that_is_not_built_in_is_written_out(orbit_file, tmp_path):
     import wingbeat as wb
 
     path = tmp_path / "own.nc"

@@ -15,8 +15,8 @@ from wingbeat.species.warnings import DERIVED
 
 SIZE = {"mass": 0.3, "wing_span": 0.62, "wing_area": 0.06}
 MAKERS = {"bird": wb.bird, "bat": wb.bat, "robot": wb.robot}
-# The box's animals that laws complete, with the size that their files name in words.
-BOX: dict[str, tuple[Any, float, float, float, dict[str, Any]]] = {
+# Built-in animals that laws complete, with the size that their files name in words.
+COMPLETED: dict[str, tuple[Any, float, float, float, dict[str, Any]]] = {
     "annas-hummingbird": (wb.bird, 0.00434, 0.1041, 0.001427, {}),
     "barn-swallow": (wb.bird, 0.016, 0.32, 0.0136, {}),
     "cockatiel": (wb.bird, 0.09, 0.501, 0.03586, {}),
@@ -294,9 +294,9 @@ def test_the_text_of_an_animal_loads_as_the_same_animal(make: Any, tmp_path: Any
         np.testing.assert_allclose(again.bounds[name], bound, rtol=1e-5)
 
 
-@pytest.mark.parametrize("name", BOX)
-def test_derived_numbers_in_the_box_are_what_the_laws_give(name: str) -> None:
-    make, mass, span, area, measured = BOX[name]
+@pytest.mark.parametrize("name", COMPLETED)
+def test_derived_numbers_of_built_in_animals_are_what_the_laws_give(name: str) -> None:
+    make, mass, span, area, measured = COMPLETED[name]
     filed, derived = wb.load_species(name), make(mass=mass, wing_span=span, wing_area=area, **measured)
     assert filed.vehicle.mass == pytest.approx(mass, rel=1e-9)
     checked = 0
@@ -329,7 +329,7 @@ def test_derived_animals_fly() -> None:
     assert any("derived by scaling laws" in line for line in orbits[0].record()["warnings"])
 
 
-def test_animals_and_robots_in_the_box_fly() -> None:
+def test_built_in_animals_and_robots_fly() -> None:
     """Least frequency by the plate: no higher than the highest that was seen of the animal or robot."""
     problems = [wb.OrbitProblem(wb.load_species(name), speed=speed) for name, (speed, _, _) in FLOWN.items()]
     for orbit, (name, (_, _, highest)) in zip(wb.solve_orbits(problems, starts=1), FLOWN.items(), strict=True):

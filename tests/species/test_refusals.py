@@ -164,7 +164,7 @@ def test_unknown_names_and_things_that_are_no_name() -> None:
     assert "must be a name or a path" in faults_of(load_species, 3)["species"]
 
 
-def test_a_name_in_the_box_is_not_looked_for_on_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_built_in_name_is_not_looked_for_on_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "pigeon").write_text("not toml")
     assert load_species("pigeon").name == "pigeon"

@@ -22,7 +22,7 @@ from wingbeat.species_schema import KEYS
 # --- the built-in animals ---
 
 
-def test_the_box_holds_the_two_animals_of_the_paper_and_others() -> None:
+def test_the_two_animals_of_the_paper_and_others_are_built_in() -> None:
     assert {"bat", "pigeon"} < set(species_names())
     assert list(species_names()) == sorted(species_names())
 
@@ -64,7 +64,7 @@ def test_our_own_defaults_are_those_of_the_literature_notes() -> None:
 
 
 @pytest.mark.parametrize("name", species_names())
-def test_every_animal_in_the_box_says_its_kind(name: str) -> None:
+def test_every_built_in_animal_says_its_kind(name: str) -> None:
     """And its text written anew says it, too."""
     animal = load_species(name)
     others = {"bat": "bat", "noctule": "bat", "short-tailed-bat": "bat", "dog-faced-fruit-bat": "bat"}

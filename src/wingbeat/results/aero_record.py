@@ -92,13 +92,13 @@ def _numbers(coefficients: Any) -> dict[str, Any]:
     """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
     if isinstance(coefficients, TableCoefficients):
         return {"table": {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)}
-    if isinstance(coefficients, FormulaCoefficients) and not _in_the_box(coefficients):
+    if isinstance(coefficients, FormulaCoefficients) and not _is_built_in(coefficients):
         formula = {name: getattr(coefficients, name) for name in _FORMULA} | _aspect_ratio(coefficients)
         for name in ("lift_terms", "drag_terms", "centre_terms"):
             terms = getattr(coefficients, name)
             formula[name] = None if terms is None else dict(vars(terms))
         return {"formula": formula}
-    if isinstance(coefficients, CamberedCoefficients) and not _in_the_box(coefficients):
+    if isinstance(coefficients, CamberedCoefficients) and not _is_built_in(coefficients):
         cambered = {name: getattr(coefficients, name) for name in _CAMBERED} | _aspect_ratio(coefficients)
         return {"cambered": cambered | {"terms": dict(vars(coefficients.terms))}}
     return {}
@@ -111,7 +111,7 @@ def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
     return {"aspect_ratio": "inf" if math.isinf(coefficients.aspect_ratio) else coefficients.aspect_ratio}
 
 
-def _in_the_box(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
+def _is_built_in(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
     """Return whether the library has this model under its name; a fit may have the name of a published model."""
     if coefficients.name not in LIBRARY:
         return False

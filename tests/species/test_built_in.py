@@ -13,7 +13,7 @@ OUTSIDE_ON_PURPOSE = {("pigeon", "uniform-wing"), ("bat", "uniform-wing")}
 
 
 @pytest.mark.parametrize("name", species_names())
-def test_every_number_in_the_box_has_unit_source_and_range(name: str) -> None:
+def test_every_number_of_a_built_in_species_has_unit_source_and_range(name: str) -> None:
     raw = _raw(name)
     leaves = _leaves({key: raw[key] for key in ("vehicle", "wingbeat", "air")})
     assert len(leaves) >= 21

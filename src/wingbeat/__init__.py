@@ -98,6 +98,10 @@ if TYPE_CHECKING:
     from wingbeat.vehicle import Tail as Tail
     from wingbeat.vehicle import Vehicle as Vehicle
     from wingbeat.vehicle import Wing as Wing
+    from wingbeat.whole_flights.measured import MeasuredFlights as MeasuredFlights
+    from wingbeat.whole_flights.measured import read_measured_flights as read_measured_flights
+    from wingbeat.whole_flights.prediction import Prediction as Prediction
+    from wingbeat.whole_flights.prediction import predict_flights as predict_flights
 
 _HOME = {
     "Air": "vehicle",
@@ -119,11 +123,13 @@ _HOME = {
     "GlidePolar": "results.glide",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
+    "MeasuredFlights": "whole_flights.measured",
     "Motor": "actuators",
     "Muscle": "actuators",
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
+    "Prediction": "whole_flights.prediction",
     "Quantity": "orbits.problem.quantities",
     "Relaxation": "orbits.infeasible.relaxation",
     "Samples": "orbits.many.uncertainty",
@@ -166,6 +172,8 @@ _HOME = {
     "orbit_spread": "results.spread",
     "plan_study": "studies.study",
     "power_account": "results.power",
+    "predict_flights": "whole_flights.prediction",
+    "read_measured_flights": "whole_flights.measured",
     "read_strip_case": "measured_motion.reading",
     "robot": "species",
     "sensitivities": "results.sensitivities",

@@ -37,7 +37,7 @@ COMMANDS = {
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
     "reduce": "Turn load-cell records into lift, drag, moment and centre-of-pressure coefficients.",
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
-    "validate": "Compute the air loads on measured motions, and compare them with measured forces.",
+    "validate": "Compare air loads on measured motions, and whole flights of animals, with measurements.",
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
     "compare": "Compare the air loads of a saved orbit with those of a vortex lattice.",

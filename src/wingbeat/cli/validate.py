@@ -1,4 +1,4 @@
-"""``wingbeat validate``: air loads on measured motions against measured forces."""
+"""``wingbeat validate``: air loads on measured motions, and whole flights, against what was measured."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat.aero import EXTENSIONS
-from wingbeat.cli.options import check_files, check_outputs
+from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.options import Whole, check_files, check_outputs
 from wingbeat.cli.streams import plain_console
+from wingbeat.cli.whole_flights import is_whole_flights, validate_flights
 from wingbeat.errors import FaultList
 from wingbeat.files import write_atomically
 from wingbeat.measured_motion import Validation, ValidationRow, read_strip_case, shipped_cases
 from wingbeat.measured_motion import validate as validated
 from wingbeat.measured_motion.page import validation_text
 from wingbeat.plots import save_figure, validation_page
+from wingbeat.whole_flights import measured_animals
 
 _NUMBERS = {
     "mean": "mean_ratio",
@@ -31,7 +34,11 @@ _NUMBERS = {
 
 def validate(
     case: Annotated[
-        Path | None, Parameter(help="A strip-motion case (.toml); those of the package if left out.")
+        str | None,
+        Parameter(
+            help="A strip-motion case (.toml), an animal whose flights were measured, or a file of such flights "
+            "(.toml). The strip-motion cases of the package if left out."
+        ),
     ] = None,
     /,
     *,
@@ -57,23 +64,37 @@ def validate(
     inflow: Annotated[
         str | None, Parameter(help="Induced flow: none or momentum; rows with both if left out.")
     ] = None,
-    induced_factor: Annotated[float, Parameter(help="Induced power of the inflow over that of an ideal disc.")] = (
-        1.2
-    ),
+    induced_factor: Annotated[
+        float | None, Parameter(help="Induced power of the inflow over that of an ideal disc; default 1.2.")
+    ] = None,
+    model: Annotated[
+        str | None, Parameter(help="Whole flights: the model, animal or paper; default animal.")
+    ] = None,
+    draws: Annotated[
+        Whole | None,
+        Parameter(help="Whole flights: draws of the animal's numbers for the band; default 0, no band."),
+    ] = None,
+    seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
     ] = None,
-) -> None:
-    """Compute the air loads of every coefficient model on a measured motion, and compare them with the forces.
+) -> int:
+    """Compute air loads on a measured motion, or an animal's whole flights, and compare them with measurements.
+
+    With a strip-motion case, or none, it computes the loads of every coefficient model.
 
     Each row adds one step of the ladder: no terms, rotation and added mass, the lag of the wake, each with and
     without momentum inflow. One row is recommended, by a rule that never sees the measured force. A case is a
     TOML file with tables of strips and forces (.csv) beside it. With `--json`, several cases are a list under
     `cases`.
 
-    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md
+    With an animal, it predicts the flights at the measured speeds by a model, and nothing is fitted. Exit code 3:
+    none of them is certified.
+
+    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md;
+    wingbeat validate pigeon --draws 100 -o pigeon.md
     """
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".md":
@@ -83,12 +104,22 @@ def validate(
     if extension is not None:
         faults.choice("--extension", extension, EXTENSIONS)
     check_files(faults, output, plot=plot)
+    loads = {"--aero": aero, "--extension": extension, "--unsteady": unsteady, "--inflow": inflow}
+    loads |= {"--induced-factor": induced_factor}
+    flights = {"--model": model, "--draws": draws, "--seed": seed}
+    whole = case is not None and is_whole_flights(case)
+    for name, value in (loads if whole else flights).items():
+        if value is not None:
+            faults.add(name, value, f"does not apply to {'whole flights' if whole else 'measured motions'}")
     faults.raise_if_any()
-    paths = shipped_cases() if case is None else [case]
+    if case is not None and whole:
+        return validate_flights(case, model or "animal", draws or 0, seed or 0, json, plot, output)
+    paths = shipped_cases() if case is None else [Path(case)]
     cases = [read_strip_case(path) for path in paths]
     pictures = [] if output is None else [output.with_name(f"{output.stem}_{_slug(one.name)}.png") for one in cases]
     check_outputs(output, plot, *pictures)
-    found = [validated(one, aero, unsteady, inflow, induced_factor, extension) for one in cases]
+    factor = 1.2 if induced_factor is None else induced_factor
+    found = [validated(one, aero, unsteady, inflow, factor, extension) for one in cases]
     if plot is not None:
         save_figure(validation_page(found[0]), plot)
     for picture, one in zip(pictures, found, strict=False):
@@ -97,13 +128,18 @@ def validate(
         write_atomically(output, validation_text(found, [picture.name for picture in pictures]))
     if json:
         said = [one.to_dict() for one in found]
-        print(json_format.dumps(said[0] if case is not None else {"cases": said}, indent=2, allow_nan=False))
+        listed = {"cases": said, "whole_flights": measured_animals()}
+        print(json_format.dumps(said[0] if case is not None else listed, indent=2, allow_nan=False))
     else:
         for one in found:
             _print(one)
+        if case is None:
+            animals = ", ".join(measured_animals())
+            plain_console().print(f"Whole flights, compared by `wingbeat validate ANIMAL`: {animals}")
     for path in (plot, output, *pictures):
         if path is not None:
             print(f"wrote {path}", file=sys.stderr)
+    return EXIT_GOOD
 
 
 def _slug(name: str) -> str:

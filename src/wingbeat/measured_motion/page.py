@@ -71,6 +71,11 @@ repeats, the states repeat too; in any other, the wake starts as that of steady 
 The lag is that of a section, as rotation and added mass are. A whole wing lags less than its sections: [air
 loads](air_loads.md) says what that means for the robot.
 
+## Whole flights
+
+`wingbeat validate pigeon` predicts flights instead of computing loads on a given motion: see
+[whole flights](whole_flights.md).
+
 ## What no row holds
 
 Stall that comes late in fast pitching. Strips do not influence each other, and neither do fore wing and hind wing.

@@ -4,6 +4,7 @@ from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
 from wingbeat.plots.film_page import film_page as film_page
 from wingbeat.plots.fit_page import fit_page as fit_page
+from wingbeat.plots.flights_page import flights_page as flights_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
@@ -23,6 +24,7 @@ __all__ = [
     "curve_page",
     "film_page",
     "fit_page",
+    "flights_page",
     "glide_page",
     "power_page",
     "save_figure",

@@ -138,11 +138,12 @@ def sample_orbits(
     processes: int = 1,
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
+    starts: int = 1,
 ) -> Samples:
     """Solve a problem for random draws of its parameters.
 
     Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family.
-    If the correction leads to no orbit, a local search from the prediction follows, then one start.
+    If the correction leads to no orbit, a local search from the prediction follows, then a search from starts.
 
     Parameters
     ----------
@@ -153,6 +154,7 @@ def sample_orbits(
     count : number of draws.
     seed : of the draws, and of the starts.
     processes, progress, options : as in `solve_orbits`.
+    starts : of that last search, which takes most of the time where many draws cannot fly; 0 leaves it out.
     """
     generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]
@@ -160,7 +162,7 @@ def sample_orbits(
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
     predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
     drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, predicted, strict=True)]
-    work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options)
+    work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options, starts=starts)
     values = np.array(list(in_processes(work, drawn, processes, progress)))
     certified = np.asarray(np.isfinite(values).all(axis=1))
     return Samples(tuple(p.path for p in parameters), deviations, values, certified)
@@ -173,13 +175,17 @@ def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: n
 
 
 def _read_off(
-    drawn: tuple[OrbitProblem, np.ndarray], quantities: tuple[Quantity, ...], seed: int, options: SolverOptions
+    drawn: tuple[OrbitProblem, np.ndarray],
+    quantities: tuple[Quantity, ...],
+    seed: int,
+    options: SolverOptions,
+    starts: int,
 ) -> list[float]:
     """Return quantities of the orbit of one draw, not-a-number if there is none."""
     problem, guess = drawn
     found = correct_guess(problem, guess, options=options) or search_near(problem, guess, options=options)
-    if found is None:
-        found = find_orbit(problem, 1, seed, threads=1, most_starts=1, options=options)
-    if found.status is not Status.CONVERGED:
+    if found is None and starts:
+        found = find_orbit(problem, starts, seed, threads=1, most_starts=starts, options=options)
+    if found is None or found.status is not Status.CONVERGED:
         return [math.nan] * len(quantities)
     return [found.value_of(quantity) for quantity in quantities]

@@ -1,0 +1,106 @@
+"""``wingbeat validate ANIMAL``: whole flights predicted, and compared with measured ones."""
+
+from __future__ import annotations
+
+import json as json_format
+import sys
+from pathlib import Path
+from typing import Any
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import check_outputs
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.streams import plain_console
+from wingbeat.errors import FaultList, FileError
+from wingbeat.files import read_text, toml_tables, write_atomically
+from wingbeat.plots import flights_page, save_figure
+from wingbeat.species import load_species
+from wingbeat.whole_flights import Prediction, compared, measured_animals, predict_flights, read_measured_flights
+from wingbeat.whole_flights.comparison import name_of, words_of
+from wingbeat.whole_flights.page import flight_text
+from wingbeat.workers.affinity import core_count
+
+# So many draws are worth the start of another process.
+_WORTH_A_PROCESS = 200
+
+
+def is_whole_flights(case: str) -> bool:
+    """Say whether a case of `wingbeat validate` is an animal, or a file of its measured flights."""
+    if case in measured_animals():
+        return True
+    try:
+        return "measured" in toml_tables(read_text(case), case)
+    except FileError:
+        return False
+
+
+def validate_flights(
+    case: str, model: str, draws: int, seed: int, json: bool, plot: Path | None, output: Path | None
+) -> int:
+    """Fly an animal at its measured speeds and print, draw or write the comparison."""
+    faults = FaultList()
+    faults.choice("--model", model, ("paper", "animal"))
+    faults.raise_if_any()
+    picture = None if output is None else output.with_suffix(".png")
+    check_outputs(output, plot, *([] if picture is None else [picture]))
+    flights = read_measured_flights(case)
+    processes = max(1, min(core_count(), draws // _WORTH_A_PROCESS))
+    with progress_bar("flights") as progress:
+        found = predict_flights(flights, model, draws, seed, processes, progress)
+    for path in (plot, picture):
+        if path is not None:
+            save_figure(flights_page(found), path)
+    if output is not None and picture is not None:
+        name = load_species(flights.species).common_name
+        write_atomically(output, flight_text(found, picture.name, name or flights.species))
+    if json:
+        print(json_format.dumps(plain_flights(found), indent=2, allow_nan=False))
+    else:
+        _print(found)
+    for path in (plot, output, picture):
+        if path is not None:
+            print(f"wrote {path}", file=sys.stderr)
+    return EXIT_GOOD if any(one.values for one in found.flown) else EXIT_NOT_CERTIFIED
+
+
+def plain_flights(found: Prediction) -> dict[str, Any]:
+    """Return a prediction and its comparison as plain values, fit for JSON.
+
+    Parameters
+    ----------
+    found : from `predict_flights`.
+    """
+    scores = [vars(score) | {"measurement": vars(score.measurement)} for score in compared(found)]
+    about = {"species": found.flights.species, "minimum_power_speed": found.minimum_power_speed}
+    return about | found.plain() | {"compared": scores}
+
+
+def _print(found: Prediction) -> None:
+    from rich.table import Table
+    from rich.text import Text
+
+    console = plain_console()
+    about = f"{found.flights.species}: model {found.model}, least {found.objective.replace('_', ' ')}"
+    console.print(Text(about, style="bold"))
+    names = list(next((one.values for one in found.flown if one.values), {}))
+    flown = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
+    flown.add_column(Text("speed\n[m/s]"), justify="right")
+    for name in names:
+        flown.add_column(Text(name_of(name)), justify="right", max_width=16)
+    for one in found.flown:
+        cells = [f"{one.values[name]:.3g}" for name in names] if one.values else [one.status]
+        flown.add_row(f"{one.speed:g}", *cells)
+    console.print(flown)
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
+    for head in ("quantity", "basis", "measured", "predicted", "agrees"):
+        table.add_column(Text(head))
+    for score in compared(found):
+        told = score.measurement
+        ends = [_ends(told.values), "-" if score.predicted is None else _ends(score.predicted)]
+        table.add_row(Text(name_of(told.quantity)), told.basis, *ends, words_of(score))
+    console.print(table)
+
+
+def _ends(pair: tuple[float, float]) -> str:
+    low, high = (f"{value:.3g}" for value in pair)
+    return low if low == high else f"{low} to {high}"

@@ -1,0 +1,144 @@
+"""Pages on whole flights, in Markdown: one for each animal, and an overview of all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from wingbeat.whole_flights.comparison import AGREES, Score, compared, name_of, words_of
+from wingbeat.whole_flights.measured import COMPARED
+from wingbeat.whole_flights.prediction import Flown, Prediction
+
+_FIT = (
+    "Nothing is fitted to these measurements. The polars of the wings are fitted to measured wings "
+    "([animal wings](animal_wings.md)), and laws give what the species file lacks ([models](models.md))."
+)
+
+
+def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
+    """Return the page of an animal.
+
+    Parameters
+    ----------
+    prediction : from `predict_flights`.
+    figure : file name of its figure.
+    common_name : of the animal, for the heading.
+    """
+    flights, drawn = prediction.flights, max(one.drawn for one in prediction.flown)
+    asked, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
+    parts = [
+        f"# Whole flights: {common_name}",
+        f"`uv run wingbeat validate {flights.species}{asked} -o PAGE.md` writes this page. It flies the animal at "
+        f"each speed by the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
+        f"![Power, frequency and flap amplitude against speed, with measured values]({figure})",
+        "## Compared with measurements",
+        _score_table(compared(prediction)),
+        _how_to_read(),
+        "## The flights",
+        _flown_table(prediction.flown),
+        "`activation` is the largest share of its muscle fibres that the beat uses; above 1, the muscle that we "
+        "gave the animal is too weak. In brackets: the values between which 80 % of the certified draws lie.",
+    ]
+    if any(one.due_to for one in prediction.flown):
+        parts += ["## What the bands follow", _due_text(prediction.flown)]
+    return "\n\n".join(parts) + "\n"
+
+
+def overview_text(predictions: Sequence[Prediction]) -> str:
+    """Return the page that lists all animals.
+
+    Parameters
+    ----------
+    predictions : of all animals.
+    """
+    rows = [
+        f"| [{p.flights.species}](flight_{p.flights.species}.md) | {name_of(one.measurement.quantity)} | "
+        f"{one.measurement.basis} | {_pair(one.measurement.values)} | {_speeds(one)} | {_pair(one.predicted)} | "
+        f"{words_of(one)} |"
+        for p in predictions
+        for one in compared(p)
+    ]
+    scores = [score for p in predictions for score in compared(p)]
+    known = [one for one in scores if one.agrees is not None]
+    agree = sum(one.agrees is True for one in known)
+    return "\n\n".join(
+        [
+            "# Whole flights against measurements",
+            "`python validation/whole_flights.py` writes this page and those of the animals. Each animal is flown "
+            f"by the model `animal` at the speeds of its measurements. {_FIT}",
+            f"**{agree} of {len(known)} comparisons agree.** {_how_to_read()}",
+            "| animal | quantity | basis | measured | at [m/s] | predicted | agrees |\n"
+            "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(rows),
+        ]
+    )
+
+
+def _how_to_read() -> str:
+    factors = ", ".join(
+        f"{COMPARED[name][1]} {factor:g}" for name, factor in AGREES.items() if name != "minimum_power_speed"
+    )
+    return (
+        "A prediction agrees if it lies, at every speed, within a factor of the measured values: "
+        f"{factors}. The speed of minimum power agrees within {AGREES['minimum_power_speed']:g} m/s. *Measured* "
+        "numbers are those of the animal, *estimated* ones hold somebody's model, and a *law* is of other animals."
+    )
+
+
+def _score_table(scores: Iterable[Score]) -> str:
+    lines = [
+        "| quantity | basis | measured | at [m/s] | predicted | ratio | agrees | what was measured, and by whom |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for one in scores:
+        told = one.measurement
+        lines.append(
+            f"| {name_of(told.quantity)} | {told.basis} | {_pair(told.values)} | {_speeds(one)} | "
+            f"{_pair(one.predicted)} | {_pair(one.ratio)} | {words_of(one)} | {told.what} ({told.source}) |"
+        )
+    return "\n".join(lines)
+
+
+def _flown_table(flown: Sequence[Flown]) -> str:
+    names = [name for name in COMPARED if any(name in one.values for one in flown)]
+    heads = ["speed [m/s]", *(name_of(name) for name in names), "activation", "at the bound of", "draws that fly"]
+    lines = ["| " + " | ".join(heads) + " |", "| " + " | ".join("---" for _ in heads) + " |"]
+    for one in flown:
+        if not one.values:
+            lines.append(f"| {one.speed:g} | {one.status}: {one.message} |" + " |" * (len(heads) - 2))
+            continue
+        cells = [f"{one.values[name]:.3g}" + _band(one, name) for name in names]
+        activation = "-" if one.peak_activation is None else f"{one.peak_activation:.2g}"
+        bounds = ", ".join(name.replace("_", " ") for name in one.active_bounds) or "-"
+        draws = f"{one.certified} of {one.drawn}" if one.drawn else "-"
+        lines.append(f"| {one.speed:g} | " + " | ".join([*cells, activation, bounds, draws]) + " |")
+    return "\n".join(lines)
+
+
+def _band(one: Flown, name: str) -> str:
+    return f" ({one.low[name]:.3g} to {one.high[name]:.3g})" if name in one.low else ""
+
+
+def _due_text(flown: Sequence[Flown]) -> str:
+    lines = [
+        "All numbers of the animal are drawn at once from their ranges. The table names those that a quantity "
+        "follows most over the draws, with the square of the rank correlation. A better measurement of the first "
+        "would narrow the band most.",
+        "",
+        "| speed [m/s] | quantity | follows |",
+        "| --- | --- | --- |",
+    ]
+    for one in flown:
+        for name, shares in one.due_to.items():
+            said = ", ".join(f"`{path}` {share:.2f}" for path, share in shares.items() if share >= 0.02)
+            lines.append(f"| {one.speed:g} | {name_of(name)} | {said or 'no number of the animal'} |")
+    return "\n".join(lines)
+
+
+def _pair(values: tuple[float, float] | None) -> str:
+    if values is None:
+        return "-"
+    low, high = (f"{value:.3g}" for value in values)
+    return low if low == high else f"{low} to {high}"
+
+
+def _speeds(score: Score) -> str:
+    return "-" if not score.speeds else _pair((score.speeds[0], score.speeds[-1]))

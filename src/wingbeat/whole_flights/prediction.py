@@ -1,0 +1,238 @@
+"""Whole flights predicted: an animal flown at each speed, with the band that its uncertain numbers leave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from wingbeat._jax.config import jnp
+from wingbeat.errors import FaultList
+from wingbeat.models import model_of
+from wingbeat.orbits.many.uncertainty import Samples, sample_orbits
+from wingbeat.orbits.problem.quantities import QUANTITIES, Quantity
+from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.status import Status
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.sensitivities import sensitivities
+from wingbeat.results.solving import solve_orbits
+from wingbeat.species import load_species
+from wingbeat.whole_flights.measured import COMPARED, MeasuredFlights
+
+_AMPLITUDE = Quantity("flap_amplitude_deg", lambda beat: jnp.degrees(beat.flap_amplitude), "deg", 10.0)
+# Fewer certified draws give no band.
+_FEWEST = 10
+_BAND = (10.0, 90.0)  # per cent of the certified draws
+# A rank correlation with one of some 30 numbers says something from about a hundred draws on: of 12 draws, one of
+# them explains half of the variance by chance.
+_RANKED = 100
+_NAMED = 3  # numbers of the animal that are named for a quantity
+
+
+@dataclass(frozen=True)
+class Flown:
+    """A flight at one speed.
+
+    Attributes
+    ----------
+    speed : [m/s].
+    status, message : of the orbit.
+    values : quantities of a certified orbit, in the units of `COMPARED`; empty without one.
+    peak_activation : largest share of its muscle that it uses; None without muscle.
+    active_bounds : free parameters that are at a bound.
+    low, high : the band of each quantity: 10 and 90 per cent of the certified draws; empty without draws.
+    drawn, certified : number of draws of the animal's numbers, and of those that fly.
+    due_to : by quantity, the numbers of the animal that its draws follow most, each with the square of the rank
+        correlation; empty with fewer than 100 certified draws.
+    """
+
+    speed: float
+    status: str
+    message: str
+    values: dict[str, float]
+    peak_activation: float | None = None
+    active_bounds: tuple[str, ...] = ()
+    low: dict[str, float] = field(default_factory=dict)
+    high: dict[str, float] = field(default_factory=dict)
+    drawn: int = 0
+    certified: int = 0
+    due_to: dict[str, dict[str, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """The flights of an animal at all speeds; made by `predict_flights`.
+
+    Attributes
+    ----------
+    flights : the measured flights.
+    model : name of the model, as in `wb.models`.
+    objective : what the wingbeats minimise.
+    flown : one flight for each speed, in their order.
+    """
+
+    flights: MeasuredFlights
+    model: str
+    objective: str
+    flown: tuple[Flown, ...]
+
+    def series(self, quantity: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return speeds [m/s], values and the two ends of the band, shape (K,); not-a-number where there is none.
+
+        Parameters
+        ----------
+        quantity : one of `COMPARED`.
+        """
+        rows = [
+            (one.speed, *(part.get(quantity, np.nan) for part in (one.values, one.low, one.high)))
+            for one in self.flown
+        ]
+        speeds, values, low, high = np.array(rows).T
+        return speeds, values, low, high
+
+    def plain(self) -> dict[str, Any]:
+        """Return the prediction without the measurements, as plain values fit for JSON."""
+        return {"model": self.model, "objective": self.objective, "flown": [vars(one) for one in self.flown]}
+
+    @classmethod
+    def of_plain(cls, flights: MeasuredFlights, plain: dict[str, Any]) -> Prediction:
+        """Return the prediction that `plain` described.
+
+        Parameters
+        ----------
+        flights : the measured flights.
+        plain : from `plain`, also by way of JSON.
+        """
+        rows = [row | {"active_bounds": tuple(row["active_bounds"])} for row in plain["flown"]]
+        return cls(flights, plain["model"], plain["objective"], tuple(Flown(**row) for row in rows))
+
+    @property
+    def minimum_power_speed(self) -> float | None:
+        """Speed of the certified flight of least positive power [m/s]; None if none is certified."""
+        flown = [one for one in self.flown if one.values]
+        best = min(flown, key=lambda one: one.values["positive_power_per_mass"], default=None)
+        return None if best is None else best.speed
+
+
+def predict_flights(
+    flights: MeasuredFlights,
+    model: str = "animal",
+    draws: int = 0,
+    seed: int = 0,
+    processes: int = 1,
+    progress: Progress | None = None,
+) -> Prediction:
+    """Fly an animal at the speeds of its measured flights.
+
+    No number is fitted to the measurements: they only say at which speeds to fly. For the band, the numbers of the
+    species file and of the laws are drawn from their ranges, all at once. Draws stay in the orbit's family: one
+    that a search from the orbit does not lead to a flight counts as not certified.
+
+    Parameters
+    ----------
+    flights : from `read_measured_flights`.
+    model : ``"animal"`` or ``"paper"``.
+    draws : of the animal's numbers at each speed; 0 for no band.
+    seed : of starts and draws.
+    processes : Python processes that share the draws.
+    progress : called with (flights and draws done, all).
+
+    Raises
+    ------
+    InvalidInputError : draws not 0 or from 10 to 100000; what the species file and the model refuse.
+    FileError : the species file cannot be read.
+    """
+    faults = FaultList()
+    if draws:
+        faults.whole("draws", draws, _FEWEST, 100_000, "0 for no band")
+    faults.raise_if_any()
+    species = load_species(flights.species)
+    chosen = model_of(model, species)
+    problems = [chosen.problem(species, speed=speed) for speed in flights.speeds]
+    total = len(problems) * (1 + draws)
+
+    def told(before: int) -> Progress | None:
+        return None if progress is None else lambda done, _: progress(before + done, total)
+
+    orbits = solve_orbits(problems, seed=seed, in_order=True, progress=told(0))
+    flown = [
+        _flown(orbit, draws, seed, processes, told(len(problems) + i * draws)) for i, orbit in enumerate(orbits)
+    ]
+    return Prediction(flights, model, problems[0].minimise.name, tuple(flown))
+
+
+def _flown(orbit: Orbit, draws: int, seed: int, processes: int, progress: Progress | None) -> Flown:
+    about = (orbit.problem.speed, orbit.status.value, orbit.message)
+    if orbit.status is not Status.CONVERGED:
+        return Flown(*about, {})
+    record = orbit.record()
+    values = _values(record, orbit.problem.model.vehicle.mass)
+    known: dict[str, Any] = {
+        "peak_activation": record.get("peak_activation"),
+        "active_bounds": tuple(record["active_bounds"]),
+    }
+    if draws:
+        known |= _band(orbit, _quantities(values), draws, seed, processes, progress)
+    return Flown(*about, values, **known)
+
+
+def _values(record: dict[str, Any], mass: float) -> dict[str, float]:
+    wingbeat = record["wingbeat"]
+    own = {
+        "frequency": wingbeat["frequency"],
+        "flap_amplitude_deg": math.degrees(wingbeat["flap_amplitude"]),
+        "positive_power_per_mass": record["mean_positive_power"] / mass,
+    }
+    return own | {name: record[name] for name in COMPARED if name in record}
+
+
+def _quantities(values: dict[str, float]) -> list[Quantity]:
+    return [_AMPLITUDE if name == _AMPLITUDE.name else QUANTITIES[name] for name in values]
+
+
+def _band(
+    orbit: Orbit, quantities: Sequence[Quantity], draws: int, seed: int, processes: int, progress: Progress | None
+) -> dict[str, Any]:
+    found = sensitivities(orbit, quantities)
+    samples = sample_orbits(
+        found.problem,
+        found.unknowns,
+        found.slopes,
+        found.spreads(),
+        quantities,
+        draws,
+        seed,
+        processes,
+        progress,
+        starts=0,
+    )
+    certified = int(samples.certified.sum())
+    told: dict[str, Any] = {"drawn": draws, "certified": certified}
+    if certified < _FEWEST:
+        return told
+    low, high = np.percentile(samples.quantities[samples.certified], _BAND, axis=0)
+    names = [one.name for one in quantities]
+    ranked = names if certified >= _RANKED else []
+    return told | {
+        "low": dict(zip(names, low.tolist(), strict=True)),
+        "high": dict(zip(names, high.tolist(), strict=True)),
+        "due_to": {name: _due_to(samples, i) for i, name in enumerate(ranked)},
+    }
+
+
+def _due_to(samples: Samples, column: int) -> dict[str, float]:
+    """Return the numbers that a quantity follows most over the draws, with the square of the rank correlation."""
+    from scipy.stats import rankdata
+
+    values = rankdata(samples.quantities[samples.certified, column])
+    if np.ptp(values) == 0:
+        return {}
+    drawn = rankdata(samples.deviations[samples.certified], axis=0)
+    moved = np.ptp(drawn, axis=0) > 0
+    shares = np.zeros(drawn.shape[1])
+    shares[moved] = [np.corrcoef(values, row)[0, 1] ** 2 for row in drawn.T[moved]]
+    best = np.argsort(-shares, kind="stable")[:_NAMED]
+    return {samples.paths[i]: float(shares[i]) for i in best}

@@ -1,0 +1,106 @@
+"""Write docs/frequency_trials.md: which change of a pigeon's model gives the frequency of live pigeons.
+
+    python validation/frequency_trials.py
+
+The base is the model ``animal``. Each row changes one thing and solves again; the table is written after each row.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import wingbeat as wb
+from wingbeat.files import write_atomically
+
+SPEEDS = 6.0, 10.0, 14.0
+PAGE = Path(__file__).parents[1] / "docs" / "frequency_trials.md"
+TEXT = """# What sets the frequency?
+
+`python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
+speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
+([models](models.md)) does not: its least metabolic power lies at 14 to 17 Hz up to 10 m/s and at 4 Hz around
+13 m/s. Each row changes one thing of that model. A cell holds frequency [Hz], flap amplitude [deg], positive power
+[W/kg of the bird] and activation, the largest share of its muscle fibres that the beat uses.
+
+{table}
+
+{words}
+"""
+WORDS = Path(__file__).with_name("frequency_trials_words.md")
+
+
+class Trial(NamedTuple):
+    """One change: the species, what the model's air loads become, and what is minimised."""
+
+    name: str
+    species: wb.Species
+    changes: dict[str, Any]
+
+
+def trials() -> Iterator[Trial]:
+    """Yield the base and every single change."""
+    pigeon = wb.load_species("pigeon")
+    model = wb.models.animal(pigeon)
+    base = model.species(pigeon)
+    muscle = base.vehicle.muscle
+    assert muscle is not None
+
+    def with_muscle(**numbers: float) -> wb.Species:
+        return base.with_values({f"muscle.{name}": value for name, value in numbers.items()})
+
+    yield Trial("**the model `animal`**", base, {})
+    yield Trial("0.19 of the mass is depressors, as in pigeons, in place of 0.14", with_muscle(mass=0.059), {})
+    yield Trial("elevators a third of the depressors in place of a ninth", with_muscle(elevator_share=1 / 3), {})
+    stress, rate = muscle.isometric_stress, muscle.max_strain_rate
+    yield Trial("isometric stress 400 kPa in place of 250", with_muscle(isometric_stress=400e3), {})
+    weaker = with_muscle(isometric_stress=101e3, max_strain_rate=rate * stress / 101e3)
+    yield Trial("isometric stress 101 kPa, and faster muscle of the same power", weaker, {})
+    yield Trial("muscle half as fast", with_muscle(max_strain_rate=0.5 * rate), {})
+    strain = muscle.strain_per_angle
+    yield Trial("strain per angle 1.5 times as large", with_muscle(strain_per_angle=1.5 * strain), {})
+    yield Trial("wings of the dissected pigeon: heavier, held closer to the root", _dissected(model, pigeon), {})
+    folded = base.with_values({"wingbeat.span_retraction": 0.5})
+    yield Trial("half of the span retracted in place of 0.3", folded, {})
+    spared = dataclasses.replace(model.aero, upstroke_factor=0.4)
+    yield Trial("0.4 of the load where air meets the wing from above", base, {"aero": spared})
+    yield Trial("least positive power", base, {"minimise": "mean_positive_power"})
+    yield Trial("least activation", base, {"minimise": "peak_activation"})
+    yield Trial("least frequency", base, {"minimise": "frequency"})
+
+
+def _dissected(model: Any, pigeon: wb.Species) -> wb.Species:
+    """Return the pigeon with the wing mass of AvInertia's, and its shoulders where they are."""
+    other = pigeon.with_alternative("avinertia").vehicle.wing
+    return model.species(pigeon).with_values({"wing.mass": other.mass, "wing.mass_exponent": other.mass_exponent})
+
+
+def cell(model: Any, trial: Trial, speed: float) -> str:
+    """Return what the best beat of a trial is, or a dash."""
+    orbit = wb.solve_orbit(model.problem(trial.species, speed=speed, **trial.changes))
+    if orbit.status is not wb.Status.CONVERGED:
+        return "-"
+    record = orbit.record()
+    amplitude = math.degrees(orbit.wingbeat.flap_amplitude)
+    power = record["mean_positive_power"] / trial.species.vehicle.mass
+    return f"{orbit.wingbeat.frequency:.1f}, {amplitude:.0f}, {power:.0f}, {record['peak_activation']:.2g}"
+
+
+def main() -> None:
+    """Solve every trial and write the page."""
+    model = wb.models.animal(wb.load_species("pigeon"))
+    heads = " | ".join(f"{speed:g} m/s" for speed in SPEEDS)
+    lines = [f"| change | {heads} |", "|---|" + "---|" * len(SPEEDS)]
+    for trial in trials():
+        found = [cell(model, trial, speed) for speed in SPEEDS]
+        lines.append(f"| {trial.name} | {' | '.join(found)} |")
+        print(lines[-1], flush=True)
+    words = WORDS.read_text().strip()
+    write_atomically(PAGE, TEXT.format(table="\n".join(lines), words=words))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""Fly animals whose flights were measured, and write a page and a figure for each, and the overview.
+
+    python validation/whole_flights.py [--draws 24] [--processes 1] [ANIMAL ...]
+
+Flights are kept in ``data/whole_flights``, one file for each animal. Animals that are named are flown anew, the
+others only where their file is missing; all pages are then written from the files.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import wingbeat as wb
+from wingbeat.files import make_folder, write_atomically
+from wingbeat.plots import flights_page, save_figure
+from wingbeat.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
+from wingbeat.whole_flights.page import flight_text, overview_text
+
+ROOT = Path(__file__).parents[1]
+FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs"
+
+
+def flown(animal: str, anew: bool, draws: int, processes: int) -> Prediction:
+    """Return the flights of an animal, from its file or flown and filed now."""
+    measured, file = read_measured_flights(animal), FLOWN / f"{animal}.json"
+    if anew or not file.exists():
+        begun = time.perf_counter()
+        found = predict_flights(measured, draws=draws, processes=processes)
+        write_atomically(file, json.dumps(found.plain(), indent=1) + "\n")
+        print(f"{animal}: flown in {time.perf_counter() - begun:.0f} s", file=sys.stderr, flush=True)
+    return Prediction.of_plain(measured, json.loads(file.read_text()))
+
+
+def main() -> None:
+    """Fly what is asked for, and write all pages."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("animals", nargs="*", choices=[[], *measured_animals()])
+    parser.add_argument("--draws", type=int, default=24)
+    parser.add_argument("--processes", type=int, default=1)
+    asked = parser.parse_args()
+    make_folder(FLOWN)
+    named = asked.animals or []
+    rest = [one for one in measured_animals() if one not in named]
+    found = [flown(one, one in named, asked.draws, asked.processes) for one in [*named, *rest]]
+    pages = {one.flights.species: one for one in found}
+    for animal, prediction in sorted(pages.items()):
+        figure = DOCS / f"flight_{animal}.png"
+        save_figure(flights_page(prediction), figure)
+        name = wb.load_species(animal).common_name or animal
+        write_atomically(DOCS / f"flight_{animal}.md", flight_text(prediction, figure.name, name))
+    write_atomically(DOCS / "whole_flights.md", overview_text([pages[one] for one in sorted(pages)]))
+
+
+if __name__ == "__main__":
+    main()

@@ -22,6 +22,7 @@ import jax
 import jax.export
 import numpy as np
 from jax._src import xla_bridge
+from jax._src.core import trace_state_clean
 from jax.core import Tracer
 
 from wingbeat._jax.config import jnp
@@ -194,8 +195,7 @@ def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]
 
     @functools.wraps(function)
     def call(*args: Any) -> Any:
-        traced = any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args))
-        if jax.default_backend() == "cpu" and not traced:
+        if jax.default_backend() == "cpu" and trace_state_clean():
             with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice
                 return soon(*args)
         return plain(*args)

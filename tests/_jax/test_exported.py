@@ -11,7 +11,7 @@ import pytest
 from wingbeat._jax import config
 from wingbeat._jax import exported as exporting
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import exported
+from wingbeat._jax.exported import exported, jit_soon
 from wingbeat._jax.program_cache import kept_program, program_folder
 
 
@@ -90,6 +90,20 @@ def test_an_option_that_xla_does_not_know_changes_nothing(monkeypatch, tmp_path)
         return 3.0 * x
 
     assert float(exported(thrice)(4.0)) == 12.0
+
+
+@pytest.mark.parametrize("options", [exporting._SOON_ON_CPU, {"xla_cpu_no_such_option": True}])
+def test_what_is_compiled_soon_is_the_function_inside_transformations_too(monkeypatch, options):
+    monkeypatch.setattr(exporting, "_SOON_ON_CPU", options)
+
+    def power(exponent, x):
+        return x**exponent
+
+    cube = jit_soon(power, static_argnums=0)
+    assert float(cube(3, 2.0)) == float(cube(3, np.float64(2.0))) == 8.0
+    assert float(jax.grad(lambda x: cube(3, x))(2.0)) == 12.0
+    assert jax.vmap(lambda x: cube(2, x))(jnp.arange(3.0)).tolist() == [0.0, 1.0, 4.0]
+    assert float(jax.jit(lambda x: x + cube(3, 2.0))(1.0)) == 9.0
 
 
 @pytest.mark.parametrize(

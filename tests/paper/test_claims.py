@@ -157,7 +157,8 @@ def test_the_leaf_has_span_area_and_second_moment_of_the_rectangle():
     strips = np.asarray(strips_of(leaf, 10).chord)
     assert (strips * (np.arange(10) + 0.5) ** 2).sum() == pytest.approx(332.5 * rectangle.chord, rel=0.01)
     tapered = problem_of(Case("mirrored-tapered", "bat", "su-fan", 8.0)).vehicle.wing.chord
-    taper = np.interp(fine, [0.0, 1.0], tapered)
+    assert tapered == pytest.approx(np.linspace(1.5, 0.5, len(tapered)) * rectangle.chord, rel=1e-12)
+    taper = np.interp(fine, np.linspace(0.0, 1.0, len(tapered)), tapered)
     assert np.trapezoid(taper * fine**2, fine) < 0.8 * rectangle.chord / 3  # which is what the leaf is for
 
 
@@ -310,7 +311,7 @@ def test_treatments_change_what_they_say():
     assert cases["signed"].aero.coefficients.extension == "signed"
     assert cases["signed-heavy"].vehicle.wing.mass_exponent == 0.0
     assert cases["mirrored-heavy"].bounds["flap_amplitude"][1] == pytest.approx(math.radians(45))
-    root, tip = cases["mirrored-tapered"].vehicle.wing.chord
+    root, *_, tip = cases["mirrored-tapered"].vehicle.wing.chord
     assert root == pytest.approx(3 * tip)
     assert cases["mirrored-tapered"].vehicle.wing.mean_chord == pytest.approx(
         cases["mirrored"].vehicle.wing.mean_chord

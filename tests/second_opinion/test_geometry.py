@@ -7,6 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.given_motion import PIGEON, given_motion
+from tests.helpers.unsteady_flights import all_terms, loads, states_at
 from wingbeat.mechanics.wing_points import strip_corners, surface_points
 from wingbeat.second_opinion.lattice import (
     LatticeOptions,
@@ -37,13 +38,13 @@ def test_corners_of_an_untwisted_wing_are_those_of_its_strips():
 
 
 def test_points_at_the_quarter_chord_are_where_the_strips_of_a_rich_beat_have_it():
-    motion = given_motion(RICH, heave=0.01, pitch=0.1)
-    model = wb.FlightModel(PIGEON, wb.aero.BladeElement("su-fan", strips=4))
-    centres = (np.arange(4) + 0.5) / 4
-    state = motion.state(PHASE)
-    loads = wb.flight_loads(model, RICH, state, PHASE)
-    points = np.asarray(surface_points(PIGEON, RICH, state, PHASE, centres, np.array([0.25])))
-    np.testing.assert_allclose(points[:, 0], np.asarray(loads.strip_position), atol=1e-14)
+    model, beat = all_terms("pigeon")  # whose program the tests of unsteady air have
+    centres = (np.arange(10) + 0.5) / 10
+    state = states_at(PHASE)
+    points = np.asarray(surface_points(model.vehicle, beat, state, PHASE, centres, np.array([0.25])))
+    np.testing.assert_allclose(
+        points[:, 0], np.asarray(loads(model, beat, state, PHASE).strip_position), atol=1e-14
+    )
 
 
 def test_axes_fly_at_the_mean_velocity_so_a_beat_closes():

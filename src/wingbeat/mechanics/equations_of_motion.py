@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.exported import jit_soon
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.air_forces import AirForces, air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
@@ -113,7 +114,7 @@ def _torque(
     return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
 
 
-@functools.partial(jax.jit, static_argnums=0)
+@functools.partial(jit_soon, static_argnums=0)
 def _over_axes(
     function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, time: Phases, *vectors: Any
 ) -> Any:

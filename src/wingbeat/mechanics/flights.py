@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import exported
+from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
@@ -161,9 +161,9 @@ def fly_beats(
     return np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
 
 
-@functools.partial(jax.jit, static_argnames=("torques",))
+@functools.partial(jit_soon, static_argnums=0)
 def _drive(
-    model: FlightModel, wingbeat: Wingbeat, start: StartState, times: Samples, torques: Any, args: Any
+    torques: Any, model: FlightModel, wingbeat: Wingbeat, start: StartState, times: Samples, args: Any
 ) -> Integrated:
     def rates(time: Scalar, state: Any, args: Any) -> Any:
         q, q_dot = state[:5], state[5:]
@@ -197,5 +197,5 @@ def fly_torque_driven(
     if when.ndim != 1 or when.size < 2 or not np.isfinite(when).all() or not (np.diff(when) > 0).all():
         faults.add("times", when, "must be at least two increasing times", "in seconds")
     faults.raise_if_any()
-    states = np.asarray(_drive(model, wingbeat, np.concatenate([q, q_dot]), when, torques, args)[0])
+    states = np.asarray(_drive(torques, model, wingbeat, np.concatenate([q, q_dot]), when, args)[0])
     return when, states[:, :5], states[:, 5:]

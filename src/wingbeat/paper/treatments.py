@@ -80,7 +80,7 @@ DEFAULT = TREATMENTS[0].name
 # The treatments that the figures show.
 DRAWN = TREATMENTS[:2]
 PLANFORMS = tuple(treatment.name for treatment in TREATMENTS if treatment.leaf or treatment.taper != 1.0)
-# Number of stations at which the leaf's chord is given, and its root chord divided by the rectangle's chord.
+# Number of stations of the wings that are no rectangle; root chord of the leaf divided by that of the rectangle.
 _STATIONS, _ROOT = 11, 0.25
 
 
@@ -113,6 +113,18 @@ def all_cases(speeds: Iterable[float], treatments: Iterable[Treatment] = TREATME
     ]
 
 
+def tapered_chord(chord: float, taper: float) -> tuple[float, ...]:
+    """Return the chords of a tapered wing at as many stations as a leaf has, so that both fly in one program [m].
+
+    Parameters
+    ----------
+    chord : mean chord [m].
+    taper : tip chord divided by root chord.
+    """
+    root = 2.0 * chord / (1.0 + taper)
+    return tuple(np.linspace(root, taper * root, _STATIONS).tolist())
+
+
 def leaf_chord(chord: float) -> tuple[float, ...]:
     """Return the chords of a leaf at stations from root to tip [m]: widest past mid-span, narrow at root and tip.
 
@@ -137,8 +149,9 @@ def problem_of(case: Case) -> OrbitProblem:
     if treatment.uniform_wings:
         species = species.with_values({"wing.mass_exponent": 0.0})
     if treatment.taper != 1:
-        root = 2.0 * species.vehicle.wing.mean_chord / (1.0 + treatment.taper)
-        species = species.with_values({"wing.chord": (root, treatment.taper * root)})
+        species = species.with_values(
+            {"wing.chord": tapered_chord(species.vehicle.wing.mean_chord, treatment.taper)}
+        )
     if treatment.leaf:
         species = species.with_values({"wing.chord": leaf_chord(species.vehicle.wing.mean_chord)})
     aero = BladeElement(load_coefficients(case.model, treatment.extension))

@@ -21,8 +21,7 @@ PARTS = 4
 
 def highest(series: SampledSeries) -> Quarters:
     """Return the largest sample in each quarter of the beat, ends included, along the first axis."""
-    part = (series.shape[0] - 1) // PARTS
-    return jnp.stack([jnp.max(series[i * part : (i + 1) * part + 1], axis=0) for i in range(PARTS)])
+    return series[_quarters(series)].max(axis=1)
 
 
 def peaks(series: SampledSeries) -> Quarters:
@@ -32,43 +31,72 @@ def peaks(series: SampledSeries) -> Quarters:
     a peak, or that is at a bound of the path, would end in this kink. The curve between two samples is a
     Catmull-Rom cubic.
     """
+    samples = _taken(series, _samples_around(series, jnp), jnp)
+    return jnp.sum(jax.lax.stop_gradient(_weights(samples, jnp)) * samples, axis=0)
+
+
+def _quarters(series: SampledSeries) -> np.ndarray:
+    """Return the indices of the samples of each quarter, ends included, shape (quarters, samples)."""
     part = (series.shape[0] - 1) // PARTS
-    around = [_samples_around(series, i * part, (i + 1) * part) for i in range(PARTS)]
-    samples = [jnp.stack([jnp.take_along_axis(series, k[None], axis=0)[0] for k in four]) for four in around]
-    return jnp.stack([jnp.sum(jax.lax.stop_gradient(_weights(four, jnp)) * four, axis=0) for four in samples])
+    return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
 
 
-def _samples_around(series: SampledSeries, begin: int, end: int) -> list[Any]:
-    """Return the indices of four samples for each quarter; the curve peaks between the middle two."""
-    count = series.shape[0] - 1
-    top = begin + jnp.argmax(series[begin : end + 1], axis=0)
+def _taken(series: SampledSeries, around: Any, xp: Any) -> Any:
+    """Return the samples at indices of shape (4, quarters, ...)."""
+    return xp.stack([xp.take_along_axis(series, index, axis=0) for index in around])
+
+
+def _samples_around(series: SampledSeries, xp: Any) -> Any:
+    """Return the indices of four samples for each quarter; the curve peaks between the middle two.
+
+    Shape (4, quarters, ...); `xp` is the array module of the series.
+    """
+    count, quarters = series.shape[0] - 1, _quarters(series)
+    begin, end = (quarters[:, i].reshape(-1, *[1] * (series.ndim - 1)) for i in (0, -1))
+    top = begin + xp.argmax(series[quarters], axis=1)
 
     def beside(way: int) -> Any:
-        return jnp.take_along_axis(series, ((top + way) % count)[None], axis=0)[0]
+        return xp.take_along_axis(series, (top + way) % count, axis=0)
 
-    way = jnp.where(beside(1) >= beside(-1), 1, -1)
-    inside = (begin <= top + way) & (top + way <= end)
+    way = xp.where(beside(1) >= beside(-1), 1, -1)
     # Where the curve would rise beyond the quarter, its peak is the sample at the end.
-    return [jnp.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)]
+    inside = (begin <= top + way) & (top + way <= end)
+    return xp.stack([xp.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)])
+
+
+class WeightedSamples:
+    """The samples of a closed path that make its `peaks`, and their weights.
+
+    Parameters
+    ----------
+    series : the path, shape (K, ...).
+    """
+
+    def __init__(self, series: np.ndarray) -> None:
+        self._around = _samples_around(series, np)
+        self._weights = _weights(_taken(series, self._around, np), np)
+        self.peaks = self.of(series)
+
+    def of(self, series: np.ndarray) -> np.ndarray:
+        """Return the weighted samples of a series of this shape, or of several along further axes at the end.
+
+        Of a change of the path, they are the change of its peaks, because a shift of a peak's phase has no
+        first-order effect.
+        """
+        more = tuple(range(self._weights.ndim, series.ndim + 1))
+        around, weights = (np.expand_dims(a, more) for a in (self._around, self._weights))
+        return (weights * _taken(series, around, np)).sum(axis=0)
+
+    def of_highest(self, count: int) -> np.ndarray:
+        """Return the weights of all samples of a single path that give the highest of its peaks, shape (K,)."""
+        weights, highest = np.zeros(count), self.peaks.argmax()
+        np.add.at(weights, self._around[:, highest], self._weights[:, highest])
+        return weights
 
 
 def peak_weights(path: np.ndarray) -> np.ndarray:
-    """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`.
-
-    The same weights give the peak's derivative, because a shift of the peak's phase has no first-order effect.
-    """
-    count = len(path) - 1
-    begin = np.arange(PARTS) * (count // PARTS)
-    quarters = begin[:, None] + np.arange(count // PARTS + 1)
-    top = begin + path[quarters].argmax(axis=1)
-    way = np.where(path[(top + 1) % count] >= path[(top - 1) % count], 1, -1)
-    inside = (begin <= top + way) & (top + way <= quarters[:, -1])
-    around = np.array([np.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)])
-    four = _weights(path[around], np)
-    highest = (four * path[around]).sum(axis=0).argmax()
-    weights = np.zeros(len(path))
-    np.add.at(weights, around[:, highest], four[:, highest])
-    return weights
+    """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`."""
+    return WeightedSamples(path).of_highest(len(path))
 
 
 def _weights(samples: Quarters, xp: Any) -> Quarters:

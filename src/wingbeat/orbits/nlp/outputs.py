@@ -44,12 +44,12 @@ class Outputs:
     def of(self, unknowns: np.ndarray, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
         """Return the values for a flight, and their derivatives by the unknowns."""
         beat, changes = self._reader(unknowns[4:], flown)
-        return self._functions.values(beat), self._functions.derivatives(beat, changes)
+        return self._functions.linearised(beat, changes)
 
     def of_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
         """Return the values for a certified flight."""
         beat = certified_beat(self._problem, self._problem.wingbeat(unknowns), certificate)
-        return self._functions.values(beat, sampled=True)
+        return self._functions.values(beat)
 
     def values_of(self, index: int) -> range:
         """Return the indices of one constraint among the constraints' values."""

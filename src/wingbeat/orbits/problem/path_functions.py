@@ -15,10 +15,11 @@ from typing import Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.exported import jit_soon
 from wingbeat.actuators import Drive
 from wingbeat.errors import Fault, InvalidInputError, first_line
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
-from wingbeat.orbits.flight.path_maxima import PARTS, highest, peaks
+from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import Quantity
 
@@ -31,24 +32,17 @@ _FIXES = {
 _SAMPLES = 1 + 2 * PARTS
 
 
-@functools.partial(jax.jit, static_argnums=0)
-def _values(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
-    return tuple(_of_one(jnp.asarray(function(beat), dtype=float)) for function in functions)
+# One program for each function serves all objectives and limits that contain it.
+@functools.partial(jit_soon, static_argnums=0)
+def _value(function: Callable[[Beat], Any], beat: Beat) -> Any:
+    return jnp.asarray(function(beat), dtype=float)
 
 
-def _of_one(value: Any) -> Any:
-    return peaks(value).ravel() if value.ndim else value[None]
-
-
-@functools.partial(jax.jit, static_argnums=0)
-def _sampled_values(functions: tuple[Any, ...], beat: Beat) -> tuple[Any, ...]:
-    values = [jnp.asarray(function(beat), dtype=float) for function in functions]
-    return tuple(highest(value).ravel() if value.ndim else value[None] for value in values)
-
-
-@functools.partial(jax.jit, static_argnums=0)
-def _changes(functions: tuple[Any, ...], beat: Beat, changes: Beat) -> tuple[Any, ...]:
-    return jax.vmap(lambda change: jax.jvp(lambda b: _values(functions, b), (beat,), (change,))[1])(changes)
+@functools.partial(jit_soon, static_argnums=0)
+def _changes(function: Callable[[Beat], Any], beat: Beat, changes: Beat) -> tuple[Any, Any]:
+    """Return the value, and its changes with the beat's."""
+    value, along = jax.linearize(lambda beat: _value(function, beat), beat)
+    return value, jax.vmap(along)(changes)
 
 
 @dataclass(frozen=True)
@@ -78,26 +72,45 @@ class OutputFunctions:
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
 
-    def values(self, beat: Beat, *, sampled: bool = False) -> np.ndarray:
-        """Return the values; for a series, the peaks of a smooth curve through it, or its highest samples.
+    def values(self, beat: Beat) -> np.ndarray:
+        """Return the values; for a series, its highest samples.
 
         Raises
         ------
         InvalidInputError : a quantity is not finite although the beat is.
         """
         beat = beat._replace(drive=self._drive)
-        values = [np.asarray(a) for a in (_sampled_values if sampled else _values)(self._functions, beat)]
+        found = [np.asarray(_value(function, beat)) for function in self._functions]
+        return self._joined(beat, [highest(value) if value.ndim else value for value in found])
+
+    def linearised(self, beat: Beat, changes: Beat) -> tuple[np.ndarray, np.ndarray]:
+        """Return the values and their derivatives, shape (values, directions).
+
+        A series has the peaks of a smooth curve through it.
+
+        Raises
+        ------
+        InvalidInputError : a quantity is not finite although the beat is.
+        """
+        beat, count = beat._replace(drive=self._drive), changes.phase.shape[0]
+        changes = changes._replace(drive=jax.tree.map(lambda number: np.zeros(count), self._drive))
+        values, derivatives = [], []
+        for function in self._functions:
+            value, along = (np.asarray(a) for a in _changes(function, beat, changes))
+            along = np.moveaxis(along, 0, -1)
+            if value.ndim:
+                weighted = WeightedSamples(value)
+                value, along = weighted.peaks, weighted.of(along)
+            values.append(value)
+            derivatives.append(along.reshape(-1, count))
+        return self._joined(beat, values), np.concatenate(derivatives) / self._scale[:, None]
+
+    def _joined(self, beat: Beat, values: list[np.ndarray]) -> np.ndarray:
         for name, value in zip(self._names, values, strict=True):
             if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in jax.tree.leaves(beat)):
                 fix = "its function must be finite for every flight"
-                raise InvalidInputError([Fault(f"quantity {name}", float(value[0]), "is not finite", fix)])
-        return np.concatenate(values) / self._scale
-
-    def derivatives(self, beat: Beat, changes: Beat) -> np.ndarray:
-        """Return the derivatives of the values, shape (values, directions)."""
-        still = jax.tree.map(lambda number: np.zeros(changes.phase.shape[:1]), self._drive)
-        found = _changes(self._functions, beat._replace(drive=self._drive), changes._replace(drive=still))
-        return np.concatenate([np.asarray(a) for a in found], axis=1).T / self._scale[:, None]
+                raise InvalidInputError([Fault(f"quantity {name}", float(value.flat[0]), "is not finite", fix)])
+        return np.concatenate([value.ravel() for value in values]) / self._scale
 
 
 def value_count(function: Callable[[Beat], Any], strips: int, drive: Drive) -> int:

@@ -83,6 +83,8 @@ def head(found: list[Row], points: list[Point]) -> str:
         good = sum(math.isfinite(point.power) for point in own)
         certified.append(f"by `{model}` {good} of {len(own)} ({good / len(own):.1%})")
     text = f"Orbits were certified for these shares of the problems: {', '.join(certified)}."
+    if missing := [model for model in MODELS if not of_model(found, model)]:
+        text += f" Not flown yet: {', '.join(f'`{model}`' for model in missing)}."
     return HEAD.format(count=len(of_model(found, PAPER)), certified=text)
 
 
@@ -224,9 +226,9 @@ BESIDE = """
 Of the model `animal`, beside `paper`:
 
 - The median ratio of the maximum-range speed to the measured one is {range_animal:.2f} (`paper` {range_paper:.2f}),
-  that of the minimum-power speed {power_animal:.2f} ({power_paper:.2f}). The predicted
-  maximum-range speed rises with wing loading by the exponent {exponent_animal:.2f} ({exponent_paper:.2f}), the
-  measured speed by {exponent_measured:.2f}. Induced flow and wings of less drag thus {explain}.
+  that of the minimum-power speed {power_animal:.2f} ({power_paper:.2f}). The predicted maximum-range speed rises
+  with wing loading by the exponent {exponent_animal:.2f} ({exponent_paper:.2f}), the measured speed by
+  {exponent_measured:.2f}. Induced flow and wings of less drag thus {explain}.
 - Both speeds are again near a multiple of the speed at lift coefficient 1: {low:.2f} to {high:.2f} times for
   the maximum-range speed of nine tenths of the species ({low_paper:.2f} to {high_paper:.2f}).
 - The positive hinge power at the minimum-power speed is {hinge_animal:.0f} W/kg in the median ({hinge_paper:.0f}).

@@ -2,7 +2,9 @@
 
 Run as ``python validation/alerstam.py [--data FOLDER] [-o FOLDER] [--tables FOLDER]``; writes alerstam.md and
 alerstam.png to one folder, and alerstam_points.csv, alerstam_spread.csv and alerstam.csv to the other.
-``--flown FOLDER`` draws and words what an earlier run flew.
+``--models animal`` flies by one model and keeps what the tables hold of the other. The folder ``--store`` keeps
+each bird that the model `animal` has flown; the same command goes on where it was stopped. ``--flown FOLDER`` draws
+and words what an earlier run flew.
 """
 
 from __future__ import annotations
@@ -10,14 +12,18 @@ from __future__ import annotations
 import argparse
 import csv
 import io
-import math
 import sys
 from pathlib import Path
 
 import alerstam_summary
+from alerstam_animal import fly_in_order, fly_timed
 from alerstam_figure import draw
 from alerstam_flights import (
     AIRSPEEDS,
+    ANIMAL,
+    PAPER,
+    Bird,
+    Point,
     fly,
     fly_again,
     from_csv,
@@ -27,12 +33,22 @@ from alerstam_flights import (
     timed_birds,
     to_csv,
 )
+from alerstam_loading import against_loading
 from alerstam_spread import Moved, spreads
-from alerstam_words import HEAD, conclusions, largest_differences, speeds, spread_table, verdicts
+from alerstam_verdicts import verdicts
+from alerstam_words import (
+    conclusions,
+    failures,
+    head,
+    largest_differences,
+    speeds,
+    spread_table,
+)
 
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import WingbeatError
 from wingbeat.files import write_atomically
+from wingbeat.models import MODELS
 from wingbeat.plots import save_figure
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -45,32 +61,29 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder of page and figure")
     parser.add_argument("--tables", type=Path, default=ROOT / "data", help="folder of the tables")
     parser.add_argument("--flown", type=Path, help="folder of an earlier run's tables, in place of flying")
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS, help="models to fly by")
+    parser.add_argument(
+        "--store", type=Path, default=ROOT / "alerstam_birds", help="folder of the birds flown by `animal`"
+    )
+    parser.add_argument("--processes", type=int, default=2, help="that fly by the model `paper`")
     chosen = parser.parse_args(argv)
     try:
         radar, timed = radar_birds(chosen.data), timed_birds(chosen.data)
         if chosen.flown is None:
-            with progress_bar("birds, each at a speed") as progress:
-                points = fly(problems(radar, timed), chosen.processes, progress)
-            with progress_bar("rough curves again") as progress:
-                points = fly_again(points, radar, chosen.processes, progress)
-            moved = spreads(radar, chosen.processes)
-            write_atomically(chosen.tables / "alerstam_points.csv", to_csv(points))
-            write_atomically(chosen.tables / "alerstam_spread.csv", _moved_csv(moved))
+            _fly(chosen, radar, timed)
         # What is drawn and worded is what the files hold, rounded as they are.
         flown = chosen.flown or chosen.tables
         points, moved = from_csv(flown / "alerstam_points.csv"), _read_moved(flown / "alerstam_spread.csv")
         found = alerstam_summary.rows(radar, points)
-        head = HEAD.format(
-            count=len(found), asked=len(points), points=sum(math.isfinite(point.power) for point in points)
-        )
         parts = (
-            head,
+            head(found, points),
             speeds(found),
+            against_loading(found),
             verdicts(found, points, timed),
             largest_differences(found),
+            failures(points),
             spread_table(moved),
-            conclusions(points),
+            conclusions(found, points),
         )
         write_atomically(chosen.tables / "alerstam.csv", alerstam_summary.to_csv(found))
         write_atomically(chosen.output / "alerstam.md", "".join(parts))
@@ -80,6 +93,24 @@ def main(argv: list[str] | None = None) -> int:
         return 2
     print(f"wrote page and figure to {chosen.output}, the tables behind them to {chosen.tables}", file=sys.stderr)
     return 0
+
+
+def _fly(chosen: argparse.Namespace, radar: list[Bird], timed: list[Bird]) -> None:
+    """Fly by the chosen models; write the tables of all orbits and of changed numbers."""
+    table = chosen.tables / "alerstam_points.csv"
+    before = from_csv(table) if set(chosen.models) != set(MODELS) else []
+    points: list[Point] = [point for point in before if point.model not in chosen.models]
+    if PAPER in chosen.models:
+        with progress_bar("birds, each at a speed") as progress:
+            own = fly(problems(radar, timed), chosen.processes, progress)
+        with progress_bar("rough curves again") as progress:
+            points += fly_again(own, radar, chosen.processes, progress)
+        write_atomically(chosen.tables / "alerstam_spread.csv", _moved_csv(spreads(radar, chosen.processes)))
+    if ANIMAL in chosen.models:
+        with progress_bar("birds by the model animal") as progress:
+            points += fly_in_order(radar, chosen.store, progress)
+        points += fly_timed(timed, chosen.store)
+    write_atomically(table, to_csv(sorted(points, key=lambda point: MODELS.index(point.model))))
 
 
 def _moved_csv(moved: list[Moved]) -> str:

@@ -1,42 +1,61 @@
-"""The one figure of the study: speeds and frequencies of birds, flown and measured."""
+"""The one figure of the study: speeds and frequencies of birds, flown by each model and measured."""
 
 from __future__ import annotations
 
 import numpy as np
 from alerstam_flights import Bird
-from alerstam_summary import AIR, FITTED, Row, column
+from alerstam_summary import AIR, FITTED, Row, column, of_model
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wingbeat.models import MODELS
 from wingbeat.species import scaling
-from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, letter_panels, new_figure
+from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, new_figure
 
 SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
 FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
+# Labels and limits of the panels, from top to bottom; the limits hold for all models.
+PANELS = (
+    ("A", "measured airspeed [m/s]", "predicted speed [m/s]", (3, 30)),
+    ("B", "Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]", (0.2, 1.9)),
+    ("C", "Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]", (0.2, 4.6)),
+    (
+        "D",
+        "Reynolds number of chord and measured airspeed [-]",
+        "speed over that at lift coefficient 1 [-]",
+        (0.7, 3.2),
+    ),
+)
 
 
 @drawing()
 def draw(found: list[Row], timed: list[Bird]) -> Figure:
-    """Return four panels: speeds, their residuals, frequencies over the law, speeds over those of C_L 1."""
-    figure = new_figure(PAGE, 150.0)
-    panels = figure.subplots(2, 2)
-    measured, reynolds = column(found, "airspeed"), column(found, "reynolds")
-    pairs = (
-        (column(found, "min_power_speed"), SLOW, "minimum power"),
-        (column(found, "max_range_speed"), FAST, "maximum range"),
-    )
-    ends = np.array([5.0, 40.0])
-    panels[0, 0].fill_between(ends, ends / 1.2, ends * 1.2, color=SHADE, zorder=0)
-    panels[0, 0].plot(ends, ends, "--", color="0.4", linewidth=1)
-    for values, look, label in pairs:
-        panels[0, 0].loglog(measured, values, label=label, **look)
-        panels[0, 1].loglog(reynolds, values / measured, label=label, **look)
-        at_one = np.sqrt(2 * column(found, "mass") * AIR.gravity / (AIR.density * column(found, "wing_area")))
-        panels[1, 1].semilogx(reynolds, values / at_one, label=label, **look)
-    panels[1, 1].semilogx(reynolds, measured / at_one, "x", color="0.3", markersize=4, label="measured")
-    _frequencies(panels[1, 0], found, timed)
-    _finish(panels)
+    """Return a column of panels for each model: speeds, residuals, frequencies over the law, speeds over C_L 1."""
+    flown = [model for model in MODELS if of_model(found, model)]
+    figure = new_figure(PAGE, 260.0)
+    panels = figure.subplots(4, len(flown), squeeze=False)
+    for model, column_of_panels in zip(flown, panels.T, strict=True):
+        _draw_model(column_of_panels, of_model(found, model), timed)
+        _finish(column_of_panels, model)
     return figure
+
+
+def _draw_model(panels: np.ndarray, found: list[Row], timed: list[Bird]) -> None:
+    measured, reynolds = column(found, "airspeed"), column(found, "reynolds")
+    at_one = np.sqrt(2 * column(found, "mass") * AIR.gravity / (AIR.density * column(found, "wing_area")))
+    ends = np.array([5.0, 40.0])
+    panels[0].fill_between(ends, ends / 1.2, ends * 1.2, color=SHADE, zorder=0)
+    panels[0].plot(ends, ends, "--", color="0.4", linewidth=1)
+    for name, look, label in (
+        ("min_power_speed", SLOW, "minimum power"),
+        ("max_range_speed", FAST, "maximum range"),
+    ):
+        values = column(found, name)
+        panels[0].loglog(measured, values, label=label, **look)
+        panels[1].loglog(reynolds, values / measured, label=label, **look)
+        panels[3].semilogx(reynolds, values / at_one, label=label, **look)
+    panels[3].semilogx(reynolds, measured / at_one, "x", color="0.3", markersize=4, label="measured")
+    _frequencies(panels[2], found, timed)
 
 
 def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
@@ -56,29 +75,21 @@ def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
         axes.errorbar(at, bird.frequency / own, fmt="s", color="black", markersize=4, **bars)
 
 
-def _finish(panels: np.ndarray) -> None:
-    labels = (
-        ("measured airspeed [m/s]", "predicted speed [m/s]"),
-        ("Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]"),
-        ("Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]"),
-        ("Reynolds number of chord and measured airspeed [-]", "speed over that at lift coefficient 1 [-]"),
-    )
-    for axes, letter, (x, y) in zip(panels.flat, "ABCD", labels, strict=True):
-        axes.set(xlabel=x, ylabel=y)
+def _finish(panels: np.ndarray, model: str) -> None:
+    for axes, (letter, x, y, limits) in zip(panels, PANELS, strict=True):
+        axes.set_title(f"{letter}  {model}", loc="left", fontweight="bold")
+        axes.set(xlabel=x, ylabel=y, ylim=limits)
         axes.grid()
-        axes.legend()
+        axes.legend(ncols=2 if letter in "BC" else 1, loc="lower left" if letter in "BC" else "best")
         if letter != "A":
-            axes.axvspan(*FITTED, color=SHADE, zorder=0)
+            axes.axvspan(*FITTED[model], color=SHADE, zorder=0)
             axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")
             axes.set_xticks([2e4, 5e4, 1e5, 2e5, 4e5], ["20 000", "50 000", "100 000", "200 000", "400 000"])
         axes.minorticks_off()
         if letter in "BC":
-            axes.set_yticks([0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0])
+            axes.set_yticks([0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0])
             axes.yaxis.set_major_formatter("{x:g}")
-    panels[0, 0].set(xlim=(6.5, 27), ylim=(3, 30), xticks=[7, 10, 15, 20, 25], yticks=[3, 5, 7, 10, 15, 20, 30])
-    for axis in (panels[0, 0].xaxis, panels[0, 0].yaxis):
+            axes.set_ylim(limits)
+    panels[0].set(xlim=(6.5, 27), xticks=[7, 10, 15, 20, 25], yticks=[3, 5, 7, 10, 15, 20, 30])
+    for axis in (panels[0].xaxis, panels[0].yaxis):
         axis.set_major_formatter("{x:g}")
-    panels[0, 1].set_ylim(0.28, 1.7)
-    panels[1, 0].set_ylim(0.3, 4.6)
-    panels[1, 0].legend(ncols=2, loc="lower left")
-    letter_panels(panels, "A")

@@ -7,10 +7,12 @@ import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import wingbeat as wb
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
+from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.solve import Progress
 from wingbeat.workers.process_map import in_processes
 
@@ -25,6 +27,7 @@ SPEEDS = (0.65, 0.8, 0.95, 1.1, 1.25, 1.4, 1.6)
 # A power curve that rises by more than this share above the line between neighbours is no power curve.
 ROUGH = 0.01
 POWER, FREQUENCY, HELD = "least power", "least frequency", "least power, amplitude held"
+PAPER, ANIMAL = MODELS
 ENGLISH = {
     "Uria aalge": "Common murre",
     "Fratercula corniculata": "Horned puffin",
@@ -55,13 +58,19 @@ class Bird:
 
 @dataclass(frozen=True)
 class Point:
-    """What came out for one bird at one speed; not-a-number where no orbit was certified."""
+    """What came out for one bird at one speed by one model; not-a-number where no orbit was certified.
 
+    `power` is what least power minimises: by the paper's model the positive hinge power, by `animal` the metabolic
+    power. `hinge_power` is the positive hinge power by both.
+    """
+
+    model: str
     species: str
     asked: str
     speed: float
     status: str
     power: float
+    hinge_power: float
     frequency: float
     amplitude_deg: float
     active_bounds: str
@@ -111,33 +120,41 @@ def timed_birds(folder: Path) -> list[Bird]:
     return found
 
 
-def problems(radar: list[Bird], timed: list[Bird]) -> list[tuple[str, wb.OrbitProblem]]:
-    """Return every problem of the study with the name of what it asks."""
+def speed_at_lift_one(bird: Bird) -> float:
+    """Return the speed at which a wing of lift coefficient 1 carries the bird [m/s]."""
+    air = bird.species.air
+    return math.sqrt(2 * bird.mass * air.gravity / (air.density * bird.area))
+
+
+def problems(radar: list[Bird], timed: list[Bird], model: str = PAPER) -> list[tuple[str, wb.OrbitProblem]]:
+    """Return every problem of the study by one model, with the name of what it asks."""
     asked = []
     for bird in radar:
-        species = bird.species
-        air = species.air
-        at_one = math.sqrt(2 * bird.mass * air.gravity / (air.density * bird.area))
+        at_one = speed_at_lift_one(bird)
         for speed in (*(factor * at_one for factor in SPEEDS), bird.airspeed):
-            asked.append((POWER, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power")))
-        asked.append((FREQUENCY, wb.OrbitProblem(species, speed=bird.airspeed)))
+            asked.append((POWER, problem_of(model, bird, speed)))
+        asked.append((FREQUENCY, problem_of(model, bird, bird.airspeed, minimise="frequency")))
     for bird in timed:
-        species, speed = bird.species, bird.airspeed
-        asked.append((POWER, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power")))
-        asked.append((FREQUENCY, wb.OrbitProblem(species, speed=speed)))
+        asked.append((POWER, problem_of(model, bird, bird.airspeed)))
+        asked.append((FREQUENCY, problem_of(model, bird, bird.airspeed, minimise="frequency")))
         if math.isfinite(bird.amplitude_deg):
             held = f"flap_amplitude={bird.amplitude_deg} deg"
-            asked.append(
-                (HELD, wb.OrbitProblem(species, speed=speed, minimise="mean_positive_power", subject_to=[held]))
-            )
+            asked.append((HELD, problem_of(model, bird, bird.airspeed, subject_to=[held])))
     return asked
+
+
+def problem_of(model: str, bird: Bird, speed: float, **changes: Any) -> wb.OrbitProblem:
+    """Return the problem of a bird's flight at a speed [m/s], of least power unless `changes` say otherwise."""
+    species = bird.species
+    least = "mean_positive_power" if model == PAPER else "metabolic_power"
+    return model_of(model, species).problem(species, speed, **{"minimise": least, **changes})
 
 
 def fly(asked: list[tuple[str, wb.OrbitProblem]], processes: int, progress: Progress | None = None) -> list[Point]:
     """Solve all of it in one batch."""
     problems = [problem for _, problem in asked]
     orbits = wb.solve_orbits(problems, starts=1, processes=processes, progress=progress, most_starts=8)
-    return [_point(what, problem, orbit) for (what, problem), orbit in zip(asked, orbits, strict=True)]
+    return [point_of(PAPER, what, problem, orbit) for (what, problem), orbit in zip(asked, orbits, strict=True)]
 
 
 def curves(points: list[Point]) -> dict[str, list[Point]]:
@@ -189,17 +206,19 @@ def fly_series(asked: list[wb.OrbitProblem]) -> list[Point]:
     """Fly one bird's problems of least power, each speed helped by its neighbours; by rising speed."""
     asked = sorted(asked, key=lambda problem: problem.speed)
     orbits = wb.solve_orbits(asked, starts=2, most_starts=8, in_order=True)
-    return [_point(POWER, problem, orbit) for problem, orbit in zip(asked, orbits, strict=True)]
+    return [point_of(PAPER, POWER, problem, orbit) for problem, orbit in zip(asked, orbits, strict=True)]
 
 
-def _point(what: str, problem: wb.OrbitProblem, orbit: wb.Orbit) -> Point:
-    named = problem.species.name, what, problem.speed, orbit.status.value
+def point_of(model: str, what: str, problem: wb.OrbitProblem, orbit: wb.Orbit) -> Point:
+    """Return the row of an orbit."""
+    named = model, problem.species.name, what, problem.speed, orbit.status.value
     if orbit.status is not wb.Status.CONVERGED:
-        return Point(*named, math.nan, math.nan, math.nan, "")
+        return Point(*named, math.nan, math.nan, math.nan, math.nan, "")
     record = orbit.record()
     beat, bounds = record["wingbeat"], " ".join(record["active_bounds"])
-    amplitude = math.degrees(beat["flap_amplitude"])
-    return Point(*named, record["mean_positive_power"], beat["frequency"], amplitude, bounds)
+    hinge = record["mean_positive_power"]
+    power = hinge if model == PAPER else record["metabolic_power"]
+    return Point(*named, power, hinge, beat["frequency"], math.degrees(beat["flap_amplitude"]), bounds)
 
 
 def to_csv(points: list[Point]) -> str:
@@ -220,4 +239,4 @@ def from_csv(path: Path) -> list[Point]:
     ]
 
 
-_FLOATS = ("speed", "power", "frequency", "amplitude_deg")
+_FLOATS = ("speed", "power", "hinge_power", "frequency", "amplitude_deg")

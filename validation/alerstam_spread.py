@@ -69,6 +69,6 @@ def spreads(radar: list[Bird], processes: int) -> list[Moved]:
             p if p.power < q.power or math.isnan(q.power) else q for p, q in zip(curve, flown[i], strict=True)
         ]
     return [
-        Moved(name, what, *best_speeds([point for point in curve if math.isfinite(point.power)]))
+        Moved(name, what, *best_speeds([point for point in curve if math.isfinite(point.power)])[:3])
         for (name, what), curve in zip(named, flown, strict=True)
     ]

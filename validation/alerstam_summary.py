@@ -8,22 +8,31 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from alerstam_flights import FREQUENCY, POWER, Bird, Point, curves
+from alerstam_flights import ANIMAL, FREQUENCY, POWER, Bird, Point, curves
 from numpy.typing import NDArray
 
-from wingbeat.aero import SuFan
+from wingbeat.aero import FeatheredFlapping, SuFan
+from wingbeat.models import MODELS
 from wingbeat.species import scaling
 from wingbeat.vehicle import Air
 
 AIR = Air()
-FITTED = SuFan().reynolds_range or (math.nan, math.nan)
+# The Reynolds numbers at which the coefficients of each model were measured.
+FITTED = {
+    model: (FeatheredFlapping() if model == ANIMAL else SuFan()).reynolds_range or (math.nan, math.nan)
+    for model in MODELS
+}
 _NEAR = 1e-4  # of a speed, for the rounding of a CSV file
 
 
 @dataclass(frozen=True)
 class Row:
-    """One species: measured, predicted, and by published laws; SI units, not-a-number where there is none."""
+    """One species by one model: measured, predicted, by published laws; SI units, not-a-number where there is none.
 
+    `least_power` is the least of what the model minimises, `hinge_power` the positive hinge power at that speed.
+    """
+
+    model: str
     species: str
     mass: float
     wing_span: float
@@ -34,6 +43,7 @@ class Row:
     min_power_speed: float
     max_range_speed: float
     least_power: float
+    hinge_power: float
     least_power_frequency: float
     least_frequency: float
     pennycuick_frequency: float
@@ -41,33 +51,43 @@ class Row:
     wing_law_frequency: float
 
 
-def best_speeds(curve: list[Point]) -> tuple[float, float, float]:
-    """Return minimum-power speed, maximum-range speed [m/s] and least power [W] of a curve of rising speeds.
+def best_speeds(curve: list[Point]) -> tuple[float, float, float, float]:
+    """Return minimum-power speed, maximum-range speed [m/s], least power and its hinge power [W] of a curve.
 
     By a parabola through the least of power, or of power over speed, and its two neighbours; not-a-number where the
-    least is the first or the last.
+    least is the first or the last. The points have rising speeds.
     """
     speeds = np.array([point.speed for point in curve])
     power = np.array([point.power for point in curve])
-    (slow, least), (fast, _) = _lowest(speeds, power), _lowest(speeds, power / speeds)
-    return slow, fast, least
+    hinge = np.array([point.hinge_power for point in curve])
+    slow, (least, beside) = _lowest(speeds, power, hinge)
+    fast, _ = _lowest(speeds, power / speeds)
+    return slow, fast, least, beside
 
 
-def _lowest(speeds: NDArray[np.float64], values: NDArray[np.float64]) -> tuple[float, float]:
+def _lowest(
+    speeds: NDArray[np.float64], values: NDArray[np.float64], beside: NDArray[np.float64] | None = None
+) -> tuple[float, tuple[float, float]]:
+    """Return the speed of the least value, that value, and there the value of the parabola through `beside`."""
     i = int(np.argmin(values)) if len(values) else 0
     if not 0 < i < len(values) - 1:
-        return math.nan, math.nan
+        return math.nan, (math.nan, math.nan)
     near = slice(i - 1, i + 2)
     bend, slope, level = np.polyfit(speeds[near] - speeds[i], values[near], 2)
     away = -0.5 * slope / bend
-    return float(speeds[i] + away), float(level + 0.5 * slope * away)
+    other = np.polyval(np.polyfit(speeds[near] - speeds[i], (values if beside is None else beside)[near], 2), away)
+    return float(speeds[i] + away), (float(level + 0.5 * slope * away), float(other))
 
 
 def rows(radar: list[Bird], points: list[Point]) -> list[Row]:
-    """Return a row for each species whose airspeed was measured."""
+    """Return a row for each model and each species whose airspeed was measured."""
+    return [row for model in MODELS for row in _rows(radar, [point for point in points if point.model == model])]
+
+
+def _rows(radar: list[Bird], points: list[Point]) -> list[Row]:
     own = curves(points)
     found = []
-    for bird in radar:
+    for bird in radar if points else ():
         size = bird.mass, bird.span, bird.area
         at = {
             point.asked: point.frequency
@@ -77,6 +97,7 @@ def rows(radar: list[Bird], points: list[Point]) -> list[Row]:
         wing = scaling.BIRD_SEMI_SPAN(bird.span)
         found.append(
             Row(
+                points[0].model,
                 bird.name,
                 *size,
                 bird.airspeed,
@@ -93,9 +114,19 @@ def rows(radar: list[Bird], points: list[Point]) -> list[Row]:
     return found
 
 
+def of_model(found: list[Row], model: str) -> list[Row]:
+    """Return the rows of one model."""
+    return [row for row in found if row.model == model]
+
+
 def column(found: list[Row], name: str) -> NDArray[np.float64]:
     """Return one number of all species."""
     return np.array([getattr(row, name) for row in found])
+
+
+def loading_of(found: list[Row]) -> NDArray[np.float64]:
+    """Return the wing loading of all species [N/m2]."""
+    return column(found, "mass") * AIR.gravity / column(found, "wing_area")
 
 
 @dataclass(frozen=True)

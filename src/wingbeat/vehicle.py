@@ -114,7 +114,7 @@ class Tail:
     arm : distance of its aerodynamic centre behind the body's centre of mass, along the body axis [m]; negative for
         a surface ahead of it.
     lift_slope : slope of its lift coefficient [1/rad].
-    drag_coefficient : drag coefficient at no lift.
+    drag_coefficient : drag coefficient at zero lift.
     height : of its aerodynamic centre above the body axis through the centre of mass [m].
     incidence : angle of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` is
         added to it.

@@ -49,7 +49,7 @@ class FittedModel(NamedTuple):
 
         Raises
         ------
-        InvalidInputError : what `FormulaCoefficients` refuses.
+        InvalidInputError : inputs that `FormulaCoefficients` refuses.
         """
         own: dict[str, Any] = {name: curve.terms for name, curve in self.curves.items()}
         return FormulaCoefficients(
@@ -65,7 +65,7 @@ class FittedModel(NamedTuple):
 
 
 class FittedWing(NamedTuple):
-    """A fit of a cambered wing; `wing` holds all its terms, and a covariance of those of lift and drag together."""
+    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag."""
 
     name: str
     citation: str
@@ -89,7 +89,7 @@ class FittedWing(NamedTuple):
 
         Raises
         ------
-        InvalidInputError : an unknown extension; what `CamberedCoefficients` refuses.
+        InvalidInputError : an unknown extension; inputs that `CamberedCoefficients` refuses.
         """
         faults = FaultList()
         check_extension(faults, extension, blend_width_deg)

@@ -16,7 +16,7 @@ Where = Callable[[int, str], str]
 
 
 def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]) -> list[float]:
-    """Return the cells as floats; a cell that is no number becomes NaN and is noted as a fault."""
+    """Return the cells as floats; a cell that is not a number becomes NaN and is noted as a fault."""
     values = []
     for i, cell in enumerate(cells):
         try:

@@ -98,7 +98,7 @@ class DragForm(BoxForm):
     """The drag of a cambered wing; `beside` gives it the lift that its induced part and its onsets need."""
 
     def beside(self, lift: CurveFit) -> DragForm:
-        """Return the form with the terms of a fitted lift, which part the onsets and the angles of the grid.
+        """Return the form with the terms of a fitted lift; they separate the two onsets and the grid's angles.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None,
 
     Raises
     ------
-    InvalidInputError : what `fit_curve` refuses.
+    InvalidInputError : inputs that `fit_curve` refuses.
     """
     return with_lift(fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label), lift)
 

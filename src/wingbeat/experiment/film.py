@@ -199,8 +199,8 @@ def read_film(path: str | Path) -> Film:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : missing or unknown columns, other units, cells that are no numbers, and what `Film` refuses,
-        each fault with its row and column.
+    InvalidInputError : missing or unknown columns, other units, cells that are not numbers, and inputs that `Film`
+        refuses, each fault with its row and column.
     """
     sheet, faults = read_sheet(path), FaultList()
     names, constants = _names(faults, sheet), _constants(faults, sheet)

@@ -133,8 +133,8 @@ def read_run(path: str | Path) -> LoadCellRun:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are no numbers, and
-        what `LoadCellRun` refuses, each fault with its row and column.
+    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are not numbers, and
+        inputs that `LoadCellRun` refuses, each fault with its row and column.
     """
     sheet, faults = read_sheet(path), FaultList()
     place = _columns(faults, sheet)
@@ -190,7 +190,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
 
 
 def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
-    """Return the constants of the test; note missing ones, other units, and values that are no numbers."""
+    """Return the constants of the test; note missing ones, other units, and values that are not numbers."""
     found: dict[str, tuple[float, ...]] = {}
     units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
     for key, (row, text) in sheet.constants.items():

@@ -325,7 +325,7 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
         text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
-        notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
+        notes.append(f"{text}; the data do not determine this form; use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
             f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be separated; "

@@ -196,7 +196,7 @@ def strip_widths(chord: Array, area: Array) -> tuple[Array, Array]:
 
 
 def as_array(values: Any) -> Array:
-    """Return numbers as an array of 64 bits; NaN alone where they are none."""
+    """Return numbers as a float64 array, or a single NaN if the values are not numbers."""
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

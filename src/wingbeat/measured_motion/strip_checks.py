@@ -127,7 +127,7 @@ def _list(
         index = tuple(int(i) for i in place)
         faults.add(where(name, index), float(values[index]), rule, fix)
     if len(places) > _LISTED:
-        faults.add(where(name, ()), f"{len(places)} values", "are all at fault in this way", fix)
+        faults.add(where(name, ()), f"{len(places)} values", "have this fault in all", fix)
 
 
 def check_window(

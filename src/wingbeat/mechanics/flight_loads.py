@@ -140,7 +140,7 @@ class MissingLoads(NamedTuple):
 def carried_loads(
     model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, acceleration: PhasesAcceleration
 ) -> tuple[Loads, MissingLoads]:
-    """Evaluate a flight whose body moves as prescribed: `flight_loads`, and what is missing to that motion.
+    """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion.
 
     Parameters
     ----------

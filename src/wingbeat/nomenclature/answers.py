@@ -33,7 +33,7 @@ BEAT = (
     Term(
         "electrical_power",
         "W",
-        "mean electrical power of the motor, and positive power of the pitch hinges; none is returned",
+        "mean electrical power of the motor, and positive power of the pitch hinges; no power is returned",
     ),
     Term("peak_motor_torque", "N m", "largest size of the motor's torque"),
     Term("rms_motor_torque", "N m", "root mean square of the motor's torque"),
@@ -88,7 +88,7 @@ ANSWER = (
     Term("starts_at_best", "1", "number of starts that ended at the best optimum"),
     Term("active_bounds", "", "bounds that the orbit is at"),
     Term("failed_balance", "", "balances that fail, and by how much"),
-    Term("relaxations", "", "smallest single changes that fly"),
+    Term("relaxations", "", "smallest single changes that give an orbit"),
     Term("plausibility", "", "judged numbers with their plausible ranges"),
     Term("floquet_multipliers", "1", "Floquet multipliers of the orbit"),
     Term("largest_multiplier", "1", "largest modulus of the Floquet multipliers"),

@@ -76,7 +76,7 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
 
     Raises
     ------
-    InvalidInputError : what `OrbitProblem` refuses.
+    InvalidInputError : inputs that `OrbitProblem` refuses.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")

@@ -118,7 +118,7 @@ FAULTS = {
     "order": ("strips.csv", swapped(STRIPS, 1, 10), "strips.csv row", "does not rise"),
     "same time": ("strips.csv", STRIPS + STRIPS.splitlines()[-1], "strips.csv row 74", "does not rise"),
     "vanishes": ("strips.csv", without(STRIPS, 10), "strips.csv, strip 0", "has no row at"),
-    "vanish": ("strips.csv", without(STRIPS, *range(10, 40, 3)), "strips.csv", "are missing in all"),
+    "vanish": ("strips.csv", without(STRIPS, *range(10, 40, 3)), "strips.csv", "are missing in total"),
     "cell": ("strips.csv", with_cell(STRIPS, 7, "z_m", "high"), "strips.csv row 8, column z_m", "is not a number"),
     "not finite": ("strips.csv", with_cell(STRIPS, 7, "z_m", "inf"), "strips.csv row 8, column z_m", "finite"),
     "area": ("strips.csv", with_cell(STRIPS, 7, "area_m2", "0"), "strips.csv row 8, column area_m2", "from 1e-14"),

@@ -14,7 +14,7 @@ from wingbeat.errors import FaultList
 
 
 class FittedCurve(NamedTuple):
-    """Terms of one coefficient, or all terms of a cambered wing, with what the fit leaves uncertain.
+    """Terms of one coefficient, or all terms of a cambered wing, with the uncertainty of the fit.
 
     The covariance, shape (k, k), is that of the k fitted terms that `free` names.
     """
@@ -85,7 +85,7 @@ class FittedWing(NamedTuple):
     ) -> CamberedCoefficients:
         """Return the coefficient model; terms that are given (terms=...) replace those of the file.
 
-        The model covers the whole turn, so the extension has no effect.
+        The model covers all angles, so the extension has no effect.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Coefficient models drawn from what a fit leaves uncertain."""
+"""Coefficient models drawn at random from the uncertainty of a fit."""
 
 from __future__ import annotations
 

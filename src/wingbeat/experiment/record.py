@@ -109,7 +109,7 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     if steps.min() <= 0:
         first = int(np.argmin(steps > 0)) + 1
         rule = f"must be above the {run.time[first - 1]:g} s before it"
-        faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop doubles")
+        faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop duplicates")
     alpha = np.asarray(run.alpha_deg)
     if np.abs(alpha).max() > 180:
         worst = float(alpha[np.argmax(np.abs(alpha))])

@@ -162,12 +162,12 @@ class StripCase:
         covered = float(np.ptp(self.times[self.inside])) * self.frequency
         if self.periodic and self.period is None:
             beats = float(np.ptp(self.times)) * self.frequency
-            notes.append(f"the times cover {beats:.2f} beats, not whole ones: taken as not periodic")
+            notes.append(f"the times cover {beats:.2f} beats, not a whole number: taken as not periodic")
         whole = self.period is not None and bool(self.inside.all())
         if not whole and self.mean_force is not None and abs(covered - round(covered)) > 0.1:
-            notes.append(f"{covered:.2f} beats are judged: a part of a beat has a mean of its own")
+            notes.append(f"{covered:.2f} beats are judged: their mean is not that of whole beats")
         if self.density > 10:
-            notes.append("the fluid is no air: the Reynolds number takes the viscosity of air")
+            notes.append("the fluid is not air, but the Reynolds number is computed with the viscosity of air")
         return notes
 
 

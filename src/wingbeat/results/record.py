@@ -42,7 +42,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
     Raises
     ------
-    KeyError, TypeError, ValueError : the dictionary is not one of `vehicle_record`.
+    KeyError, TypeError, ValueError : the dictionary was not made by `vehicle_record`.
     """
     parts = {name: made(**record[name]) for name, made in _PARTS.items() if name in record}
     return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)

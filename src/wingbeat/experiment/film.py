@@ -229,7 +229,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         if name not in units:
             angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke", "body_pitch"))
-            fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
+            fix = "write degrees, with a name such as flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
             faults.add(where, cell, "appears twice", "keep one")

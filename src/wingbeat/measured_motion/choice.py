@@ -157,7 +157,7 @@ def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) ->
 
 
 def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tuple[float, ...]:
-    """Return how far air loads are from those that suit a motion: tuples of numbers, the least is the best.
+    """Return how far air loads are from those that suit a motion; the smallest tuple is the best.
 
     The model comes first, then the unsteady terms, then the inflow.
 

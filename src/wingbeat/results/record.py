@@ -49,7 +49,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers; laws that are not in the paper are left out if they are off."""
+    """Return the wingbeat's numbers; the laws in `NAMED_IF_ON` are left out if they are off."""
     left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
     return {
         name: list(value) if isinstance(value, tuple) else value

@@ -40,7 +40,7 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
     Raises
     ------
-    InvalidInputError : an impossible wingbeat, a film of an area that is not a share of the species'.
+    InvalidInputError : an impossible wingbeat, a filmed area that is not a share of the species' area.
     """
     filmed = beat.numbers_of(species.vehicle, species.wingbeat)
     return species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})

@@ -257,7 +257,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
         row = int(np.argmax(errors <= 0))
         fix = "give every row its standard error, or leave the column out"
         faults.add(
-            f"{label}_se[{row}]", float(errors[row]), "must be > 0, because it gives the weight of the row", fix
+            f"{label}_se[{row}]", float(errors[row]), "must be > 0: it sets the weight of the row", fix
         )
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:

@@ -54,7 +54,7 @@ _LARGEST_FORCE = 1e7
 
 
 def check_scalars(faults: FaultList, values: Mapping[str, Any], where: Callable[[str], str]) -> None:
-    """Note the numbers, texts and switches of a case that will not do."""
+    """Note the invalid numbers, texts and switches of a case."""
     for name, value in values.items():
         if name in SCALAR_LIMITS:
             limits = SCALAR_LIMITS[name]

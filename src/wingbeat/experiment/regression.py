@@ -256,9 +256,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     if (errors <= 0).any():
         row = int(np.argmax(errors <= 0))
         fix = "give every row its standard error, or leave the column out"
-        faults.add(
-            f"{label}_se[{row}]", float(errors[row]), "must be > 0: it sets the weight of the row", fix
-        )
+        faults.add(f"{label}_se[{row}]", float(errors[row]), "must be > 0: it sets the weight of the row", fix)
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"

@@ -131,9 +131,9 @@ FAULTS = {
     "strip": ("strips.csv", with_cell(STRIPS, 7, "strip", "1.5"), "row 8, column strip", "whole number"),
     "empty": ("strips.csv", "", "strips.csv row 1", "holds no table"),
     "head": ("strips.csv", STRIPS.splitlines()[0], "strips.csv", "holds no strips"),
-    "shorter": ("forces.csv", without(FORCES, 24), "forces.csv, column time_s", "must be the 24 times"),
-    "half": ("forces.csv", without(FORCES, *range(1, 25, 2)), "forces.csv", "must be the 24 times"),
-    "longer": ("forces.csv", FORCES + "9,1,1,0.1\n", "forces.csv", "must be the 24 times"),
+    "shorter": ("forces.csv", without(FORCES, 24), "forces.csv, column time_s", "must be equal to the 24 times"),
+    "half": ("forces.csv", without(FORCES, *range(1, 25, 2)), "forces.csv", "must be equal to the 24 times"),
+    "longer": ("forces.csv", FORCES + "9,1,1,0.1\n", "forces.csv", "must be equal to the 24 times"),
     "other times": ("forces.csv", with_cell(FORCES, 7, "time_s", "0.0321"), "forces.csv", "there is none"),
     "force order": ("forces.csv", swapped(FORCES, 3, 4), "forces.csv row 5", "does not rise"),
     "no force": (

@@ -112,7 +112,7 @@ def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float,
         return
     wide = np.append(False, steps * frequency > _WIDEST)
     rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
-    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? else fill the gap")
+    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? if so, fill the gap")
     close = np.append(False, steps < _NARROWEST * steps.max())
     rule = f"comes after less than {_NARROWEST:g} of the widest step [s]"
     _list(faults, close, times, "times", where, rule, "drop one of the two")

@@ -123,7 +123,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
 
 
 class MissingLoads(NamedTuple):
-    """What the prescribed motion of a body takes beyond the loads of the air and the weight, in the world.
+    """The loads, in world axes, that a prescribed body motion needs in addition to air loads and weight.
 
     Attributes
     ----------

@@ -26,7 +26,7 @@ def flown(dataset: xr.Dataset) -> np.ndarray:
 
 
 def downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[tuple[float, float]]:
-    """Return the phases between which the wing goes down, each a first and a last one.
+    """Return the first and the last phase of each downstroke.
 
     Parameters
     ----------

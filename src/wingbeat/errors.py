@@ -67,7 +67,7 @@ def install_extra(extra: str) -> str:
 
 
 def suggest(word: str, known: Iterable[str], *, most: int = 3, otherwise: str | None = None) -> str:
-    """Return advice on an unknown word: at most so many of the known words nearest to it, or else `otherwise`.
+    """Return advice on an unknown word: up to `most` of the nearest known words, or else `otherwise`.
 
     Without `otherwise`, the advice names all known words if none is near.
 

@@ -122,7 +122,7 @@ class Wingbeat:
         mean = faults.number("wingbeat.sweep_mean", self.sweep_mean, unit="rad")
         swing = faults.number("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0, unit="rad")
         if mean and swing and abs(self.sweep_mean) + self.sweep_amplitude >= 0.5 * math.pi:
-            rule = "must stay below a right angle together with sweep_mean"
+            rule = "must stay below a right angle when sweep_mean is added"
             faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "in rad")
 
     def _check_harmonics(self, faults: FaultList) -> bool:

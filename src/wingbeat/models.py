@@ -71,7 +71,7 @@ class Model:
 
         Raises
         ------
-        InvalidInputError : a species of another kind; what `OrbitProblem` refuses.
+        InvalidInputError : a species of another kind; inputs that `OrbitProblem` refuses.
         """
         flown = self.species(species)
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
@@ -218,7 +218,7 @@ def model_of(name: str, species: Species) -> Model:
 
     Raises
     ------
-    InvalidInputError : an unknown name; what `animal` refuses.
+    InvalidInputError : an unknown name; inputs that `animal` refuses.
 
     >>> import wingbeat as wb
     >>> model_of("animal", wb.load_species("bat")).kind

@@ -114,7 +114,7 @@ class Tail:
     arm : distance of its aerodynamic centre behind the body's centre of mass, along the body axis [m]; negative for
         a surface ahead of it.
     lift_slope : slope of its lift coefficient [1/rad].
-    drag_coefficient : drag coefficient at no lift.
+    drag_coefficient : drag coefficient at zero lift.
     height : of its aerodynamic centre above the body axis through the centre of mass [m].
     incidence : angle of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` is
         added to it.
@@ -154,7 +154,7 @@ class Vehicle:
     wing : the left wing; the right one is its mirror image.
     tail : the tail; None, as in the paper, means no tail.
     muscle, motor : what drives the flap hinges, if it is known; neither changes the flight, only what it costs.
-    springs : springs at the flap hinges; they leave less, or more, to muscle or motor.
+    springs : springs at the flap hinges; they reduce or increase the torque that muscle or motor must give.
 
     >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
     >>> round(pigeon.mass, 3)

@@ -221,7 +221,7 @@ def test_what_cannot_fly_says_why_and_what_would(visit):
     page.locator(".badge", has_text="Not certified: infeasible").wait_for(timeout=2 * PATIENCE)
     assert "thrust is short of drag by" in page.locator(".message").inner_text()
     rows = page.locator(".answer").inner_text()
-    assert "smallest single changes that fly" in rows
+    assert "smallest single changes that give an orbit" in rows
     assert "upper bound of frequency 3 -> 9.7 Hz" in rows
 
 

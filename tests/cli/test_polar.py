@@ -59,7 +59,7 @@ def test_a_whole_turn_in_fine_steps_is_exact():
         ("0:10:0", "the step must not be 0"),
         ("0:10:-1", "the step leads away from the stop"),
         ("10:0:1", "the step leads away from the stop"),
-        ("0:10:3", "no whole number of steps ends on the stop; stop at 9 or 12"),
+        ("0:10:3", "the stop is not a whole number of steps from the start; stop at 9 or 12"),
         ("0:180:0.000001", "gives more than 10000000 values"),
         ("1e999999999", "has more than 12 digits"),
         ("0:1:1e-99", "has more than 12 digits"),

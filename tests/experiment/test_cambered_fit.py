@@ -112,7 +112,7 @@ def test_the_model_file_is_the_fit_and_states_its_wing(fit, model):
 
 
 def test_an_extension_has_no_effect_on_a_cambered_file(model):
-    """The model covers the whole turn: like `Feathered`, it is never mirrored."""
+    """The model covers all angles: like `Feathered`, it is never mirrored."""
     for extension in ("mirrored", "signed", "clipped-drag"):
         loaded = load_coefficients(model, extension)
         assert loaded.extension == "signed"

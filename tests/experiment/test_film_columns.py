@@ -126,7 +126,7 @@ def test_a_stroke_plane_that_varies_is_said_to():
     ("text", "faults"),
     [
         ("phase,tip_pitch_deg\n", ["needs pitch_deg", "add the column pitch_deg"]),
-        ("phase,sweep\n", ["angles are in degrees and named so"]),
+        ("phase,sweep\n", ["write degrees, with a name such as"]),
         ("phase,area_fraction\n", ["not a fraction of the full area", "divide it by the full area"]),
     ],
 )

@@ -109,4 +109,4 @@ def test_partial_beats_and_broken_periods_are_said():
     assert "0.38 beats are judged" in part.notes[0]
     stretched = dataclasses.replace(MOTION, frequency=0.7 * MOTION.frequency)
     assert stretched.period is None
-    assert "not whole ones" in stretched.notes[0]
+    assert "not a whole number" in stretched.notes[0]

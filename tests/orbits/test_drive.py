@@ -100,7 +100,7 @@ def test_faster_muscles_of_one_stress_cost_less_as_finite_differences_say(cheap)
 
 @pytest.mark.parametrize(("name", "part"), [("metabolic_power", "muscle"), ("electrical_power", "motor")])
 def test_a_quantity_of_what_the_vehicle_lacks_is_refused(name, part):
-    with pytest.raises(wb.InvalidInputError, match=f"needs a {part}, and the vehicle has none; give it one"):
+    with pytest.raises(wb.InvalidInputError, match=f"needs a {part}, and the vehicle has none; add a {part}"):
         problem(PIGEON, minimise=name)
 
 

@@ -84,5 +84,5 @@ def test_a_flight_slower_than_its_wake_sinks_is_refused():
 
 
 def test_a_motion_that_does_not_repeat_is_refused():
-    with pytest.raises(wb.InvalidInputError, match="is no certified orbit"):
+    with pytest.raises(wb.InvalidInputError, match="is not a certified orbit"):
         comparison._check("infeasible", PIGEON, wb.Air(), 10.0, 0.0)

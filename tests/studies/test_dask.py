@@ -143,7 +143,7 @@ def test_a_point_that_takes_its_dask_worker_along_fails_alone(cheap, cluster):
     out, err = driver.communicate(timeout=100)
     assert driver.returncode == 3, err
     assert "converged 10 crashed 1" in " ".join(out.split())
-    assert "crashed: speed = 94: the Dask workers that had it died" in out
+    assert "crashed: speed = 94: the Dask workers of this batch died" in out
     assert "Traceback" not in err
 
 
@@ -240,7 +240,8 @@ def test_workers_with_other_numbers_are_refused(cheap, monkeypatch):
     monkeypatch.setattr(dask_engine, "NUMERICAL_VERSION", NUMERICAL_VERSION + 1)
     code, _, err = study.run("run", study.file, "--dask", "local:1")
     assert code == 2
-    assert f"has a wingbeat of numerical version {NUMERICAL_VERSION}, this one is of {NUMERICAL_VERSION + 1}" in err
+    versions = f"version {NUMERICAL_VERSION}, but this process has version {NUMERICAL_VERSION + 1}"
+    assert f"has a wingbeat of numerical {versions}" in err
     # One that joined in between refuses by itself.
     order = Order(1, [], "tests.helpers.study_standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)
     with pytest.raises(wb.ClusterError, match="install the same wingbeat there"):

@@ -27,7 +27,7 @@ class Motor:
     gear_ratio : motor speed over flap rate, or over the speed of the crank.
     rotor_inertia : of the rotor, and of all that turns with it [kg m2].
     no_load_current : current that friction takes at any speed [A].
-    gear_efficiency : share of the power that passes the gear, in either direction.
+    gear_efficiency : share of the power that the gear transmits, in either direction.
     crank : the number 1 if the motor turns a crank at constant speed, and a linkage makes the wings flap; 0 if the
         motor turns with the wings and reverses twice a beat.
 

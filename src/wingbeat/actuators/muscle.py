@@ -141,7 +141,7 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
     """Return the metabolic power of elevators and of depressors [W]; only the positive part counts.
 
     Equation: ``T omega_max Phi(q)``, with T the isometric torque of the active fibres and omega_max the flap rate
-    at which they exert none. A torque upwards is the elevators' and one downwards the depressors'; the other muscle
+    at which they exert none. The elevators exert upward torques, and the depressors downward ones; the other muscle
     rests, and its value is negative. The power of the rest of the body is not included.
 
     Parameters

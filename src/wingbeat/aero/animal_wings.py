@@ -121,7 +121,7 @@ def Feathered(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Camb
 
     Parameters
     ----------
-    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers all angles.
     blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
 
     Raises
@@ -159,7 +159,7 @@ def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0
 
     Parameters
     ----------
-    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers all angles.
     blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
 
     Raises
@@ -196,7 +196,7 @@ def FeatheredFlapping(extension: str = "mirrored", blend_width_deg: float = 1.0)
 
     Parameters
     ----------
-    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers all angles.
     blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
 
     Raises
@@ -234,7 +234,7 @@ def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Cambe
 
     Parameters
     ----------
-    extension : any of `EXTENSIONS`; it has no effect, because the model covers the whole turn.
+    extension : any of `EXTENSIONS`; it has no effect, because the model covers all angles.
     blend_width_deg : half width of the blends of the plate [deg], in (0, 3].
 
     Raises

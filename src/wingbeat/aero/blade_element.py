@@ -78,7 +78,7 @@ class BladeElement:
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
         negative induced factor, a share outside 0 to 1 or of no term, a centre of pressure with a model that has
         none, inflow with a model without an aspect ratio, a hand that begins outside 0 to 1 or is given only where
-        it begins, an upstroke factor outside 0 to 1; what `coefficients_of` refuses.
+        it begins, an upstroke factor outside 0 to 1; inputs that `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan

@@ -81,12 +81,12 @@ class CamberedTerms:
     zero_lift_deg : angle of attack at which the line of lift is zero [deg].
     lift_slope : slope of lift in attached flow [1/rad].
     lift_lowest, lift_highest : constant C_L beyond the stall at negative and at positive lift [-].
-    lift_rounding : how widely the line of lift bends at its ends, in C_L [-].
+    lift_rounding : width of the rounding where the line of lift meets each stall, in C_L [-].
     drag_least : C_D without lift or separated flow [-].
     drag_induced : C_D over C_L squared; an ideal wing of aspect ratio A has 1 / (pi A) [-].
     low_onset_deg, high_onset_deg : angles above zero lift where separated flow begins to add drag [deg].
     low_rise, high_rise : C_D that separated flow adds for each radian beyond its onset [1/rad].
-    onset_rounding_deg : how widely drag bends at its onsets [deg].
+    onset_rounding_deg : width of the rounding where separated flow begins to add drag [deg].
 
     Raises
     ------
@@ -220,7 +220,7 @@ def _joined(curves: CamberedCurves, plate: Kernel, joins: tuple[Any, ...]) -> Ca
 @register_record(static=("name", "citation", "doi", "grade", "reynolds_range", "blend_width_deg", "aspect_ratio"))
 @dataclass(frozen=True)
 class CamberedCoefficients(CoefficientModel):
-    """Quasi-steady coefficients of a cambered wing at every angle; beyond its stalls they become those of a plate.
+    """Quasi-steady coefficients of a cambered wing at every angle; beyond stall, those of a plate.
 
     The two sides of the wing differ, so no extension is needed: `extension` is "signed". There is no centre of
     pressure.

@@ -61,7 +61,7 @@ def load_coefficients(
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : an unknown name, or what the model's constructor refuses.
+    InvalidInputError : an unknown name, or inputs that the model's constructor refuses.
 
     >>> load_coefficients("su-fan").name
     'su-fan'

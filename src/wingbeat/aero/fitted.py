@@ -14,7 +14,7 @@ from wingbeat.errors import FaultList
 
 
 class FittedCurve(NamedTuple):
-    """Terms of one coefficient, or all terms of a cambered wing, with what the fit leaves uncertain.
+    """Terms of one coefficient, or all terms of a cambered wing, with the uncertainty of the fit.
 
     The covariance, shape (k, k), is that of the k fitted terms that `free` names.
     """
@@ -49,7 +49,7 @@ class FittedModel(NamedTuple):
 
         Raises
         ------
-        InvalidInputError : what `FormulaCoefficients` refuses.
+        InvalidInputError : inputs that `FormulaCoefficients` refuses.
         """
         own: dict[str, Any] = {name: curve.terms for name, curve in self.curves.items()}
         return FormulaCoefficients(
@@ -65,7 +65,7 @@ class FittedModel(NamedTuple):
 
 
 class FittedWing(NamedTuple):
-    """A fit of a cambered wing; `wing` holds all its terms, and a covariance of those of lift and drag together."""
+    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag."""
 
     name: str
     citation: str
@@ -85,11 +85,11 @@ class FittedWing(NamedTuple):
     ) -> CamberedCoefficients:
         """Return the coefficient model; terms that are given (terms=...) replace those of the file.
 
-        The model covers the whole turn, so the extension has no effect.
+        The model covers all angles, so the extension has no effect.
 
         Raises
         ------
-        InvalidInputError : an unknown extension; what `CamberedCoefficients` refuses.
+        InvalidInputError : an unknown extension; inputs that `CamberedCoefficients` refuses.
         """
         faults = FaultList()
         check_extension(faults, extension, blend_width_deg)

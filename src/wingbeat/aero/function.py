@@ -74,7 +74,7 @@ def _unpickled(function: Callable[[Any], Any], name: str, digest: str) -> Progra
     again = _checked(function, name)
     if again.digest != digest:
         rule = "differs from the function that was pickled under this name"
-        raise InvalidInputError([Fault(_WHERE, name, rule, "bring back the module it was pickled with")])
+        raise InvalidInputError([Fault(_WHERE, name, rule, "use the module with which the function was pickled")])
     return again
 
 

@@ -92,7 +92,7 @@ def load_model(
 
     Raises
     ------
-    FileError, InvalidInputError : as in `read_model`; what the model's constructor refuses, such as a signed
+    FileError, InvalidInputError : as in `read_model`; inputs that the model's constructor refuses, such as a signed
         extension of a drag formula with an exponential term.
     """
     faults = FaultList()

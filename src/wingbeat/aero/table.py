@@ -218,7 +218,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : what `TableCoefficients` refuses, each fault with its row and column.
+    InvalidInputError : inputs that `TableCoefficients` refuses, each fault with its row and column.
     """
     path = Path(path)
     rows = _read_rows(path)

@@ -16,7 +16,7 @@ Where = Callable[[int, str], str]
 
 
 def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]) -> list[float]:
-    """Return the cells as floats; a cell that is no number becomes NaN and is noted as a fault."""
+    """Return the cells as floats; a cell that is not a number becomes NaN and is noted as a fault."""
     values = []
     for i, cell in enumerate(cells):
         try:
@@ -39,7 +39,7 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
     for i, angle in enumerate(angles):
         if i and angle <= angles[i - 1]:
             rule = f"must be above the {angles[i - 1]:g} before it"
-            faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop doubles")
+            faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
         if abs(angle) > 180:
             faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
     for i, drag in enumerate(columns["c_d"]):

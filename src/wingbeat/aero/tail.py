@@ -54,7 +54,7 @@ def tail_force(
     density : rho [kg/m3].
     area : S [m2].
     lift_slope : a [1/rad].
-    drag_coefficient : C_D0, at no lift.
+    drag_coefficient : C_D0, at zero lift.
     normal : n, unit vector to the upper side.
     velocity : v, of the tail's aerodynamic centre through the air [m/s].
     xp : array module of the numbers.

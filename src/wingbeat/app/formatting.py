@@ -13,7 +13,7 @@ from wingbeat.species_schema import Number, display
 
 
 def number(value: float | None, digits: int = 4) -> str:
-    """Return a number with at most so many digits, without trailing zeros; a dash if there is none."""
+    """Return a number with at most `digits` digits, without trailing zeros; a dash if there is none."""
     return "–" if value is None else f"{value:.{digits}g}"
 
 

@@ -120,7 +120,7 @@ def _drawn(orbit: Orbit, beside: dict[str, Any] | None) -> str:
     except FileError:
         if orbit.status is Status.CONVERGED:
             raise
-        return ""  # next to nothing was flown of a beat that is no orbit
+        return ""  # next to nothing was flown of a beat that is not an orbit
 
 
 def orbit_again(known: dict[str, Any]) -> Orbit:

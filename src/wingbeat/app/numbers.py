@@ -63,7 +63,7 @@ class Numbers:
                 for path in held:
                     self._build_number(path)
                 if group == "vehicle.tail" and self._freed:
-                    self._build_bound(TAIL_TILT, "A bound makes the tilt free; empty fields hold it fixed.")
+                    self._build_bound(TAIL_TILT, "A bound makes the tilt free; without bounds it is fixed.")
                 if group in _BY_LAWS and getattr(species.vehicle, _BY_LAWS[group][0]) is None:
                     self._build_law(*_BY_LAWS[group])
         self.show(scenario)

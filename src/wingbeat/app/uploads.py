@@ -113,7 +113,7 @@ def _declared(item: h5py.Dataset, refuse: Any) -> int:
         raise refuse("it points to other places or files")
     count = math.prod(item.shape or (1,))
     if item.dtype.kind == "O" and count > _MOST_TEXTS:
-        raise refuse("it holds arrays that are no numbers")
+        raise refuse("it holds arrays that are not numbers")
     whole = count * item.dtype.itemsize
     chunk = math.prod(item.chunks or (0,)) * item.dtype.itemsize
     return max(whole, chunk)
@@ -146,7 +146,7 @@ def _checked(path: str, label: str) -> Orbit:
     for name, values in orbit.dataset.variables.items():
         if values.dtype.kind == "f" and not np.isfinite(values.values).all():
             raise FileError(
-                f"cannot show {label!r}: {name} holds values that are no numbers; solve the orbit again"
+                f"cannot show {label!r}: {name} holds values that are not numbers; solve the orbit again"
             )
     return orbit
 

@@ -91,7 +91,7 @@ class Field:
         set_class(self.row, "odd", odd)
 
     def number(self, text: str, unit: str = "") -> float | None:
-        """Return the typed number in SI units and radians; if it is no number, show the fault and return None."""
+        """Return the typed number in SI units and radians, or show the fault and return None."""
         value = from_shown(text, unit, several=False)
         if isinstance(value, float):
             return value

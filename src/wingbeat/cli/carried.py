@@ -56,7 +56,7 @@ def carried(
 
     Raises
     ------
-    InvalidInputError : a pitch rate, and what `fit_body_path` refuses.
+    InvalidInputError : a pitch rate, and inputs that `fit_body_path` refuses.
     """
     faults = FaultList()
     if given.get("pitch_rate") is not None:

@@ -100,7 +100,7 @@ class ModelOptions:
 
         Raises
         ------
-        FileError, InvalidInputError : as `flown`; what `OrbitProblem` refuses.
+        FileError, InvalidInputError : as `flown`; inputs that `OrbitProblem` refuses.
         """
         species, model = self.flown(name, settings, payload)
         given = {key: value for key, value in asked.items() if value is not None}

@@ -108,13 +108,13 @@ Output = Annotated[
 
 
 def check_result(faults: FaultList, output: Path | None) -> None:
-    """Note an output name whose ending no result has; `check_outputs` refuses folders and devices."""
+    """Note an output name with an unknown ending; `check_outputs` refuses folders and devices."""
     if output is not None and (os.path.isfile(output) or not os.path.exists(output)):
         check_result_name(faults, "--output", output)
 
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
-    """Note figure names with another ending than a figure's, and files that two options name."""
+    """Note figure names that do not end as a figure's, and files that two options name."""
     from wingbeat.plots import check_figure_name
 
     taken = {} if output is None else {_real(output): "--output"}

@@ -42,7 +42,7 @@ def paper(
     ] = None,
     sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; default {_SETS}.")] = None,
     seed: Annotated[int | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
-    piece: Annotated[int | None, Parameter(help=f"Sets per piece, saved together; default {_PIECE}.")] = None,
+    piece: Annotated[int | None, Parameter(help=f"Sets in each piece that is saved; default {_PIECE}.")] = None,
     only: Annotated[
         str | None, Parameter(help="Pieces that this run solves, such as 1-10 or 3,5; default all.")
     ] = None,

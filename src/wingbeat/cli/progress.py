@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
-    """Yield a function that shows (done, in all) on stderr; None if stderr is no terminal."""
+    """Yield a function that shows (done, in all) on stderr; None if stderr is not a terminal."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -42,7 +42,7 @@ def _show_cursor() -> None:
 
 @contextlib.contextmanager
 def study_bar() -> Iterator[Callable[[Tally], None] | None]:
-    """Yield a function that shows a study's tally on stderr; None if stderr is no terminal."""
+    """Yield a function that shows a study's tally on stderr; None if stderr is not a terminal."""
     if not sys.stderr.isatty():
         yield None
         return

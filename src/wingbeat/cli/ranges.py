@@ -48,7 +48,7 @@ def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]
     elif steps.denominator != 1:
         nearest = float(start + floor(steps) * step), float(start + (floor(steps) + 1) * step)
         fix = f"stop at {nearest[0]:g} or {nearest[1]:g}, or change the step"
-        faults.add(where, text, "no whole number of steps ends on the stop", fix)
+        faults.add(where, text, "the stop is not a whole number of steps from the start", fix)
 
 
 def parse_range(text: str, where: str) -> NDArray[np.float64]:

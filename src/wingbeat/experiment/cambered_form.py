@@ -98,7 +98,7 @@ class DragForm(BoxForm):
     """The drag of a cambered wing; `beside` gives it the lift that its induced part and its onsets need."""
 
     def beside(self, lift: CurveFit) -> DragForm:
-        """Return the form with the terms of a fitted lift, which part the onsets and the angles of the grid.
+        """Return the form with the terms of a fitted lift; they separate the two onsets and the grid's angles.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class DragForm(BoxForm):
 
 @dataclass(frozen=True)
 class DragFit(CurveFit):
-    """A fit of drag that depends on fitted lift; `covariance` contains what the lift leaves uncertain.
+    """A fit of drag that depends on fitted lift; `covariance` includes the uncertainty of the lift.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ def _slopes(fit: CurveFit, alpha_deg: Array, names: tuple[str, ...]) -> Array:
 
 
 def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
-    """Return a fit of drag with what the fitted lift, which it holds, leaves uncertain.
+    """Return a fit of drag whose covariance includes the uncertainty of the fitted lift, which is held fixed.
 
     If the terms of lift change by ``d``, those of drag follow by ``G d``, ``G = -(J^T W J)^-1 J^T W L``, where J
     and L are the derivatives of drag by its own terms and by those of lift. So the covariance of both is
@@ -190,7 +190,7 @@ def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None,
 
     Raises
     ------
-    InvalidInputError : what `fit_curve` refuses.
+    InvalidInputError : inputs that `fit_curve` refuses.
     """
     return with_lift(fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label), lift)
 

@@ -175,7 +175,7 @@ def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:
 
     Raises
     ------
-    FileError : the folder cannot be made or a file not be written.
+    FileError : the folder cannot be made, or a file cannot be written.
     """
     paths = []
     for run in runs:

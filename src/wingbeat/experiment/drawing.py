@@ -1,4 +1,4 @@
-"""Coefficient models drawn from what a fit leaves uncertain."""
+"""Coefficient models drawn at random from the uncertainty of a fit."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def draw(
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : a count or seed that is no whole number, what `read_model` refuses, a file without
+    InvalidInputError : a count or seed that is not a whole number, inputs that `read_model` refuses, a file without
         covariance, or a covariance so wide that few samples give a valid formula.
     """
     faults = FaultList()

@@ -199,8 +199,8 @@ def read_film(path: str | Path) -> Film:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : missing or unknown columns, other units, cells that are no numbers, and what `Film` refuses,
-        each fault with its row and column.
+    InvalidInputError : missing or unknown columns, other units, cells that are not numbers, and inputs that `Film`
+        refuses, each fault with its row and column.
     """
     sheet, faults = read_sheet(path), FaultList()
     names, constants = _names(faults, sheet), _constants(faults, sheet)
@@ -229,7 +229,7 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         if name not in units:
             angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke", "body_pitch"))
-            fix = "angles are in degrees and named so, flap_deg" if angle else f"known are {', '.join(units)}"
+            fix = "write degrees, with a name such as flap_deg" if angle else f"known are {', '.join(units)}"
             faults.add(where, cell, "is not a known column", fix)
         elif name in names:
             faults.add(where, cell, "appears twice", "keep one")

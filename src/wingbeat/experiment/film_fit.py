@@ -166,7 +166,7 @@ class FilmedBeat:
         faults = FaultList()
         if not 0.5 < mean <= 1.0 + _NOISE * error:
             rule = "is the mean of area over span and must be above 0.5 and at most 1"
-            fix = "divide by the area of the species' whole wing, span and chord spread"
+            fix = "divide by the area of the fully spread wing of the species file"
             faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
         faults.raise_if_any()
 

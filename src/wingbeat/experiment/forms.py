@@ -141,7 +141,7 @@ class CurveForm:
         Parameters
         ----------
         alpha_deg, values : the measurements, shape (n,) [deg].
-        weight : of each, one over its standard error, shape (n,).
+        weight : one over the standard error of each measurement, shape (n,).
         """
         del alpha_deg, values, weight  # a form of the user's own knows its start
         return [self.start]

@@ -97,7 +97,7 @@ def read_sheet(path: str | Path) -> Sheet:
 def parse_numbers(
     faults: FaultList, sheet: Sheet, names: list[str], *, blank: frozenset[str] = frozenset()
 ) -> NDArray[np.float64]:
-    """Return the numbers of all rows, shape (rows, columns); a cell that is no number is noted and becomes NaN.
+    """Return the numbers of all rows, shape (rows, columns); a cell that is not a number is noted and becomes NaN.
 
     Parameters
     ----------

@@ -109,7 +109,7 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     if steps.min() <= 0:
         first = int(np.argmin(steps > 0)) + 1
         rule = f"must be above the {run.time[first - 1]:g} s before it"
-        faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop doubles")
+        faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop duplicates")
     alpha = np.asarray(run.alpha_deg)
     if np.abs(alpha).max() > 180:
         worst = float(alpha[np.argmax(np.abs(alpha))])
@@ -133,8 +133,8 @@ def read_run(path: str | Path) -> LoadCellRun:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are no numbers, and
-        what `LoadCellRun` refuses, each fault with its row and column.
+    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are not numbers, and
+        inputs that `LoadCellRun` refuses, each fault with its row and column.
     """
     sheet, faults = read_sheet(path), FaultList()
     place = _columns(faults, sheet)
@@ -190,7 +190,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
 
 
 def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
-    """Return the constants of the test; note missing ones, other units, and values that are no numbers."""
+    """Return the constants of the test; note missing ones, other units, and values that are not numbers."""
     found: dict[str, tuple[float, ...]] = {}
     units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
     for key, (row, text) in sheet.constants.items():

@@ -190,7 +190,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
 
     Raises
     ------
-    InvalidInputError : no runs, a sweep of angles in radians, and what `reduce_run` refuses.
+    InvalidInputError : no runs, a sweep of angles in radians, and inputs that `reduce_run` refuses.
     """
     if not runs:
         faults = FaultList()

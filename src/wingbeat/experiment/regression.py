@@ -256,7 +256,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     if (errors <= 0).any():
         row = int(np.argmax(errors <= 0))
         fix = "give every row its standard error, or leave the column out"
-        faults.add(f"{label}_se[{row}]", float(errors[row]), "must be > 0 to weigh a row by it", fix)
+        faults.add(f"{label}_se[{row}]", float(errors[row]), "must be > 0: it sets the weight of the row", fix)
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"
@@ -325,7 +325,7 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
         text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
-        notes.append(f"{text}; the data do not determine this form, use the curve within its range only")
+        notes.append(f"{text}; the data do not determine this form; use the curve within its range only")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
             f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be separated; "

@@ -142,7 +142,7 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : missing or unknown columns, cells that are no numbers, angles in radians, and what
+    InvalidInputError : missing or unknown columns, cells that are not numbers, angles in radians, and what
         `CoefficientTable` refuses, each fault with its row and column.
     """
     sheet, faults = read_sheet(path), FaultList()

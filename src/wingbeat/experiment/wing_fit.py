@@ -124,7 +124,7 @@ class WingFit:
 
         Raises
         ------
-        InvalidInputError : as in `model`, and what the coefficient model refuses.
+        InvalidInputError : as in `model`, and inputs that the coefficient model refuses.
         """
         return self.model().coefficients(extension, blend_width_deg)
 
@@ -190,8 +190,8 @@ def fit_wing(
 
     Raises
     ------
-    InvalidInputError : an unknown form, an empty name, a bad aspect ratio, what `fit_curve` refuses; for a cambered
-        wing, angles beyond 60 degrees or fewer than three on one side of zero lift.
+    InvalidInputError : an unknown form, an empty name, a bad aspect ratio, inputs that `fit_curve` refuses; for a
+        cambered wing, angles beyond 60 degrees or fewer than three on one side of zero lift.
     """
     faults = FaultList()
     check_aspect_ratio(faults, "aspect_ratio", aspect_ratio)

@@ -157,7 +157,7 @@ def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) ->
 
 
 def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tuple[float, ...]:
-    """Return how far air loads are from those that suit a motion: tuples of numbers, the least is the best.
+    """Return how far air loads are from those that suit a motion; the smallest tuple is the best.
 
     The model comes first, then the unsteady terms, then the inflow.
 
@@ -220,7 +220,7 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
         why = "below a Reynolds number of 10000, a revolving wing's polar"
     parts = [f"{said}: {wanted} ({why})"]
     if aero.coefficients.name != wanted:
-        parts.append(f"it is not among the rows, and {aero.coefficients.name} is nearest")
+        parts.append(f"this model is not among the rows; {aero.coefficients.name} is the nearest one")
     parts.append(_unsteady_reason(regime, aero.coefficients, attached))
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
         parts.append("which the chosen rows do not offer")

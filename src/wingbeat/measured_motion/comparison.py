@@ -33,7 +33,7 @@ class ValidationRow:
 
     Attributes
     ----------
-    aero : the air loads, but for the lag of the wake.
+    aero : the air loads, without the lag of the wake.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
     recommended : whether the rule prefers them to all other rows.
     fx, fz : how close the forward and the upward force come.
@@ -71,9 +71,9 @@ class Validation:
     ----------
     case : the measured motion and its forces.
     motion : the same through still air.
-    regime : Reynolds number, reduced frequency and kind of wing, by which the rule chooses.
+    regime : Reynolds number, reduced frequency and kind of wing, which decide the recommendation.
     rows : one for each model and choice of terms.
-    reason : why the recommended row is.
+    reason : why this row is recommended.
     """
 
     case: StripCase
@@ -145,8 +145,8 @@ def validate(
     Raises
     ------
     FileError : a file is missing or cannot be read.
-    InvalidInputError : what `read_strip_case` and `BladeElement` refuse; inflow or the lag of the wake for a model
-        without an aspect ratio that was asked for.
+    InvalidInputError : inputs that `read_strip_case` and `BladeElement` refuse; a model without an aspect ratio
+        although inflow or the lag of the wake is requested.
 
     >>> from wingbeat.measured_motion import shipped_cases
     >>> found = validate(shipped_cases()[0], aero=["dickinson"])

@@ -79,7 +79,7 @@ def _matched(
     rows = len(given) if window == (None, None) else int(((given >= low - slack) & (given <= high + slack)).sum())
     if rows != judged.sum() or not found[judged].all():
         lacking = times[judged & ~found]
-        rule = f"must be the {judged.sum()} times of the strips"
+        rule = f"must be equal to the {judged.sum()} times of the strips"
         rule += f"; at {lacking[0]:g} s there is none" if len(lacking) else ""
         faults.add(f"{sheet.file}, column time_s", f"{rows} times", rule, "interpolate the forces to these times")
     return np.where(found, nearest, -1) if len(faults.faults) == before else None

@@ -18,7 +18,7 @@ UNSTEADY_STEPS = (*UNSTEADY, THIN_AEROFOIL_WAKE)
 class Rung(NamedTuple):
     """One coefficient model with a choice of terms.
 
-    `aero` are the air loads but for the lag of the wake, which `has_wake` adds to the unsteady terms.
+    `aero` are the air loads without the lag of the wake, which `has_wake` adds to the unsteady terms.
     """
 
     aero: BladeElement

@@ -162,12 +162,12 @@ class StripCase:
         covered = float(np.ptp(self.times[self.inside])) * self.frequency
         if self.periodic and self.period is None:
             beats = float(np.ptp(self.times)) * self.frequency
-            notes.append(f"the times cover {beats:.2f} beats, not whole ones: taken as not periodic")
+            notes.append(f"the times cover {beats:.2f} beats, not a whole number: taken as not periodic")
         whole = self.period is not None and bool(self.inside.all())
         if not whole and self.mean_force is not None and abs(covered - round(covered)) > 0.1:
-            notes.append(f"{covered:.2f} beats are judged: a part of a beat has a mean of its own")
+            notes.append(f"{covered:.2f} beats are judged: their mean is not that of whole beats")
         if self.density > 10:
-            notes.append("the fluid is no air: the Reynolds number takes the viscosity of air")
+            notes.append("the fluid is not air, but the Reynolds number is computed with the viscosity of air")
         return notes
 
 
@@ -196,7 +196,7 @@ def strip_widths(chord: Array, area: Array) -> tuple[Array, Array]:
 
 
 def as_array(values: Any) -> Array:
-    """Return numbers as an array of 64 bits; NaN alone where they are none."""
+    """Return numbers as a float64 array, or a single NaN if the values are not numbers."""
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

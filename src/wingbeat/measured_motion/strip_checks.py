@@ -54,7 +54,7 @@ _LARGEST_FORCE = 1e7
 
 
 def check_scalars(faults: FaultList, values: Mapping[str, Any], where: Callable[[str], str]) -> None:
-    """Note the numbers, texts and switches of a case that will not do."""
+    """Note the invalid numbers, texts and switches of a case."""
     for name, value in values.items():
         if name in SCALAR_LIMITS:
             limits = SCALAR_LIMITS[name]
@@ -112,7 +112,7 @@ def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float,
         return
     wide = np.append(False, steps * frequency > _WIDEST)
     rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
-    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? else fill the gap")
+    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? if so, fill the gap")
     close = np.append(False, steps < _NARROWEST * steps.max())
     rule = f"comes after less than {_NARROWEST:g} of the widest step [s]"
     _list(faults, close, times, "times", where, rule, "drop one of the two")
@@ -127,7 +127,7 @@ def _list(
         index = tuple(int(i) for i in place)
         faults.add(where(name, index), float(values[index]), rule, fix)
     if len(places) > _LISTED:
-        faults.add(where(name, ()), f"{len(places)} values", "are all at fault in this way", fix)
+        faults.add(where(name, ()), f"{len(places)} values", "have this fault in all", fix)
 
 
 def check_window(

@@ -150,7 +150,7 @@ def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
         mean = float(case.mean(case.velocity[..., 0] @ _shares(case)))
         if case.speed > 0 and abs(mean) < abs(mean - case.speed):
             note = f"the given velocities advance at {mean:.2g} m/s and not at the speed, {case.speed:g} m/s"
-            return case.velocity, (f"{note}: are they through still air?",)
+            return case.velocity, (f"{note}: are they velocities through still air?",)
         return case.velocity, ()
     times = case.times[:, None]
     span = case.times - case.times.mean()

@@ -121,6 +121,6 @@ def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray
         fix = "give the strip a row at each time, or leave it out of all"
         faults.add(f"{sheet.file}, strip {names[k]:g}", f"{(grid[:, k] >= 0).sum()} rows", rule, fix)
     if len(missing) > LISTED:
-        rule = "are missing in all: times and strips must make a full table"
+        rule = "are missing in total: the table must have a row for every strip at every time"
         faults.add(sheet.file, f"{len(missing)} rows", rule, "write all strips at the same times")
     return grid if len(faults.faults) == before else None

@@ -123,7 +123,7 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
 
 
 class MissingLoads(NamedTuple):
-    """What the prescribed motion of a body takes beyond the loads of the air and the weight, in the world.
+    """The loads, in world axes, that a prescribed body motion needs in addition to air loads and weight.
 
     Attributes
     ----------
@@ -140,7 +140,7 @@ class MissingLoads(NamedTuple):
 def carried_loads(
     model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, acceleration: PhasesAcceleration
 ) -> tuple[Loads, MissingLoads]:
-    """Evaluate a flight whose body moves as prescribed: `flight_loads`, and what is missing to that motion.
+    """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion.
 
     Parameters
     ----------

@@ -108,7 +108,7 @@ def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
 
 
 def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
-    """Return the chord that meets the air [m]: the full one, less what the wingbeat's chord law takes off it.
+    """Return the chord that meets the air [m]: the full chord times the wingbeat's chord law.
 
     Parameters
     ----------

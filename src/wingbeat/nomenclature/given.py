@@ -21,7 +21,7 @@ GIVEN = (
     Term("tail.area", "m2", "area of the tail"),
     Term("tail.arm", "m", "arm of the tail", "", "aerodynamic centre of the tail behind the body's centre of mass"),
     Term("lift_slope", "rad-1", "lift slope of the tail", "", "pi/2 times the aspect ratio if slender"),
-    Term("drag_coefficient", "1", "drag coefficient of the tail at no lift"),
+    Term("drag_coefficient", "1", "drag coefficient of the tail at zero lift"),
     Term("tail.height", "m", "height of the tail", "", "of its aerodynamic centre above the body axis"),
     Term("incidence", "rad", "incidence of the tail", "", "of its chord above the body axis, leading edge up"),
     Term("muscle.mass", "kg", "mass of the depressors", "", "muscles that pull the wings down, both sides"),
@@ -41,7 +41,13 @@ GIVEN = (
     Term("gear_ratio", "1", "gear ratio", "N", "motor speed over flap rate, or over the crank's speed"),
     Term("rotor_inertia", "kg m2", "inertia of the rotor", "", "and of all that turns with it"),
     Term("no_load_current", "A", "no-load current of the motor", "", "current that friction takes at any speed"),
-    Term("gear_efficiency", "1", "efficiency of the gear", "", "share of the power that passes, either way"),
+    Term(
+        "gear_efficiency",
+        "1",
+        "efficiency of the gear",
+        "",
+        "share of the power that the gear transmits, in either direction",
+    ),
     Term("crank", "1", "whether the motor turns a crank", "", "1: at constant speed; 0: reversing with the wings"),
     Term("springs.stiffness", "N m rad-1", "stiffness of the springs beside the actuators", "k", "both sides"),
     Term("springs.rest_angle", "rad", "flap angle at which the springs exert no torque"),
@@ -188,7 +194,7 @@ AERO = (
     Term("wing.lift_slope", "rad-1", "lift slope of a cambered wing in attached flow"),
     Term("lift_lowest", "1", "lift coefficient of a cambered wing beyond the stall at negative lift"),
     Term("lift_highest", "1", "lift coefficient of a cambered wing beyond the stall at positive lift"),
-    Term("lift_rounding", "1", "how widely a cambered wing's line of lift bends at its ends"),
+    Term("lift_rounding", "1", "width of the rounding where a cambered wing's line of lift meets a stall"),
     Term("drag_least", "1", "drag coefficient of a cambered wing without lift or separated flow"),
     Term(
         "drag_induced", "1", "induced drag coefficient of a cambered wing over the square of its lift coefficient"
@@ -197,7 +203,7 @@ AERO = (
     Term("low_rise", "rad-1", "drag coefficient that separation from the lower side adds for each radian"),
     Term("high_onset_deg", "deg", "angle above zero lift where flow separates from a cambered wing's upper side"),
     Term("high_rise", "rad-1", "drag coefficient that separation from the upper side adds for each radian"),
-    Term("onset_rounding_deg", "deg", "how widely a cambered wing's drag bends at its onsets"),
+    Term("onset_rounding_deg", "deg", "width of the rounding where separation begins to add drag"),
 )
 RUN = (
     Term("normal_force", "N", "force normal to the plate"),

@@ -98,7 +98,8 @@ def many_wingbeats(evidence: Evidence) -> TestResult:
 def small_angles_critical(evidence: Evidence) -> TestResult:
     """Return the share of an extra power that arises at angles of attack up to 13 degrees.
 
-    The extra power is what Dickinson's drag would cost in addition in the flight with Su-Fan.
+    The flight is the one found with Su-Fan. The extra power is the additional power that Dickinson's drag would
+    need in that flight.
     """
     flight = evidence.orbit("bat", "su-fan").dataset
     alpha = flight["alpha"].values

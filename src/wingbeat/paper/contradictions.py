@@ -28,7 +28,7 @@ class Printed(NamedTuple):
 
 
 def near(value: float, printed: float, share: float) -> bool:
-    """Return whether a number is within a share of a printed one."""
+    """Return whether a number differs from a printed one by at most `share` of the printed one."""
     return abs(value / printed - 1.0) <= share
 
 

@@ -168,7 +168,7 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
 def hand_alpha_larger(evidence: Evidence) -> TestResult:
     """Return the mean absolute alpha at 3/4 span (hand) minus that at 1/4 span (arm) [deg].
 
-    It is the smaller of the two models' values.
+    The result is the smaller of the two models' values.
     """
     sizes = [
         [np.degrees(np.abs(station_series(evidence, model, "alpha", s)).mean()) for s in (ARM, HAND)]
@@ -188,7 +188,7 @@ def _means(evidence: Evidence, axis: int) -> list[list[float]]:
 def arm_lifts(evidence: Evidence) -> TestResult:
     """Return the mean upward force at 1/4 span (arm) minus that at 3/4 span (hand), divided by weight.
 
-    It is the smaller of the two models' values.
+    The result is the smaller of the two models' values.
     """
     means = _means(evidence, 2)
     return min(arm - hand for arm, hand in means), all(arm > hand and arm > 0 for arm, hand in means)

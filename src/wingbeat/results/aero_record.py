@@ -70,7 +70,7 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
 
     Raises
     ------
-    KeyError, TypeError, ValueError : the dictionary is not one of `aero_inputs`.
+    KeyError, TypeError, ValueError : the dictionary was not made by `aero_inputs`.
     """
     numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
     terms = {name: aero[name] for name in numbers if name in aero}

@@ -202,7 +202,7 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
 
     Raises
     ------
-    FileError : it is no curve, or damaged.
+    FileError : the dataset is not a curve, or is damaged.
     """
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":

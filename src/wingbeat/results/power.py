@@ -66,7 +66,7 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def spent_power(dataset: xr.Dataset) -> dict[str, np.ndarray]:
-    """Return the time series of what the actuators' power is spent on [W]; their sum is this power.
+    """Return the time series of the parts of the actuator power [W]; the sum of the parts is the actuator power.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
 
     Raises
     ------
-    KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
+    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
     """
     species = species_from(inputs)
     return OrbitProblem(
@@ -99,7 +99,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
 
     Raises
     ------
-    KeyError, TypeError, ValueError : the dictionary is not one of `inputs_of`.
+    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
     """
     known = inputs["species"]
     return Species(

@@ -42,14 +42,14 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 
     Raises
     ------
-    KeyError, TypeError, ValueError : the dictionary is not one of `vehicle_record`.
+    KeyError, TypeError, ValueError : the dictionary was not made by `vehicle_record`.
     """
     parts = {name: made(**record[name]) for name, made in _PARTS.items() if name in record}
     return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)
 
 
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
-    """Return the wingbeat's numbers; numbers of laws that were added later are left out if these laws are off."""
+    """Return the wingbeat's numbers; the laws in `NAMED_IF_ON` are left out if they are off."""
     left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
     return {
         name: list(value) if isinstance(value, tuple) else value

@@ -38,7 +38,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
             *flight_rows(record),
         ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
-        "smallest single changes that fly": change_rows(record.get("relaxations") or []),
+        "smallest single changes that give an orbit": change_rows(record.get("relaxations") or []),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
         "plausible ranges": plausible_rows(record.get("plausibility") or []),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),

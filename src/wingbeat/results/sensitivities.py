@@ -131,7 +131,7 @@ class Sensitivities:
 
         Raises
         ------
-        InvalidInputError : a quantity that was not differentiated; what `spreads` refuses.
+        InvalidInputError : a quantity that was not differentiated; inputs that `spreads` refuses.
         """
         self._check(quantity)
         spreads = self.spreads(fit, share)
@@ -269,7 +269,7 @@ def uncertainty_by_samples(
 
     Raises
     ------
-    InvalidInputError : samples not a whole number from 10 to 100000; what `Sensitivities.error_bar` refuses.
+    InvalidInputError : samples not a whole number from 10 to 100000; inputs that `Sensitivities.error_bar` refuses.
     """
     faults = FaultList()
     faults.whole("samples", samples, 10, 100_000)

@@ -19,7 +19,7 @@ from wingbeat.results.plausibility import is_judgement, statements
 if TYPE_CHECKING:
     import xarray as xr
 
-# What a record holds that is no number.
+# What a record holds that is not a number.
 _KINDS: dict[str, tuple[type, ...]] = {
     **dict.fromkeys(("status", "message", "species", "objective", "version"), (str,)),
     **dict.fromkeys(

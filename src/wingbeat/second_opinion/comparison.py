@@ -174,7 +174,7 @@ def _told(progress: Callable[[int, int], None], before: int, whole: int, done: i
 def _check(status: str, vehicle: Any, air: Any, speed: float, climb: float) -> None:
     faults = FaultList()
     if status != "converged":
-        faults.add("FILE", status, "is no certified orbit, so its motion does not repeat", "solve it first")
+        faults.add("FILE", status, "is not a certified orbit, so its motion does not repeat", "solve it first")
     hover = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * math.pi * vehicle.wing.semi_span**2))
     if math.hypot(speed, climb) < hover:
         rule = (

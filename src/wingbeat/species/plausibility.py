@@ -1,4 +1,4 @@
-"""What is plausible of an animal's beat, by published laws: power, force, body pitch, Strouhal and Reynolds."""
+"""Plausible ranges for an animal's beat, from published laws: power, force, body pitch, Strouhal and Reynolds."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def _plausible(
 
 
 def plausible_of_birds(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return what is plausible of a bird of this mass [kg], mean chord [m] and viscosity of the air [m2/s].
+    """Return the plausible ranges for a bird of this mass [kg], mean chord [m] and viscosity of the air [m2/s].
 
     >>> plausible_of_birds(0.316, 0.112, 1.5e-5)["strouhal"].high
     0.4
@@ -94,7 +94,7 @@ def plausible_of_birds(mass: float, chord: float, viscosity: float) -> dict[str,
 
 
 def plausible_of_bats(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return what is plausible of a bat of this mass [kg], mean chord [m] and viscosity of the air [m2/s]."""
+    """Return the plausible ranges for a bat of this mass [kg], mean chord [m] and air viscosity [m2/s]."""
     return _plausible(_BAT_MUSCLE, mass, chord, viscosity, "; birds, no law of bats was found")
 
 
@@ -104,6 +104,6 @@ def plausible_of_robots(mass: float, chord: float, viscosity: float) -> dict[str
 
 
 def range_of(number: Number) -> Range:
-    """Return the range that stands with a number of a species file."""
+    """Return the plausible range given with a number of a species file."""
     low, high = number.range or (None, None)
     return Range(low, high, number.unit, number.source if number.range else UNKNOWN)

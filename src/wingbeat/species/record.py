@@ -216,7 +216,7 @@ class Species:
 
         Raises
         ------
-        InvalidInputError : the changed numbers make no vehicle.
+        InvalidInputError : the changed numbers do not make a valid vehicle.
 
         >>> from wingbeat.species import load_species
         >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
@@ -253,7 +253,7 @@ class Species:
 
         Raises
         ------
-        InvalidInputError : the changed numbers make no vehicle.
+        InvalidInputError : the changed numbers do not make a valid vehicle.
         """
         found = Numbers()
         found.update(numbers)

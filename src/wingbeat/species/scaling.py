@@ -337,7 +337,7 @@ def exponent_of_inertia(share: float) -> float:
 
 
 def mass_exponent(law: Law, wing_mass: float, length: float) -> Number:
-    """Return the mass exponent that gives a wing the flap inertia of a law, from its mass [kg] and length [m]."""
+    """Return the mass exponent for which a wing of this mass [kg] and length [m] has the flap inertia of a law."""
     inertia, whole = law(wing_mass, length), wing_mass * length**2
     low, high = law.spread
     source = (

@@ -136,7 +136,7 @@ SpeciesFile = _table(
         "name": (str, Field(default=None, min_length=1)),
         "common_name": (str, ""),
         "scientific_name": (str, ""),
-        "kind": (Literal[KINDS], Field(default=None, description="what it is, for laws of a kind of flyer")),
+        "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
         **_sections(complete=True),
         "free": (_table("Free", _leaves(FREE, _bounded), []), None),
         "path": (_table("Path", _leaves(PATH, _bounded), []), None),

@@ -161,7 +161,7 @@ def display(path: str, number: Number) -> tuple[str, Number]:
 
 
 def _line(text: Any) -> str:
-    """Return a text on one line, as messages and tables need it; an empty text if it is no text."""
+    """Return a text on one line, as messages and tables need it; an empty text if it is not a text."""
     return " ".join(text.split()) if isinstance(text, str) else ""
 
 

@@ -49,7 +49,7 @@ class DaskEngine:
     ----------
     where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
         cluster of Dask's own, as of dask-jobqueue.
-    timeout : a process with work that sends nothing for so many seconds is ended.
+    timeout : a process that has work and sends nothing for this time is ended [s].
     told : called with notices for the user: no workers yet, other versions on the workers.
 
     Raises
@@ -104,7 +104,7 @@ class DaskEngine:
         self._watch(batch, self._client.submit(solve_batch, pickle.dumps(order), key=key, pure=False))
 
     def wait(self, seconds: float) -> Ended | None:
-        """Return a batch that ended, or None after so many seconds."""
+        """Return a batch that ended, or None if none ended within `seconds`."""
         if self._suspects and not self._flying:
             self._alone = self._suspects.popleft()
             self.submit(self._alone, self._asked[self._alone])
@@ -134,7 +134,7 @@ class DaskEngine:
             self._watch(batch, future)
         except KilledWorker:
             if batch == self._alone:
-                return Ended(batch, [], "", "crashed", "the Dask workers that had it died", told=False)
+                return Ended(batch, [], "", "crashed", "the Dask workers of this batch died", told=False)
             self._suspects.append(batch)
         except ClusterError:
             raise

@@ -35,7 +35,7 @@ class Order(NamedTuple):
     batch : its number.
     units : its points.
     work : what the processes run, ``module:function``.
-    timeout : a process that sends nothing for so many seconds is ended.
+    timeout : a process that sends nothing for this time is ended [s].
     driver : name of the driver that sends the batch.
     numerical_version : of that driver.
     """
@@ -136,4 +136,4 @@ def _solve(asked: Order, process: LocalProcesses) -> Ended:
 def other_numbers(who: str, theirs: int, ours: int) -> str:
     """Return the message that refuses a worker of another numerical version."""
     fix = "its results cannot be mixed with these: install the same wingbeat there"
-    return f"{who} has a wingbeat of numerical version {theirs}, this one is of {ours}; {fix}"
+    return f"{who} has a wingbeat of numerical version {theirs}, but this process has version {ours}; {fix}"

@@ -66,7 +66,7 @@ class Engine(Protocol):
         ...
 
     def wait(self, seconds: float) -> Ended | None:
-        """Return a batch that ended, or None after so many seconds."""
+        """Return a batch that ended, or None if none ended within `seconds`."""
         ...
 
     def close(self) -> None:
@@ -98,7 +98,7 @@ class LocalProcesses:
     Parameters
     ----------
     processes : how many.
-    timeout : a worker with work that sends nothing for so many seconds is ended.
+    timeout : a worker that has work and sends nothing for this time is ended [s].
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class LocalProcesses:
         idle.process.request(units)
 
     def wait(self, seconds: float) -> Ended | None:
-        """Return a batch that ended, or None after so many seconds."""
+        """Return a batch that ended, or None if none ended within `seconds`."""
         until = time.monotonic() + seconds
         while not self._ended:
             self._end_silent()

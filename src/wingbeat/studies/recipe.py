@@ -86,7 +86,7 @@ class Recipe:
                 found = _parameter(problem, path)
                 if found is None:  # a law that another change switched off
                     faults = FaultList()
-                    faults.add(path, shown(value), "is not a number of this problem", "leave it out of the study")
+                    faults.add(path, shown(value), "names no number of this problem", "leave it out of the study")
                     faults.raise_if_any()
                 assert found is not None
                 problem = found.changed(problem, float(value))

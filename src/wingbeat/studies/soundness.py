@@ -64,7 +64,7 @@ def check_files(path: Path, mine: bool) -> None:
 
 
 def check_contents(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse a file that is no store, a store of another numerical version, and a damaged store.
+    """Refuse a file that is not a store, a store of another numerical version, and a damaged store.
 
     Every row of every table is read, which takes about 30 us per point. If this process has already found the same
     files undamaged, it reads nothing.

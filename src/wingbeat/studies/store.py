@@ -65,7 +65,7 @@ class Store:
 
         Raises
         ------
-        FileError : the store cannot be written, is damaged, is no store, or is of another numerical version.
+        FileError : the store cannot be written, is damaged, is not a store, or is of another numerical version.
         """
         begun = cls.is_begun(path, mine=True)
         with in_words(path), closing(connect(path, "mode=rwc")) as connection:
@@ -116,7 +116,7 @@ class Store:
 
         Raises
         ------
-        FileError : the store is missing, cannot be read, is damaged, is no store, or is of another numerical
+        FileError : the store is missing, cannot be read, is damaged, is not a store, or is of another numerical
             version.
         """
         if not cls.is_begun(path):
@@ -286,7 +286,7 @@ class Store:
             return self._connection.execute(question).fetchone()[0]
 
     def uncertified(self, most: int) -> list[Row]:
-        """Return the first points of the plan whose result is no certified orbit, without their records."""
+        """Return the first points of the plan whose result is not a certified orbit, without their records."""
         return list(self._rows("NULL", f"WHERE q.status <> 'converged' ORDER BY p.ordinal LIMIT {int(most)}"))
 
     def rows(self) -> Iterator[Row]:

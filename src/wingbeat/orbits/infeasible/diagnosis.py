@@ -43,7 +43,7 @@ class LeastChange(NamedTuple):
 
 
 def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
-    """Return the closest wingbeat, computed from where the local searches ended."""
+    """Return the closest wingbeat; the search for it starts where the local searches ended."""
     balance, options = Balance(programme), programme.options.diagnosis
     apart, ends = options.ends_apart * (programme.upper - programme.lower), []
     for end in (c.scaled for c in sorted(found, key=lambda c: c.violation)):

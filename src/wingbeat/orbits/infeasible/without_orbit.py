@@ -75,7 +75,7 @@ def without_orbit(
     flying = certified_changes(programme, changes)
     message = f"no orbit within the bounds from {_starts(len(found))}: {words_of(programme, nearest.deficits)}"
     if flying:
-        message += f"; the smallest single changes that fly: {', or '.join(r.text for r in flying)}"
+        message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
     without = certified_without_terms(programme, near, threads) if advise else ()
@@ -95,7 +95,7 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
 
 
 def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, Ending]:
-    """Return the candidate that closes best; it is no certified optimum."""
+    """Return the candidate that closes best; it is not a certified optimum."""
     nearest = min(closing, key=lambda c: c.violation)
     return certified(nearest.programme.uncorrected(), nearest.scaled), _no_optimum("closed", searches)
 

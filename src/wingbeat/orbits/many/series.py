@@ -29,8 +29,8 @@ def find_series(
     """Solve a series of problems, such as speeds in order, each also from its neighbours' solutions.
 
     A start from a stock wingbeat finds whichever family of orbits is near. Solutions are passed up and down the
-    series, so that the best family found for any problem spreads as far as it exists. All problems must have the
-    same free parameters.
+    series, so that the best family found for any problem reaches every problem where it exists. All problems must
+    have the same free parameters.
 
     Parameters
     ----------

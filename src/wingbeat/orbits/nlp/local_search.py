@@ -151,7 +151,7 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
 
 @dataclass(frozen=True)
 class Patience:
-    """The rule that a local search has diverged: the violation in all of so many flights exceeded `closure`."""
+    """The rule for divergence: after `flights` flights, the least violation still exceeds `closure`."""
 
     flights: int
     closure: float

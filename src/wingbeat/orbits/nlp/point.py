@@ -39,7 +39,7 @@ class Correction:
 
     @classmethod
     def none(cls, unknowns: int, path: int, outputs: int) -> Correction:
-        """Return the correction that changes nothing, for so many unknowns, path limits and outputs."""
+        """Return the correction that changes nothing, for these numbers of unknowns, path limits and outputs."""
         slopes = np.zeros((6, unknowns)), np.zeros((outputs, unknowns))
         return cls(np.zeros(unknowns), np.zeros(6), slopes[0], np.zeros(path), np.zeros(outputs), slopes[1])
 

@@ -40,7 +40,7 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
     Raises
     ------
-    InvalidInputError : an impossible wingbeat, a film of an area that is not a share of the species'.
+    InvalidInputError : an impossible wingbeat, a filmed area that is not a share of the species' area.
     """
     filmed = beat.numbers_of(species.vehicle, species.wingbeat)
     return species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
@@ -76,7 +76,7 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
 
     Raises
     ------
-    InvalidInputError : what `OrbitProblem` refuses.
+    InvalidInputError : inputs that `OrbitProblem` refuses.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")

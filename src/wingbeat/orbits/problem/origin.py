@@ -54,7 +54,7 @@ def origin_from(record: dict[str, Any]) -> Origin:
 
     Raises
     ------
-    KeyError, TypeError : the dictionary is not one of `Origin.record`.
+    KeyError, TypeError : the dictionary was not made by `Origin.record`.
     """
     choices = tuple(Choice(**choice) for choice in record["choices"])
     return Origin(record["name"], choices, tuple(record["changed"]))

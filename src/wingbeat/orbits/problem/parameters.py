@@ -52,7 +52,7 @@ class Parameter(NamedTuple):
 
 
 def with_number(record: Any, place: Place, value: float) -> Any:
-    """Return a copy of a problem, or of what it holds, with the number at one place replaced."""
+    """Return a copy of a problem, or of one of its parts, with the number at one place replaced."""
     if not place:
         return value
     head, rest = place[0], place[1:]

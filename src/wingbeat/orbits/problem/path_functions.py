@@ -25,8 +25,8 @@ from wingbeat.orbits.problem.quantities import Quantity
 
 # How a vehicle gets what drives its wings.
 _FIXES = {
-    "muscle": "give it one: species.with_muscle(), or the numbers muscle.* with --set",
-    "motor": "give it one: the numbers motor.* with --set, or in the species file",
+    "muscle": "add a muscle with species.with_muscle(), or set the numbers muscle.* with --set",
+    "motor": "add a motor: set the numbers motor.* with --set or in the species file",
 }
 # Samples of a beat that serves for its shapes only.
 _SAMPLES = 1 + 2 * PARTS

@@ -5,7 +5,7 @@
 prints the numbers of docs/muscles.md. The makers published the robot's simulation: Fei et al. 2019,
 arXiv 1902.09628, code purdue-biorobotics/flappy (Actuator.cpp, Wing.cpp, mav_config_list.json, pid_controller.py).
 `makers_hover` marches these equations for one wing whose pitch is at its stop in each half of the stroke. It shares
-no code with wingbeat. `flown` is a hover by the model `animal` at the robot's frequency.
+no code with wingbeat. `carried` gives the same flap to wingbeat's model `animal`.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.actuators.motor import motor_state
 from wingbeat.actuators.springs import actuated
+from wingbeat.mechanics.flight_loads import carried_loads
+from wingbeat.mechanics.flight_model import State
 
 # What the makers state: frequency [Hz], amplitude of the voltage in hover and the largest [V], whole mass [kg].
 FREQUENCY, HOVER_VOLTAGE, LARGEST_VOLTAGE, MASS = 34.0, 9.3, 18.0, 0.012
@@ -58,6 +60,7 @@ class Hover(NamedTuple):
         return {
             "flap amplitude [deg]": math.degrees(np.ptp(self.flap)) / 2,
             "lift over weight": self.lift / (9.81 * MASS),
+            "flap torque [mN m]": 1e3 * rms(self.torque),
             "peak voltage [V]": np.abs(self.voltage).max(),
             "peak motor speed [rad/s]": GEAR * np.abs(self.rate).max(),
             "rms torque of both motors [mN m]": 1e3 * TORQUE_CONSTANT * rms(self.current),
@@ -126,41 +129,41 @@ def wingbeats_motor(hover: Hover, resistance: float = NOMINAL) -> dict[str, floa
     }
 
 
-def flown(starts: int = 6) -> wb.Orbit:
-    """Return a hover by the model `animal` at the robot's frequency and with its pitch between its stops."""
-    species = wb.load_species("purdue-hummingbird")
-    species = species.with_values({"wingbeat.frequency": FREQUENCY, "wingbeat.pitch_amplitude": STOP})
-    model = wb.models.animal(species)
-    fixed = {"frequency", "pitch_amplitude"}
-    free = [name for name in model.species(species).free if name not in fixed]
-    return wb.solve_orbit(model.problem(species, speed=0.0, free=free), starts=starts)
+def carried(hover: Hover, resistance: float = NOMINAL) -> dict[str, float]:
+    """Return the numbers of the makers' flap and frequency by wingbeat's model `animal`, body held upright.
 
-
-def flown_numbers(orbit: wb.Orbit) -> dict[str, float]:
-    """Return the numbers of a flight, by the names of `Hover.numbers`."""
-    record = orbit.record()
-    return {
-        "flap amplitude [deg]": math.degrees(record["wingbeat"]["flap_amplitude"]),
-        "lift over weight": 1.0,
-        "peak voltage [V]": record["peak_motor_voltage"],
-        "peak motor speed [rad/s]": record["peak_motor_speed"],
-        "rms torque of both motors [mN m]": 1e3 * TORQUE_CONSTANT * record["rms_motor_current"],
-        "electrical power [W]": record["electrical_power"],
+    The wing's pitch is a sine that reaches the stops at mid-stroke.
+    """
+    species = wb.load_species("purdue-hummingbird").with_values(
+        {
+            **{"wingbeat.frequency": FREQUENCY, "wingbeat.flap_amplitude": float(np.ptp(hover.flap)) / 2},
+            **{"wingbeat.flap_mean": 0.0, "wingbeat.pitch_mean": 0.0, "wingbeat.pitch_amplitude": STOP},
+            **{"motor.resistance": resistance / 2, "air.density": AIR_DENSITY},
+        }
+    )
+    flight = wb.models.animal(species).problem(species, speed=0.0).model
+    phase = np.linspace(0.0, 1.0, 257)
+    still = State(*(np.full_like(phase, value) for value in (0.0, 0.0, math.pi / 2, 0.0, 0.0, 0.0)))
+    loads, _ = carried_loads(flight, species.wingbeat, still, phase, np.zeros((phase.size, 3)))
+    lift = 2 * np.asarray(loads.strip_force)[:-1, :, 2].sum(axis=1).mean()
+    flap, rate, torque = (np.asarray(getattr(loads, name)) for name in ("flap", "flap_rate", "flap_torque"))
+    beat = Hover(flap, rate, torque, np.zeros_like(flap), np.zeros_like(flap), float(lift))
+    shape = {
+        name: beat.numbers[name] for name in ("flap amplitude [deg]", "lift over weight", "flap torque [mN m]")
     }
+    return shape | wingbeats_motor(beat, resistance)
 
 
 def main() -> None:
-    """Print all columns."""
-    nominal, fitted = makers_hover(), makers_hover(resistance=FITTED)
-    columns = {"makers": nominal.numbers, "makers, fitted": fitted.numbers, "motor": wingbeats_motor(nominal)}
-    orbit = flown()
-    print(orbit.status.value, orbit.message)
-    columns["flight"] = flown_numbers(orbit)
-    for name in nominal.numbers:
-        print(name, {column: f"{numbers[name]:.4g}" for column, numbers in columns.items() if name in numbers})
+    """Print all columns, for both resistances."""
     for resistance in (NOMINAL, FITTED):
+        hover = makers_hover(resistance=resistance)
+        motor, whole = wingbeats_motor(hover, resistance), carried(hover, resistance)
+        print(f"{resistance:.1f} ohm: by the makers' equations; by wingbeat's motor; by wingbeat's air and motor")
+        for name, value in hover.numbers.items():
+            print(f"  {name}: {value:.4g}; {motor.get(name, math.nan):.4g}; {whole.get(name, math.nan):.4g}")
         largest = makers_hover(LARGEST_VOLTAGE, resistance)
-        print(f"{LARGEST_VOLTAGE} V, {resistance:.1f} ohm: lift {1e3 * largest.lift / 9.81:.1f} g")
+        print(f"  lift at {LARGEST_VOLTAGE:g} V: {1e3 * largest.lift / 9.81:.1f} g")
 
 
 if __name__ == "__main__":

@@ -41,3 +41,18 @@ def test_the_motor_needs_what_the_makers_equations_give_it(hovers, resistance):
     for name, value in ours.items():
         assert value == pytest.approx(theirs[name], rel=0.05), name
     assert ours["peak motor speed [rad/s]"] == pytest.approx(theirs["peak motor speed [rad/s]"], rel=1e-12)
+
+
+def test_wingbeats_own_air_asks_more_of_the_motor_and_lifts_less(hovers):
+    """The plate has a smaller coefficient than the makers' formula; docs/muscles.md gives these numbers."""
+    theirs = hovers[robot_motor.NOMINAL].numbers
+    ours = robot_motor.carried(hovers[robot_motor.NOMINAL])
+    ratios = {name: ours[name] / theirs[name] for name in theirs}
+    assert ratios == pytest.approx(
+        {
+            **{"flap amplitude [deg]": 1.0, "lift over weight": 0.67, "flap torque [mN m]": 1.19},
+            **{"peak voltage [V]": 1.11, "peak motor speed [rad/s]": 1.01},
+            **{"rms torque of both motors [mN m]": 1.20, "electrical power [W]": 1.31},
+        },
+        abs=0.006,
+    )

@@ -98,11 +98,11 @@ def summary(flights: list[Flight]) -> str:
     )
 
 
-def batch(drawn: list[Animal], model: str) -> str:
+def batch(drawn: list[Animal], model: str, starts: int | None = None) -> str:
     """Return seconds an orbit, and how many are certified, of all animals at once."""
     problems = [animal.problem(model) for animal in drawn]
     begun = time.perf_counter()
-    orbits = wb.solve_orbits(problems)
+    orbits = wb.solve_orbits(problems, starts=starts)
     seconds = time.perf_counter() - begun
     certified = sum(orbit.status is wb.Status.CONVERGED for orbit in orbits)
     return f"{certified} of {len(orbits)} certified, {seconds / len(orbits):.2f} s an orbit"
@@ -138,7 +138,7 @@ def main() -> None:
     both = [pair for pair in zip(*flights.values(), strict=True) if all(flight.certified for flight in pair)]
     print(f"animal over paper, median: {np.median([live.seconds / paper.seconds for paper, live in both]):.2f}")
     for model in flights:
-        print(f"batch, {model}: {batch(drawn, model)}", flush=True)
+        print(f"batch, {model}: {batch(drawn, model, asked.starts)}", flush=True)
 
 
 def _words(animal: Animal) -> str:

@@ -8,6 +8,7 @@ a bat or a robot. Choices depend on what the flyer is. None is fitted to a measu
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -230,6 +231,7 @@ def model_of(name: str, species: Species) -> Model:
     return animal(species) if name == "animal" else paper()
 
 
+@functools.cache  # the tables of its coefficients take 0.1 s
 def _air_loads(name: str, kind: str) -> BladeElement:
     if name == "paper":
         return BladeElement("su-fan")

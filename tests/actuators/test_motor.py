@@ -72,6 +72,37 @@ def test_springs_and_actuator_share_the_torque_and_springs_do_no_net_work():
     assert np.abs(power - TORQUE * RATE).max() > 1.0
 
 
+@pytest.mark.parametrize("crank", [0, 1])
+def test_the_power_of_the_battery_is_accounted_for_to_rounding(crank):
+    """Battery = hinges + heat + friction + gear + change of the rotor's energy, at every moment and over a beat."""
+    motor = Motor(**{**vars(MOTOR), "crank": crank})
+    (speed, _, current, _, power), acceleration = state(motor)
+    hinges = TORQUE * RATE
+    heat = motor.resistance * current**2
+    friction = motor.torque_constant * motor.no_load_current * np.abs(speed)
+    share = motor.gear_efficiency
+    gear = np.where(hinges > 0.0, (1 / share - 1) * hinges, (share - 1) * hinges)
+    # A crank turns at constant speed, and its rotor's energy does not change.
+    rotor = 0.0 if crank else motor.rotor_inertia * speed * motor.gear_ratio * acceleration
+    tolerance = 1e-12 * np.abs(power).max()
+    assert np.abs(power - (hinges + heat + friction + gear + rotor)).max() <= tolerance
+    assert mean(rotor + 0.0 * speed) == pytest.approx(0.0, abs=tolerance)
+    assert mean(power) == pytest.approx(mean(hinges + heat + friction + gear), abs=tolerance)
+
+
+@pytest.mark.parametrize("springs", [Springs(0.8, 0.2), Springs(0.0, 0.0, 0.3), Springs(0.8, 0.2, 0.3)])
+def test_each_spring_does_no_net_work(springs):
+    need = actuated(springs, FLAP, RATE, TORQUE, 1.0 / FREQUENCY)
+    # The rate of the sampled flap angle itself, so that sums over samples are exact.
+    rate = np.asarray(periodic_rate(FLAP, 1.0 / FREQUENCY))
+    beside = np.asarray(spring_torque(springs.stiffness, FLAP, springs.rest_angle)) * rate
+    between = np.asarray(need.torque) * (np.asarray(need.rate) - RATE)
+    tolerance = 1e-12 * np.abs(TORQUE * RATE).max()
+    assert mean(beside) == pytest.approx(0.0, abs=tolerance)
+    assert mean(between) == pytest.approx(0.0, abs=tolerance)
+    assert max(np.abs(beside).max(), np.abs(between).max()) > 1.0
+
+
 def test_no_springs_change_nothing():
     need = actuated(Springs(), FLAP, RATE, TORQUE, 1.0 / FREQUENCY)
     np.testing.assert_array_equal(need.torque, TORQUE)

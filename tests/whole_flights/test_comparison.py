@@ -40,6 +40,8 @@ def prediction(*measurements, muscle=None):
         ((6.0, 10.0), (5.9, 6.3), (6 / 6.1, 8 / 6.1), False),
         ((6.0, 6.0), (10.1, 10.1), (8 / 10.1, 8 / 10.1), False),
         ((12.0, 12.0), (6.0, 6.0), None, None),
+        ((6.0, 10.0), (0.0, 8.0), (1.5, 2.0), True),
+        ((6.0, 10.0), (0.0, 7.9), (6 / 3.95, 8 / 3.95), False),
     ],
 )
 def test_a_prediction_agrees_within_a_factor_at_every_speed(speeds, values, ratio, agrees):

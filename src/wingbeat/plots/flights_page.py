@@ -99,7 +99,7 @@ def _draw_measured(axes: Axes, one: Measurement) -> None:
     axes.fill_between([first, last], low, high, linewidth=0.5, label=look["label"], zorder=1, **face)
 
 
-def _wrapped(words: str, most: int = 34) -> str:
+def _wrapped(words: str, most: int = 30) -> str:
     """Return words in two lines if they are long."""
     if len(words) <= most:
         return words

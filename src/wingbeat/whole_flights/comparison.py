@@ -31,8 +31,9 @@ class Score:
     predicted : lowest and highest prediction at these speeds; None if none is certified.
     ratio : lowest and highest ratio of prediction to the middle of the measured values; None if there is none, or
         for the speed of minimum power.
-    agrees : whether every prediction is within the factor of `AGREES` of the measured values; for the speed of
-        minimum power, within 3 m/s. None if no flight is certified.
+    agrees : whether every prediction is within the factor of `AGREES` of the measured values; without a factor if
+        they begin at 0 and are thus a limit. For the speed of minimum power, whether it is within 3 m/s. None if no
+        flight is certified.
     at_edge : whether the speed of minimum power is the first or the last that was flown.
     """
 
@@ -83,7 +84,7 @@ def _at_speeds(prediction: Prediction, one: Measurement, speeds: tuple[float, fl
     at = tuple(row.speed for row in rows)
     if not values:
         return Score(one, at, None, None, None)
-    ends, factor = (min(values), max(values)), AGREES[one.quantity]
+    ends, factor = (min(values), max(values)), AGREES[one.quantity] if low else 1.0
     middle = float(np.mean(one.values))
     agrees = low / factor <= ends[0] and ends[1] <= high * factor
     return Score(one, at, ends, (ends[0] / middle, ends[1] / middle), agrees)

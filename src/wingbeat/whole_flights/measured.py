@@ -106,6 +106,7 @@ def read_measured_flights(name: str | Path) -> MeasuredFlights:
     species, rows = given.get("species"), given.get("measured")
     if not isinstance(species, str) or not species:
         faults.add(f"{path.name}, species", species, "must name a species", "such as pigeon")
+        species = ""
     if not isinstance(rows, list) or not rows or not all(isinstance(row, dict) for row in rows):
         faults.add(f"{path.name}, measured", "", "holds no measurement", "add a table [[measured]]")
         rows = []

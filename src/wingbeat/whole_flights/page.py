@@ -14,6 +14,22 @@ _FIT = (
 )
 
 
+_SUMMARY = """## What the comparisons say
+
+- **Power comes out best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives 54
+  to 85 W/kg from 7 to 11 m/s, where 40 to 120 W/kg were measured over all speeds; at 3 and at 14 m/s it needs too
+  much. Curves of power are U-shaped. Their minimum is at 9 m/s for the cockatiel, where 10 m/s was measured, and at
+  12 m/s for the pigeon, where 8 to 9 m/s were estimated.
+- **Frequency comes out worst.** In slow flight it is up to twice that of live animals, at medium speed of pigeon and
+  zebra finch a little more than half. No single number of the muscle explains that
+  ([what sets the frequency](frequency_trials.md)).
+- **Alcids beat twice as fast as measured**, with amplitudes near the measured ones. Their wings are small: at 16 m/s
+  the murre and the puffins need a mean lift coefficient of 1.0 to 1.25 without flapping, and our gliding wings stall
+  at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that their authors assume. We have not tested that.
+- **Muscle is too efficient**: 0.5, where 0.06 to 0.11 was measured. Measured metabolic power includes the rest of
+  the body and the recovery of the muscle, and ours does not."""
+
+
 def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     """Return the page of an animal.
 
@@ -68,6 +84,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
             f"**{agree} of {len(known)} comparisons agree.** {_how_to_read()}",
             "| animal | quantity | basis | measured | at [m/s] | predicted | agrees |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(rows),
+            _SUMMARY,
         ]
     )
 
@@ -76,10 +93,12 @@ def _how_to_read() -> str:
     factors = ", ".join(
         f"{COMPARED[name][1]} {factor:g}" for name, factor in AGREES.items() if name != "minimum_power_speed"
     )
+    near = AGREES["minimum_power_speed"]
     return (
         "A prediction agrees if it lies, at every speed, within a factor of the measured values: "
-        f"{factors}. The speed of minimum power agrees within {AGREES['minimum_power_speed']:g} m/s. *Measured* "
-        "numbers are those of the animal, *estimated* ones hold somebody's model, and a *law* is of other animals."
+        f"{factors}. Values from 0 on are a limit, and have no factor. The speed of minimum power agrees within "
+        f"{near:g} m/s. *Measured* numbers are those of the animal, *estimated* ones hold somebody's model, and a "
+        "*law* is of other animals."
     )
 
 

@@ -154,14 +154,17 @@ def predict_flights(
     problems = [chosen.problem(species, speed=speed) for speed in flights.speeds]
     total = len(problems) * (1 + draws)
 
-    def told(before: int) -> Progress | None:
-        return None if progress is None else lambda done, _: progress(before + done, total)
-
-    orbits = solve_orbits(problems, seed=seed, in_order=True, progress=told(0))
+    orbits = solve_orbits(problems, seed=seed, in_order=True, progress=_after(progress, 0, total))
     flown = [
-        _flown(orbit, draws, seed, processes, told(len(problems) + i * draws)) for i, orbit in enumerate(orbits)
+        _flown(orbit, draws, seed, processes, _after(progress, len(problems) + i * draws, total))
+        for i, orbit in enumerate(orbits)
     ]
     return Prediction(flights, model, problems[0].minimise.name, tuple(flown))
+
+
+def _after(progress: Progress | None, before: int, total: int) -> Progress | None:
+    """Return what tells the progress of a part of the work, of which an earlier part is done."""
+    return None if progress is None else lambda done, _: progress(before + done, total)
 
 
 def _flown(orbit: Orbit, draws: int, seed: int, processes: int, progress: Progress | None) -> Flown:

@@ -16,16 +16,17 @@ _FIT = (
 
 _SUMMARY = """## What the comparisons say
 
-- **Power comes out best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives 54
-  to 85 W/kg from 7 to 11 m/s, where 40 to 120 W/kg were measured over all speeds; at 3 and at 14 m/s it needs too
-  much. Curves of power are U-shaped. Their minimum is at 9 m/s for the cockatiel, where 10 m/s was measured, and at
-  12 m/s for the pigeon, where 8 to 9 m/s were estimated.
-- **Frequency comes out worst.** In slow flight it is up to twice that of live animals, at medium speed of pigeon and
-  zebra finch a little more than half. No single number of the muscle explains that
+- **Power comes out best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
+  54 to 85 W/kg from 7 to 11 m/s, where 40 to 120 W/kg were measured over all speeds; at 3 and at 14 m/s it needs
+  too much. Curves of power are U-shaped. Their minimum is at 9 m/s for the cockatiel, where 10 m/s was measured,
+  and at 12 m/s for the pigeon, where 8 to 9 m/s were estimated.
+- **Frequency comes out worst.** In slow flight it is about twice that of live animals. At medium speed, pigeon and
+  zebra finch beat at a little more than half of it. No single number of the muscle explains that
   ([what sets the frequency](frequency_trials.md)).
-- **Alcids beat twice as fast as measured**, with amplitudes near the measured ones. Their wings are small: at 16 m/s
-  the murre and the puffins need a mean lift coefficient of 1.0 to 1.25 without flapping, and our gliding wings stall
-  at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that their authors assume. We have not tested that.
+- **Alcids beat twice as fast as measured**, with amplitudes near the measured ones. Their wings are small: at
+  16 m/s the murre and the puffins need a mean lift coefficient of 1.0 to 1.25 without flapping, and our gliding
+  wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that their authors assume. We have not
+  tested that.
 - **Muscle is too efficient**: 0.5, where 0.06 to 0.11 was measured. Measured metabolic power includes the rest of
   the body and the recovery of the muscle, and ours does not."""
 

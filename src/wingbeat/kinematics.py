@@ -253,7 +253,8 @@ def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     """Return the angle that the twist law adds to the pitch at the tip [rad], None where it is off.
 
-    It adds to ``twist_ratio`` times the pitch of the root, and at a span fraction s/L it is s/L of this.
+    At the tip, ``twist_ratio`` times the pitch of the root comes on top. At a span fraction s/L, the law adds s/L
+    of its angle at the tip.
     """
     if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
         return None

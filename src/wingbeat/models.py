@@ -159,7 +159,7 @@ class Model:
             Choice(
                 "inflow",
                 f"{aero.inflow}, {aero.induced_factor:g} times that of an ideal disc",
-                "a cockatiel's power fits 1.2 (Morris and Askew 2010, J Exp Biol 213:2781, abstract)",
+                "the factor 1.2 fits a cockatiel's power (Morris and Askew 2010, J Exp Biol 213:2781, abstract)",
             ),
             Choice("body drag area", f"{1e4 * body.drag_area:.2g} cm2", numbers["vehicle.body.drag_area"].source),
         ]

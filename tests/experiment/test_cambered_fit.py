@@ -136,7 +136,7 @@ REFUSED = {
     "one side": (
         lambda: polar(alpha=np.arange(0.0, 31.0, 2.0)),
         "C_L = '0.29",
-        "is negative at no angle from 0 to 30",
+        "is negative at none of the angles between 0 and 30",
     ),
     "other side": (
         lambda: polar(alpha=np.arange(-30.0, -5.0, 2.0)),
@@ -145,7 +145,7 @@ REFUSED = {
     ),
     "one angle": (
         lambda: polar(alpha=np.arange(-6.0, 31.0, 2.0)),
-        "is negative at 1 angle from",
+        "is negative at 1 of the angles between",
         "measure 3 angles",
     ),
     "few": (lambda: polar(alpha=np.array([-20.0, -12.0, -8.0, 4.0, 20.0])), "C_L = '5 points'", "the 4 parameters"),

@@ -198,7 +198,10 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
         ("reduce run.csv -o nowhere/c.csv", "cannot write 'nowhere/c.csv'"),
         ("fit absent.csv", "cannot read 'absent.csv': no such file"),
         ("fit c.csv --form cubic", "form = 'cubic': is not a known choice; use one of su-fan"),
-        ("fit c.csv --form cambered", "C_L = '0 to 0.9': is negative at no angle from 0 to 90 degrees"),
+        (
+            "fit c.csv --form cambered",
+            "C_L = '0 to 0.9': is negative at none of the angles between 0 and 90 degrees",
+        ),
         ("fit c.csv --aspect-ratio 0", "--aspect-ratio = 0.0: must be > 0; span over mean chord"),
         ("fit c.csv -o m.csv", "--output = 'm.csv': is not a model file; end it in .toml"),
         ("fit c.csv --plot m.gif", "--plot = 'm.gif': is not a figure format"),

@@ -70,7 +70,7 @@ def test_what_cannot_be_drawn_is_told():
     frame = table([4.0, 6.0], [0.01])
     with pytest.raises(wb.InvalidInputError, match="is not a numeric column"):
         study_page(frame, ["speed"], "mean_pow", "", ["m/s"])
-    with pytest.raises(wb.InvalidInputError, match="has no varied number to draw against"):
+    with pytest.raises(wb.InvalidInputError, match="has no number to draw against"):
         page(frame)
     with pytest.raises(wb.InvalidInputError, match="leaves nothing to draw"):
         page(table([4.0], [0.01], failing=[4.0]), "speed")

@@ -58,8 +58,9 @@ class LiftForm(BoxForm):
             count = len(np.unique(np.round(alpha_deg[side * values > 0], 6)))
             if count >= LEAST_ANGLES:
                 continue
-            rule = f"is {words} at {count or 'no'} angle{'s' * (count > 1)} from {low:g} to {high:g} degrees"
-            rule += ", so the table shows one side of the wing only" if not count else ", too few for that side"
+            rule = f"is {words} at {count or 'none'} of the angles between {low:g} and {high:g} degrees"
+            few = ", too few for that side of the wing"
+            rule += few if count else ", so the table shows one side of the wing only"
             fix = f"measure {LEAST_ANGLES} angles or more {where} zero lift, or choose a mirrored form: dickinson"
             faults.add(label, f"{values.min():g} to {values.max():g}", rule, fix)
 

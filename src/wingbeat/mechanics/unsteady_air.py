@@ -167,14 +167,16 @@ def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, T
 class UnsteadyLoad(NamedTuple):
     """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
 
+    Without damping it is ``-(A . a + B . xi + C + psi' (D . xi + E))``. Here ``xi = (V_x, V_z, psi')`` is the
+    body's motion through the air in stroke axes, and a its acceleration with the pitch acceleration.
+
     Attributes
     ----------
-    by_acceleration : A, factor of the body's acceleration in stroke axes and its pitch acceleration, shape (3,
-        ...).
-    by_velocity : B, factor of xi = (V_x, V_z, psi'), shape (3, ...).
-    own : C, part due to the wing's own motion, shape (...).
-    by_spin, own_spin : D and E, factors of the pitch rate times xi and of the pitch rate, shapes (3, ...) and
-        (...).
+    by_acceleration : A, shape (3, ...).
+    by_velocity : B, shape (3, ...).
+    own : C, the part due to the wing's own motion, shape (...).
+    by_spin : D, shape (3, ...).
+    own_spin : E, shape (...).
     damping, damping_by_spin : factors of each strip's airspeed, and of the airspeed times the pitch rate.
     """
 

@@ -145,9 +145,9 @@ WINGBEAT = (
     Term(
         "chord_harmonics",
         "1",
-        "harmonics of the chord over full chord",
+        "harmonics of the chord as a fraction of the full chord",
         "",
-        f"of chord over full chord: order 1, 2, .. {HIGHEST_ORDER}",
+        f"of that fraction: order 1, 2, .. {HIGHEST_ORDER}",
     ),
     Term(
         "twist_harmonics",

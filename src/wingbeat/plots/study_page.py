@@ -50,7 +50,9 @@ def study_page(
     """
     faults = FaultList()
     if not varied:
-        faults.add("varied", list(varied), "has no varied number to draw against", "vary one, or take the table")
+        faults.add(
+            "varied", list(varied), "has no number to draw against", "vary one in the study, or read its table"
+        )
     for name in (*varied, quantity):
         if name not in frame or frame[name].dtype.kind not in "fiu":
             faults.add("quantity" if name == quantity else "varied", name, "is not a numeric column of the table")

@@ -96,7 +96,10 @@ def _kept(row: Row) -> dict[str, Any]:
 
 
 def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
-    """Return a table as a labelled dataset along ``point``; what is text or missing becomes text."""
+    """Return a table as a labelled dataset along ``point``.
+
+    A column without numbers becomes a column of texts; a missing value in it becomes an empty text.
+    """
     import numpy as np
     import xarray as xr
 

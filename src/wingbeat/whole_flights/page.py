@@ -97,9 +97,9 @@ def _how_to_read() -> str:
     near = AGREES["minimum_power_speed"]
     return (
         "A prediction agrees if it lies, at every speed, within a factor of the measured values: "
-        f"{factors}. Values from 0 on are a limit, and have no factor. The speed of minimum power agrees within "
-        f"{near:g} m/s. *Measured* numbers are those of the animal, *estimated* ones hold somebody's model, and a "
-        "*law* is of other animals."
+        f"{factors}. If the measured values begin at 0, the larger one is a limit without a factor. The speed of "
+        f"minimum power agrees within {near:g} m/s. *Measured* numbers are those of the animal, *estimated* ones "
+        "hold somebody's model, and a *law* is of other animals."
     )
 
 

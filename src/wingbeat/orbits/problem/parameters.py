@@ -188,7 +188,7 @@ def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
 
 
 def limit_of(problem: OrbitProblem, index: int) -> Parameter:
-    """Return the limit of a constraint: ``limit.peak_power``."""
+    """Return the limit of a constraint as a parameter, such as ``limit.peak_power``."""
     constraint = problem.subject_to[index]
     quantity = constraint.quantity
     size = abs(constraint.limit) or quantity.scale

@@ -16,6 +16,7 @@ BEAT = (
     Term("mean_actuator_power", "W", "mean actuator power, both wings", short="actuator power, mean"),
     Term("peak_actuator_power", "W", "largest actuator power, both wings", short="actuator power, peak"),
     Term("positive_power_per_mass", "W kg-1", "mean positive hinge power over the whole mass"),
+    Term("minimum_power_speed", "m s-1", "speed of minimum power"),
     Term("power_cost", "W", "mean hinge power with a share of the negative work recovered"),
     Term("spring_power", "W", "mean positive hinge power with springs at the flap hinges"),
     Term("stiffness", "N m rad-1", "stiffness of the springs at both flap hinges together", "k"),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.nomenclature import plain_unit
 from wingbeat.style import BLUE, GREEN, GREY, ORANGE, PAGE, VERMILION, drawing, dress, letter_panels, new_figure
 from wingbeat.whole_flights.comparison import name_of
 from wingbeat.whole_flights.measured import COMPARED, Measurement
@@ -21,6 +23,7 @@ _LOOKS: dict[str, dict[str, Any]] = {
     "estimated": {"color": ORANGE, "hatch": "////", "alpha": 0.25, "label": "estimated with a model"},
     "law": {"color": GREEN, "hatch": "....", "alpha": 0.15, "label": "law of other animals"},
 }
+_LETTERS = 30  # of a line of an axis label
 _LINE = 0.05  # m/s: half of the width of a stripe at a single speed
 _ALWAYS = ("positive_power_per_mass", "frequency", "flap_amplitude_deg")
 
@@ -64,8 +67,8 @@ def flights_page(prediction: Prediction) -> Figure:
 
 def _draw(axes: Axes, prediction: Prediction, name: str) -> None:
     speeds, values, low, high = prediction.series(name)
-    unit = "" if COMPARED[name][0] != "1" else " [-]"
-    dress(axes, "speed [m/s]", _wrapped(name_of(name) + unit))
+    unit = " [-]" if plain_unit(name) == "1" else ""
+    dress(axes, "speed [m/s]", textwrap.fill(name_of(name) + unit, _LETTERS))
     axes.tick_params(labelbottom=True)
     if np.isfinite(low).any():
         label = "80 % of the draws of the animal's numbers"
@@ -97,11 +100,3 @@ def _draw_measured(axes: Axes, one: Measurement) -> None:
         return
     face = {"facecolor": look["color"], "edgecolor": look["color"], "hatch": look["hatch"], "alpha": look["alpha"]}
     axes.fill_between([first, last], low, high, linewidth=0.5, label=look["label"], zorder=1, **face)
-
-
-def _wrapped(words: str, most: int = 30) -> str:
-    """Return words in two lines if they are long."""
-    if len(words) <= most:
-        return words
-    cut = words.rfind(" ", 0, most)
-    return f"{words[:cut]}\n{words[cut + 1 :]}"

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.whole_flights.measured import COMPARED, Measurement
+from wingbeat.nomenclature import label_of, plain_unit
+from wingbeat.whole_flights.measured import Measurement
 from wingbeat.whole_flights.prediction import Prediction
 
 # How far a prediction may lie outside the measured values and still count as agreeing: factors, and m/s.
@@ -112,5 +113,5 @@ def name_of(quantity: str) -> str:
     >>> name_of("frequency")
     'wingbeat frequency [Hz]'
     """
-    unit, words = COMPARED[quantity]
-    return words if unit == "1" else f"{words} [{unit}]"
+    unit = plain_unit(quantity)
+    return label_of(quantity) if unit == "1" else f"{label_of(quantity)} [{unit}]"

@@ -9,16 +9,17 @@ from typing import Any
 
 from wingbeat.errors import FaultList, is_number, suggest
 from wingbeat.files import read_text, toml_tables
+from wingbeat.nomenclature import plain_unit
 
-# What can be compared: unit, and words for a reader.
-COMPARED = {
-    "frequency": ("Hz", "wingbeat frequency"),
-    "flap_amplitude_deg": ("deg", "flap amplitude (half of peak to peak)"),
-    "positive_power_per_mass": ("W/kg", "mean positive power per body mass"),
-    "muscle_power_per_mass": ("W/kg", "mean positive power of the flight muscles per muscle mass"),
-    "muscle_efficiency": ("1", "mechanical over metabolic power of the flight muscles"),
-    "minimum_power_speed": ("m/s", "speed of minimum power"),
-}
+# What can be compared; the nomenclature has units and words.
+COMPARED = (
+    "frequency",
+    "flap_amplitude_deg",
+    "positive_power_per_mass",
+    "muscle_power_per_mass",
+    "muscle_efficiency",
+    "minimum_power_speed",
+)
 # How a number was found: in the animal, with a model of the air or of the body, or by a law of other animals.
 BASES = ("measured", "estimated", "law")
 _OF_CURVE = "minimum_power_speed"
@@ -35,7 +36,7 @@ class Measurement:
     quantity : one of `COMPARED`.
     basis : ``"measured"``, ``"estimated"`` with somebody's model, or ``"law"``: from a law of other animals.
     speeds : lowest and highest flight speed that it is for [m/s]; None for the speed of minimum power.
-    values : lowest and highest value, in the unit of `COMPARED`; a standard deviation either side of a mean.
+    values : lowest and highest value, in the unit of the nomenclature; a standard deviation either side of a mean.
     what : which animals, how many, what the two values are.
     source : where it is published.
     """
@@ -50,7 +51,7 @@ class Measurement:
     @property
     def unit(self) -> str:
         """Unit of the values."""
-        return COMPARED[self.quantity][0]
+        return plain_unit(self.quantity)
 
 
 @dataclass(frozen=True)
@@ -139,7 +140,7 @@ def _measurement(faults: FaultList, where: str, row: dict[str, Any]) -> Measurem
         faults.add(f"{where}, {key!r}"[:100], "", "is not a key of this measurement", suggest(key, needed))
     for key in [key for key in needed if key not in row]:
         faults.add(f"{where}, {key}", "", "is missing", f"give {', '.join(needed)}")
-    faults.choice(f"{where}, quantity", row.get("quantity", "frequency"), tuple(COMPARED))
+    faults.choice(f"{where}, quantity", row.get("quantity", "frequency"), COMPARED)
     faults.choice(f"{where}, basis", row.get("basis", "measured"), BASES)
     for key in ("what", "source"):
         if key in row and (not isinstance(row[key], str) or not row[key].strip()):

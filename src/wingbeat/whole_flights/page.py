@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from wingbeat.nomenclature import label_of
 from wingbeat.whole_flights.comparison import AGREES, Score, compared, name_of, words_of
 from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
@@ -92,7 +93,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
 
 def _how_to_read() -> str:
     factors = ", ".join(
-        f"{COMPARED[name][1]} {factor:g}" for name, factor in AGREES.items() if name != "minimum_power_speed"
+        f"{label_of(name)} {factor:g}" for name, factor in AGREES.items() if name != "minimum_power_speed"
     )
     near = AGREES["minimum_power_speed"]
     return (

@@ -40,7 +40,7 @@ class Flown:
     ----------
     speed : [m/s].
     status, message : of the orbit.
-    values : quantities of a certified orbit, in the units of `COMPARED`; empty without one.
+    values : quantities of a certified orbit, in the units of the nomenclature; empty without one.
     peak_activation : largest share of its muscle that it uses; None without muscle.
     active_bounds : free parameters that are at a bound.
     low, high : the band of each quantity: 10 and 90 per cent of the certified draws; empty without draws.

@@ -178,7 +178,7 @@ def test_radians_are_suspected(tmp_path):
         ("phase,flap_deg\n0,1\n0.1,x\n0.2,2\n0.3\n", ["row 3, column flap_deg", "row 5"]),
         (
             "phase,flap_rad,speed\n0,1,2\n",
-            ["flap_rad", "in degrees", "speed", "not a known column", "no filmed column"],
+            ["flap_rad", "write degrees", "speed", "not a known column", "no filmed column"],
         ),
         ("phase,time,flap_deg\n0,0,1\n", ["one of phase and time", "frequency"]),
         ("time,flap_deg\n0,1\n", ["frequency", "is missing"]),

@@ -85,6 +85,7 @@ PitchTangents = Float[Any, "directions 4 samples"]
 # Peaks of series in each quarter of the beat, and what they are interpolated from.
 SampledSeries = Float[Any, "samples *columns"]
 Quarters = Float[Any, "4 *columns"]
+SamplesOfPeaks = Int[Any, "4 4 *#columns"]
 Columns = Float[Any, "*columns"]
 
 # A flight in fixed steps: tables of the wing's motion in rows, all stages of all steps, and tangents.

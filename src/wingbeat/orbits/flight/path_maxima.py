@@ -13,7 +13,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Columns, Quarters, SampledSeries
+    from wingbeat._jax.shapes import Columns, Quarters, SampledSeries, SamplesOfPeaks
 
 
 PARTS = 4
@@ -41,7 +41,7 @@ def _quarters(series: SampledSeries) -> np.ndarray:
     return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
 
 
-def _taken(series: SampledSeries, around: Any, xp: Any) -> Any:
+def _taken(series: SampledSeries, around: SamplesOfPeaks, xp: Any) -> Any:
     """Return the samples at indices of shape (4, quarters, ...)."""
     return xp.stack([xp.take_along_axis(series, index, axis=0) for index in around])
 

@@ -84,9 +84,9 @@ def shade_downstrokes(
     from matplotlib.collections import PolyCollection
 
     axes.set_xlim(first, last)
-    if strokes is None:
-        strokes = [(start, start + 0.5) for start in np.arange(math.floor(first), math.ceil(last))]
-    boxes = [[(start, 0), (end, 0), (end, 1), (start, 1)] for start, end in strokes]
+    halves = [(start, start + 0.5) for start in range(math.floor(first), math.ceil(last))]
+    shaded = halves if strokes is None else strokes
+    boxes = [[(start, 0), (end, 0), (end, 1), (start, 1)] for start, end in shaded]
     # One collection and not a patch each: a flight may have thousands of beats.
     shade = PolyCollection(boxes, facecolor=SHADE, linewidth=0, zorder=0, gid="downstroke")
     shade.set_transform(axes.get_xaxis_transform())

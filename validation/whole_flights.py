@@ -36,7 +36,7 @@ def flown(animal: str, anew: bool, draws: int, processes: int) -> Prediction:
 
 
 def main() -> None:
-    """Fly what is asked for, and write all pages."""
+    """Fly the named animals, and write all pages."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("animals", nargs="*", choices=[[], *measured_animals()])
     parser.add_argument("--draws", type=int, default=24)

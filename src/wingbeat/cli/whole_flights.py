@@ -16,7 +16,7 @@ from wingbeat.files import read_text, toml_tables, write_atomically
 from wingbeat.plots import flights_page, save_figure
 from wingbeat.species import load_species
 from wingbeat.whole_flights import Prediction, compared, measured_animals, predict_flights, read_measured_flights
-from wingbeat.whole_flights.comparison import name_of, words_of
+from wingbeat.whole_flights.comparison import ends_of, name_of, words_of
 from wingbeat.whole_flights.page import flight_text
 from wingbeat.workers.affinity import core_count
 
@@ -96,11 +96,6 @@ def _print(found: Prediction) -> None:
         table.add_column(Text(head))
     for score in compared(found):
         told = score.measurement
-        ends = [_ends(told.values), "-" if score.predicted is None else _ends(score.predicted)]
+        ends = ends_of(told.values), ends_of(score.predicted)
         table.add_row(Text(name_of(told.quantity)), told.basis, *ends, words_of(score))
     console.print(table)
-
-
-def _ends(pair: tuple[float, float]) -> str:
-    low, high = (f"{value:.3g}" for value in pair)
-    return low if low == high else f"{low} to {high}"

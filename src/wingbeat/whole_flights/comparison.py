@@ -115,3 +115,19 @@ def name_of(quantity: str) -> str:
     """
     unit = plain_unit(quantity)
     return label_of(quantity) if unit == "1" else f"{label_of(quantity)} [{unit}]"
+
+
+def ends_of(values: tuple[float, float] | None) -> str:
+    """Return a lowest and a highest value in words; one number if they are equal, a dash if there are none.
+
+    Parameters
+    ----------
+    values : such as those of a measurement, in any unit.
+
+    >>> ends_of((5.0, 7.25)), ends_of((5.0, 5.0)), ends_of(None)
+    ('5 to 7.25', '5', '-')
+    """
+    if values is None:
+        return "-"
+    low, high = (f"{value:.3g}" for value in values)
+    return low if low == high else f"{low} to {high}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from wingbeat.nomenclature import label_of
-from wingbeat.whole_flights.comparison import AGREES, Score, compared, name_of, words_of
+from wingbeat.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
 
@@ -70,8 +70,8 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
     """
     rows = [
         f"| [{p.flights.species}](flight_{p.flights.species}.md) | {name_of(one.measurement.quantity)} | "
-        f"{one.measurement.basis} | {_pair(one.measurement.values)} | {_speeds(one)} | {_pair(one.predicted)} | "
-        f"{words_of(one)} |"
+        f"{one.measurement.basis} | {ends_of(one.measurement.values)} | {_speeds(one)} | "
+        f"{ends_of(one.predicted)} | {words_of(one)} |"
         for p in predictions
         for one in compared(p)
     ]
@@ -112,8 +112,8 @@ def _score_table(scores: Iterable[Score]) -> str:
     for one in scores:
         told = one.measurement
         lines.append(
-            f"| {name_of(told.quantity)} | {told.basis} | {_pair(told.values)} | {_speeds(one)} | "
-            f"{_pair(one.predicted)} | {_pair(one.ratio)} | {words_of(one)} | {told.what} ({told.source}) |"
+            f"| {name_of(told.quantity)} | {told.basis} | {ends_of(told.values)} | {_speeds(one)} | "
+            f"{ends_of(one.predicted)} | {ends_of(one.ratio)} | {words_of(one)} | {told.what} ({told.source}) |"
         )
     return "\n".join(lines)
 
@@ -154,12 +154,5 @@ def _due_text(flown: Sequence[Flown]) -> str:
     return "\n".join(lines)
 
 
-def _pair(values: tuple[float, float] | None) -> str:
-    if values is None:
-        return "-"
-    low, high = (f"{value:.3g}" for value in values)
-    return low if low == high else f"{low} to {high}"
-
-
 def _speeds(score: Score) -> str:
-    return "-" if not score.speeds else _pair((score.speeds[0], score.speeds[-1]))
+    return "-" if not score.speeds else ends_of((score.speeds[0], score.speeds[-1]))

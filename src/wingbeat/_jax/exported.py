@@ -27,6 +27,7 @@ from jax.core import Tracer
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.program_cache import keep_program, kept_program
+from wingbeat._jax.repeats import without_repeats
 from wingbeat._version import __version__
 from wingbeat.errors import ForkError
 
@@ -156,7 +157,7 @@ class StoredFunction:
             return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
         with _TRACING:
-            exported = jax.export.export(jax.jit(flat))(*arguments)
+            exported = without_repeats(jax.export.export(jax.jit(flat))(*arguments))
         keep_program(name, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
         return _Ready(_compiled(exported, arguments, self._hot), *outcome[0])
 

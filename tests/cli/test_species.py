@@ -84,7 +84,7 @@ def test_version_and_no_command() -> None:
         (["species", "pigon"], "error: species = 'pigon': is not a built-in species; did you mean pigeon"),
         (["species", "none.toml"], "error: cannot read 'none.toml': no such file or directory"),
         (["species", "--set", "wing.mass=1"], "error: --set = 'no species': needs a species to change"),
-        (["species", "pigeon", "--set", "wing.mas=1"], "error: wing.mas = 1.0: is not the path of a number; did"),
+        (["species", "pigeon", "--set", "wing.mas=1"], "error: wing.mas = 1.0: no number has this path; did"),
         (["species", "pigeon", "--alternative", "x"], "error: alternative = 'x': is unknown; use one of avin"),
         (["species", "new"], "error: "),
         (["species", "new", "no/such/folder/x.toml"], "error: cannot write 'no/such/folder/x.toml': no such"),

@@ -147,7 +147,7 @@ FAULTS = [
     ({"species": "pigeon", "speed": 9.0, "subject_to": "power<30"}, "power<30"),
     ({"species": "pigeon", "speed": 9.0, "free": []}, "free = []: must hold at least 1 values"),
     ({"species": "pigeon", "speed": 9.0, "free": ["flap"]}, "is not a wingbeat parameter that can be free"),
-    ({"species": "pigeon", "speed": 9.0, "set": {"wing.mas": 1.0}}, "wing.mas = 1.0: is not the path of a number"),
+    ({"species": "pigeon", "speed": 9.0, "set": {"wing.mas": 1.0}}, "wing.mas = 1.0: no number has this path"),
     ({"species": "pigeon", "speed": 9.0, "bounds": {"flap_amplitude": [2.0, 1.0]}}, "lower must be below upper"),
     ({"species": "pigeon", "speed": 9.0, "chain": "climb"}, "chain = 'climb': is not a parameter varied by grid"),
     (
@@ -169,7 +169,7 @@ VARY_FAULTS = [
     ({"speed": {"range": [6.0, 9.0]}}, "sample = nothing: must be given, since speed has a range"),
     ({"wing.mass": {"grid": [-1.0]}}, 'vary."wing.mass".grid[0] = -1.0: must be > 0 kg'),
     ({"wing.mass": {"grid": ["heavy"]}}, "vary.\"wing.mass\".grid[0] = 'heavy': must be a number"),
-    ({"wing.mas": {"grid": [1.0]}}, 'vary."wing.mas" = 1.0: is not the path of a number; did you mean wing.mass'),
+    ({"wing.mas": {"grid": [1.0]}}, 'vary."wing.mas" = 1.0: no number has this path; did you mean wing.mass'),
     ({"mass": {"grid": [1.0]}}, "set body.mass or wing.mass; the whole mass follows from both"),
     ({"aero.extension": {"grid": ["mirored"]}}, "is not a known choice"),
     ({"aero.lift.amplitude": {"grid": ["big"]}}, "must be a number"),

@@ -82,7 +82,9 @@ def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: in
 
 
 def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], beat: FilmedBeat, json: bool) -> None:
-    """Print what such a flight takes.
+    """Print the velocities, body pitch and powers of a flight whose body moves as filmed, and what the model lacks.
+
+    The model may lack force and moment.
 
     Parameters
     ----------

@@ -27,7 +27,10 @@ _SPEED = 10.0  # m/s, of the Reynolds numbers in the list
 def show(
     name: Annotated[str | None, Parameter(help="Name of a species, or path of a .toml file.")] = None,
     *,
-    alternative: Annotated[str | None, Parameter(help="Take the numbers of this alternative.")] = None,
+    alternative: Annotated[
+        str | None,
+        Parameter(help="Use this alternative: a named set of numbers in the species file, such as body-drag."),
+    ] = None,
     set_: Annotated[
         list[str] | None,
         Parameter(

@@ -111,12 +111,12 @@ _SETTLED = {
 
 @dataclass(frozen=True)
 class FilmedBeat:
-    """A wingbeat fitted to a film, law by law; made by `fit_film`.
+    """A wingbeat fitted to a film, each filmed quantity of the wing on its own; made by `fit_film`.
 
     Attributes
     ----------
     film : the film.
-    laws : a Fourier series for each column of it.
+    laws : the Fourier series of each column of the wing in the film, by the column's name.
     """
 
     film: Film

@@ -35,8 +35,8 @@ class ValidationRow:
     ----------
     aero : the air loads, without the lag of the wake.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
-    recommended : whether the rule prefers them to all other rows.
-    fx, fz : how close the forward and the upward force come.
+    recommended : whether the rule of `wingbeat.measured_motion.choice` recommends this row, one of all.
+    fx, fz : how close the computed forward and upward forces are to the measured ones.
     aerodynamic_power : mean power that the wings give to the air [W].
     loads : the loads through time.
     """

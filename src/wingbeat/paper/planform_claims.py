@@ -13,7 +13,11 @@ INSIGNIFICANT = 0.05
 
 
 def planform_claim(orbits: Orbits) -> Claim:
-    """Return the claim judged by two planforms: equal area alone, and equal area and second moment of area."""
+    """Return the claim that the wing's shape matters little, tested with two other wings.
+
+    The tapered wing has the area of the paper's rectangle. The leaf-shaped wing also has its second moment of area
+    about the shoulder.
+    """
     findings = tuple(_beside_the_rectangle(orbits, name) for name in PLANFORMS)
     return Claim(
         "wing-shape",

@@ -54,7 +54,7 @@ def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
         fix = "set body.mass or wing.mass; the whole mass follows from both"
     else:
         fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
-    faults.add(spoken(path), shown(value), "is not the path of a number", fix)
+    faults.add(spoken(path), shown(value), "no number has this path", fix)
     return None
 
 

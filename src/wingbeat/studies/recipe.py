@@ -141,7 +141,7 @@ class Recipe:
         elif path in ("mass", "vehicle.mass"):
             settable(path, value, faults)
         elif (found := _parameter(self.example, path)) is None:
-            faults.add(spoken(path), shown(value), "is not the path of a number", suggest(str(path), self.paths()))
+            faults.add(spoken(path), shown(value), "no number has this path", suggest(str(path), self.paths()))
         elif faults.number(path, value):
             found.changed(self.example, float(value))
 

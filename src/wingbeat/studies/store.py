@@ -219,7 +219,7 @@ class Store:
 
         Parameters
         ----------
-        retry_before : points that failed in runs before the run of this number are yielded again.
+        retry_before : number of a run. Points that failed in an earlier run are included; with 0, none is.
         """
         chained = self._about.get("chained") == "1"
         missing = f"(q.status IS NULL OR (q.status IN {_FAILED} AND q.run_number < {int(retry_before)}))"

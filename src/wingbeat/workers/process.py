@@ -29,10 +29,12 @@ class WorkerProcess:
 
     Parameters
     ----------
-    work : the function that does a request, as ``MODULE:FUNCTION``; called with the request and a `main.Context`.
+    work : the function that carries out a request, as ``MODULE:FUNCTION``; called with the request and a
+        `main.Context`.
     hear : called with each `Message`, in a thread of its own; finally with None when the process has ended.
     core : the core to which the process is pinned; None for any.
-    silence : the process ends itself after so many seconds without a message while it has work; None for no limit.
+    silence : the process ends itself if, while it works on a request, it sends no message for this many seconds;
+        None for no limit.
     memory : resident memory [bytes] beyond which the process ends after a request, because compiled programs
         accumulate; None for any.
     environment : environment variables that differ from those of this process.

@@ -88,7 +88,10 @@ class Unbalanced:
 
 
 class Balance:
-    """The distance of beats from an orbit, measured as shares of the weight."""
+    """Finds the wingbeat closest to an orbit, and the mean forces and moment that it lacks.
+
+    Forces are divided by the weight, the pitching moment by weight times mean chord.
+    """
 
     def __init__(self, programme: Transcription) -> None:
         self._programme, problem = programme, programme.problem

@@ -1,1 +1,1 @@
-"""What wingbeat makes of JAX: its settings, programs kept on disk, elementary functions and their derivatives."""
+"""How wingbeat uses JAX: settings, compiled programs on disk, elementary functions and their derivatives."""

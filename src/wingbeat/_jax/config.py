@@ -1,4 +1,4 @@
-"""The one door to JAX: float64, a compilation cache on disk, and records as pytrees."""
+"""JAX as the package uses it: with float64, a compilation cache on disk, and records as pytrees."""
 
 from __future__ import annotations
 
@@ -21,27 +21,28 @@ T = TypeVar("T")
 
 
 def _configure() -> None:
-    # XLA on CPU then compiles a loop of small arrays into one function, in place of some 20 calls a turn: a march
-    # takes a third of the time. It is read when JAX first compiles; where that was before, marches are slower.
+    # XLA on CPU then compiles a loop of small arrays into one function instead of some 20 calls per iteration: a
+    # march takes a third of the time. JAX reads the flag when it first compiles. If it has already compiled
+    # something, marches are slower.
     flags = os.environ.get("XLA_FLAGS", "")
     if "xla_backend_extra_options" not in flags:
         loops = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=100000000"
         os.environ["XLA_FLAGS"] = f"{flags} {loops}".strip()
     jax.config.update("jax_enable_x64", True)
-    # Computed where it is called: searches in threads would else wait for one another's results.
+    # Each thread computes its own results. Otherwise searches in threads would wait for one another's results.
     jax.config.update("jax_cpu_enable_async_dispatch", False)
     if getattr(jax.config, "jax_compilation_cache_dir", None) is None and (folder := program_folder()) is not None:
         _keep_compiled(folder)
 
 
 class _Checked:
-    """JAX's cache of compiled programs, checked by `program_cache`: JAX would run any file that it finds there."""
+    """JAX's cache of compiled programs; `program_cache` checks its files, because JAX would run any file."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder
 
     def get(self, key: str) -> bytes | None:
-        """Return the compiled program of this key; None unless its file is intact and the user's own."""
+        """Return the compiled program of this key; None if its file is missing, damaged, or another user's."""
         return kept_program(f"compiled-{key}")
 
     def put(self, key: str, value: bytes) -> None:
@@ -50,7 +51,7 @@ class _Checked:
 
 
 def _keep_compiled(folder: Path) -> None:
-    """Have JAX keep compiled programs in the folder, and read only files that are unchanged since it wrote them."""
+    """Make JAX store compiled programs in the folder, and read only files that have not changed since."""
     theirs = compilation_cache.get_file_cache
 
     def opened(path: str) -> Any:
@@ -58,7 +59,7 @@ def _keep_compiled(folder: Path) -> None:
 
     compilation_cache.get_file_cache = opened
     jax.config.update("jax_compilation_cache_dir", str(folder))
-    # XLA would read files of its own there without a check, and a folder that has moved would be of no use.
+    # XLA would read its own files there without a check, and they would be useless in a folder that has moved.
     jax.config.update("jax_persistent_cache_enable_xla_caches", "none")
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
@@ -76,7 +77,7 @@ def unchecked(cls: type[T], fields: Mapping[str, Any]) -> T:
 
 
 def at_default(record: Any, name: str) -> bool:
-    """Say whether an optional field is the plain number that switches it off; an array never counts as off."""
+    """Say whether an optional field has its default, the number that switches it off; an array is never off."""
     value = getattr(record, name)
     return isinstance(value, int | float) and value == getattr(type(record), name)
 
@@ -84,7 +85,7 @@ def at_default(record: Any, name: str) -> bool:
 def register_record(
     cls: type[T] | None = None, *, static: tuple[str, ...] = (), optional: tuple[str, ...] = ()
 ) -> Any:
-    """Make a frozen dataclass a pytree whose inner copies skip the checks of its constructor.
+    """Make a frozen dataclass a pytree; the copies that JAX makes of a record skip the constructor's checks.
 
     The checks apply to user input. Inside compiled functions, JAX rebuilds the records from tracers, and a check
     cannot evaluate a tracer. Fields named in `static` (names, counts) are part of the compiled function; all others

@@ -1,8 +1,8 @@
 """Derivatives of elementwise functions, computed once for all directions that are needed.
 
-XLA on CPU computes cheap operations anew in every use, but a division once. A derivative in nine directions would
-compute the function itself nine times over; behind a division it is computed once, and each direction is a product.
-A flight with its derivatives takes 1.6 ms this way, and 3.1 ms without the divisions.
+XLA on CPU repeats cheap operations at every use, but computes a division only once. A derivative in nine directions
+would therefore compute the function nine times. If the slope is divided by one, XLA computes it once, and each
+direction costs one product. A flight with its derivatives takes 1.6 ms this way, and 3.1 ms without the divisions.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def _computed_once_jvp(primals: Any, tangents: Any) -> tuple[Any, Any]:
 
 
 def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
-    """Return an elementwise function of (parameters, arrays of one shape...) whose derivative uses its slopes.
+    """Return the function with a derivative that computes its slope by each array once, for all directions.
 
-    Both the parameters and the result may be pytrees.
+    The function is elementwise. It takes parameters and arrays of one shape. Parameters and result may be pytrees.
 
     >>> line = elementwise_jvp(lambda slope, x: slope * x)
     >>> float(jax.jvp(lambda x: line(3.0, x), (2.0,), (1.0,))[1])

@@ -1,7 +1,7 @@
-"""Compiled functions whose tracing, too, is kept on disk, so that a second process starts in a second or two.
+"""Compiled functions whose traced programs are also stored on disk, so that a second process starts within seconds.
 
-JAX's own cache keeps what XLA compiled, but looks it up by the traced program, and tracing takes Python seconds.
-Here the traced program itself (`jax.export`) is kept. Its name is a digest of everything that could change it.
+JAX's own cache stores what XLA compiled. To find an entry, JAX must first trace the function, which takes seconds.
+Here the traced program itself (`jax.export`) is stored. Its name is a digest of everything that could change it.
 """
 
 from __future__ import annotations
@@ -31,10 +31,11 @@ from wingbeat._jax.repeats import without_repeats
 from wingbeat._version import __version__
 from wingbeat.errors import ForkError
 
-# Threads that trace at a time get in one another's way; in turn, XLA compiles the first while the next is traced.
+# Threads that trace at the same time slow one another down. If they take turns, XLA compiles one program while the
+# next is traced.
 _TRACING = threading.Lock()
-# XLA's older way to make loops of fused operations compiles in half the time of the newer one. What it makes runs
-# as fast, but for the flight of the search, which takes a tenth longer.
+# XLA's older way to make loops of fused operations compiles in half the time of the newer one. Its programs are as
+# fast, except for the flight of the search, which takes a tenth longer.
 _SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
 _NOTHING = np.zeros(0)
 
@@ -58,7 +59,7 @@ if hasattr(os, "register_at_fork"):
 
 
 class _Ready(NamedTuple):
-    """A compiled function of arrays, and the structure and shapes of what its result holds."""
+    """A compiled function of arrays, and the structure and shapes of its results."""
 
     program: Callable[..., Any]
     tree: Any
@@ -70,8 +71,8 @@ class StoredFunction:
 
     The compiled program returns its results as one array, because each returned array costs some microseconds.
 
-    Inside another JAX transformation, where its arguments are tracers, it is the plain function. Arguments named in
-    `static` must be given by keyword, and different values must have different `repr`s.
+    Inside another JAX transformation, where its arguments are tracers, it acts as the plain function. Arguments
+    named in `static` must be given by keyword, and different values must have different `repr`s.
     """
 
     def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False) -> None:
@@ -84,7 +85,7 @@ class StoredFunction:
 
     @property
     def loaded(self) -> bool:
-        """Whether memory holds a compiled program of this function."""
+        """Whether a compiled program of this function is in memory."""
         return bool(self._ready)
 
     def __call__(self, *args: Any, **static: Any) -> Any:
@@ -132,7 +133,7 @@ class StoredFunction:
         if _cannot_run:
             _refuse_fork()
         program, out_tree, out_shapes = ready
-        with jax.ensure_compile_time_eval():  # numbers stay numbers where someone traces around them
+        with jax.ensure_compile_time_eval():  # inside another trace, numbers stay numbers
             found = np.asarray(program(held, _packed(more)))
         return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
@@ -141,7 +142,7 @@ class StoredFunction:
         arguments = [jax.ShapeDtypeStruct((size,), jnp.float64) for size in sizes]
         name = self._kept_name(tree, (shapes, rest), static)
         if (kept := kept_program(name)) is not None:
-            with suppress(Exception):  # of a JAX that reads it no more: traced anew
+            with suppress(Exception):  # if JAX can no longer read it, it is traced again
                 program, out_tree, out_shapes = pickle.loads(kept)
                 exported = jax.export.deserialize(bytearray(program))
                 return _Ready(_compiled(exported, arguments, self._hot), out_tree, out_shapes)
@@ -187,9 +188,9 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
 
 
 def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
-    """Return a function as `jax.jit` does with these options, compiled in two thirds of the time.
+    """Return what `jax.jit` returns with these options, but compiled in two thirds of the time on a CPU.
 
-    Inside another JAX transformation, which chooses how to compile, it is what `jax.jit` makes of it.
+    Inside another JAX transformation, which chooses how to compile, it is exactly what `jax.jit` returns.
     """
     plain = jax.jit(function, **options)
     soon = jax.jit(function, **options, compiler_options=dict(_SOON_ON_CPU))
@@ -207,8 +208,8 @@ def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]
 def _refuse_fork() -> None:
     raise ForkError(
         "this process was forked from one that had run JAX. It lacks JAX's threads and would wait for them "
-        "forever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or leave them to "
-        "wb.solve_orbits(problems, processes=N)"
+        "forever; start processes with multiprocessing.get_context('spawn') or 'forkserver', or let "
+        "wb.solve_orbits(problems, processes=N) start them"
     )
 
 
@@ -234,7 +235,7 @@ def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
 
 @functools.cache
 def _source_digest() -> str:
-    """Return a digest of the package's own sources, so that an edited equation is traced anew."""
+    """Return a digest of the package's own sources, so that a function is traced again if an equation changes."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parents[1].rglob("*.py")):
         digest.update(path.read_bytes())
@@ -242,7 +243,9 @@ def _source_digest() -> str:
 
 
 def exported(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
-    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a `hot` one may compile longer.
+    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
+
+    A `hot` function takes longer to compile and then runs faster.
 
     >>> @exported
     ... def double(values):

@@ -1,7 +1,7 @@
-"""Programs kept on disk, in a folder of the user's own, each with a digest.
+"""Programs stored on disk, in a folder that belongs to the user, each with a digest.
 
-What is read here is executed, so the user must have written it, and it must be whole: a changed bit in machine code
-gives wrong numbers or ends the process. Any other file is not read; its program is made anew.
+What is read here is executed. So a program is used only if the user wrote its file and the file is undamaged: a
+changed bit in machine code gives wrong numbers or ends the process. Otherwise the program is made again.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def cache_folder() -> Path:
 
     Raises
     ------
-    RuntimeError : the user has no home.
+    RuntimeError : the user has no home folder.
     """
     if chosen := os.environ.get("WINGBEAT_CACHE"):
         return Path(chosen)
@@ -89,7 +89,7 @@ def _is_own(found: os.stat_result) -> bool:
 
 @functools.cache
 def _private(folder: Path) -> Path | None:
-    """Return the folder, created if missing; None unless it is the user's own."""
+    """Return the folder, created if missing; None if it cannot be made or belongs to another user."""
     try:
         folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         _make(folder)

@@ -1,7 +1,8 @@
-"""Traced programs without their repeats: what is computed twice from the same values is computed once.
+"""Traced programs without repeated operations: each result of the same operation on the same values is shared.
 
-XLA drops repeats too, but only after some seventy passes over all of them: of a flight with its derivatives it
-drops two thirds, most of them sines of one angle. Without them a program compiles in 0.55 to 0.9 of the time.
+XLA removes repeats too, but only after some seventy passes over the program. In a flight with its derivatives, two
+thirds of the operations are repeats, most of them sines of one angle. Without repeats, a program compiles in 0.55
+to 0.9 of the time.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
         module = ir.Module.parse(program.mlir_module())
         merge = passmanager.PassManager.parse("builtin.module(cse)")
         merge.run(module.operation)
-        while _merge_calls(module):  # each makes more operations equal, and they more calls
+        while _merge_calls(module):  # merged calls make more operations equal, and so more calls
             merge.run(module.operation)
         version = stablehlo.get_current_version()
         return dataclasses.replace(
@@ -31,9 +32,9 @@ def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
 
 
 def _merge_calls(module: ir.Module) -> bool:
-    """Merge calls of one function with the same arguments, which the pass does not; tell whether there were any.
+    """Merge calls of one function with the same arguments; return whether there were any.
 
-    Functions of a traced program have no effects but their results.
+    The compiler pass does not merge calls. It is safe here: functions of a traced program have no side effects.
     """
     return any([_merge_calls_of(block) for block in _blocks(module.operation)])
 
@@ -53,7 +54,7 @@ def _merge_calls_of(block: ir.Block) -> bool:
 
 
 def _blocks(operation: ir.Operation) -> Iterator[ir.Block]:
-    """Yield all blocks within an operation: of functions, of loops, of branches."""
+    """Yield all blocks within an operation: those of functions, loops and branches."""
     for region in operation.regions:
         for block in region.blocks:
             yield block

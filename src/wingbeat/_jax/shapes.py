@@ -1,9 +1,9 @@
-"""Shapes of the arrays of the physics: aliases for signatures, against which the tests check every call.
+"""Array shapes as type aliases for signatures; the tests check every call against them.
 
-Axes of one name have one size in a call; ``*phases`` stands for any number of axes, none at a single instant; an
-axis marked ``#`` may have length one or be left out. The kind of array is left open, because one equation takes
-arrays and tracers of JAX, arrays of NumPy and plain floats. Only type checkers and tests import this module, since
-`jaxtyping` takes 30 ms.
+Within a call, axes with the same name have the same size. ``*phases`` stands for any number of axes, including none
+for a single instant. An axis marked ``#`` may have length one or be left out. The type of array is open, because
+the same equation takes JAX arrays and tracers, NumPy arrays and plain floats. Only type checkers and tests import
+this module, because importing `jaxtyping` takes 30 ms.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ PerStripBroadcast = Float[Any, "strips *#phases"]
 # The same, or None for what is zero; a vector of such components.
 PerStripOrNone = PerStripBroadcast | None
 TripleOrNone = tuple[PerStripOrNone, PerStripOrNone, PerStripOrNone]
-# Components of vectors, apart: forward and up in the plane of symmetry, or forward, left and up.
+# Components of vectors as separate arrays: forward and up in the plane of symmetry, or forward, left and up.
 Component = Float[Any, "*#components"]
 Pair = tuple[Component, Component]
 Triple = tuple[Component, Component, Component]
@@ -57,7 +57,7 @@ Corners = Float[Any, "*phases strips 4 3"]
 ChordFractions = Float[Any, "rows"]
 Stations = Float[Any, "stations"]
 SurfacePoints = Float[Any, "*phases rows stations 3"]
-# Points of a wing at one instant, and of the two mass points of each strip; their derivatives have axes more.
+# Points of a wing at one instant, and of the two mass points of each strip; their derivatives have more axes.
 StripPoints = Float[Any, "strips 3 ..."]
 MassPoints = Float[Any, "2 strips 3 ..."]
 # Speeds of strips by the rates of the five coordinates, and a vector in the world.

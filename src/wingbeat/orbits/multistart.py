@@ -36,14 +36,14 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
 def first_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Return the ends of local searches: from the starts, from optima without limits, and near the lowest peak.
+    """Search from the starts, from the optima without limits, and near the lowest peak; return where searches end.
 
     Parameters
     ----------
-    programme : of the problem.
+    programme : the problem's programme.
     starts, seed : number of starts, and seed of the random ones. The problem without limits gets the same number of
         starts.
-    threads : local searches at a time.
+    threads : number of local searches at a time.
     progress : called with (local searches done, local searches in all), including those without limits.
     """
     limited = bool(programme.problem.subject_to)
@@ -81,10 +81,10 @@ def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
 def search_from_starts(
     programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
-    """Yield the ends of local searches from these starts, in order, with a number of parallel threads.
+    """Search from these starts in parallel threads, and yield in order where each local search ends.
 
     Every start but the first, the stock wingbeat, is brought close to closure before the objective is minimised. A
-    local search from far away diverges. Where there is no orbit, 30 flights show this instead of 100.
+    local search from far away diverges. If no orbit exists, a search then ends after 30 flights, not 100.
     """
 
     def one(index: int) -> Candidate:
@@ -107,7 +107,7 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
 
 
 def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
-    """Search from points near the best optimum, as a lower peak is often near; return where the searches end."""
+    """Search near the best optimum, because a lower peak is often near it; return where the searches end."""
     more: list[Candidate] = []
     for index in range(count):
         optima = optima_of((*found, *more))

@@ -1,4 +1,4 @@
-"""How an optimum changes with a number of its problem: the implicit function theorem at its conditions.
+"""How an optimum changes with a number of its problem, by the implicit function theorem.
 
 At an optimum, closure and the margins of active limits vanish, ``c(x, p) = 0``. The Lagrangian's gradient also
 vanishes along the directions that these conditions leave free. The objective changes by
@@ -54,7 +54,8 @@ class OptimumSlopes:
 
     Raises
     ------
-    InvalidInputError : there are more active bounds than free unknowns, or the objective has no curvature there.
+    InvalidInputError : there are more active bounds than free unknowns, or the objective has no curvature at the
+        optimum.
     """
 
     def __init__(self, problem: OrbitProblem, unknowns: np.ndarray, options: SolverOptions = DEFAULTS) -> None:
@@ -68,7 +69,7 @@ class OptimumSlopes:
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
             rule = "is no isolated optimum, so its derivatives do not exist or depend on the direction"
-            fix = "try a neighbouring speed, or free more of the wingbeat"
+            fix = "try a neighbouring speed, or free more parameters of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
         self._at, self._free, self._active = found, newton.free, newton.active
         self._at_lower = found - fine.lower < fine.upper - found

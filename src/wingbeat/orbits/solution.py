@@ -39,7 +39,7 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
     ----------
     optima : those in which starts ended.
     scale : of the unknowns.
-    apart : optima closer to one another than this, over the scale, belong to one family.
+    apart : optima closer to one another than this, in the optimiser's scale, belong to one family.
     """
     found: list[Optimum] = []
     for optimum in sorted(optima, key=lambda o: o.objective):
@@ -97,7 +97,7 @@ class Solution:
 
     @property
     def place(self) -> np.ndarray:
-        """The unknowns in the optimiser's scale, velocities minus their means, to compare orbits at two speeds."""
+        """The unknowns in the optimiser's scale, with mean velocity subtracted, to compare orbits at two speeds."""
         drift = np.zeros(self.unknowns.size)
         drift[1:3] = self.problem.speed, self.problem.climb
         return (self.unknowns - drift) / self.problem.unknowns().scale
@@ -121,7 +121,7 @@ class Solution:
     def beat(self) -> Beat:
         """Return the certified beat as time series.
 
-        It is computed anew, because thousands of solutions could not hold their beats in memory.
+        Each call computes it again, because the beats of thousands of solutions would not fit in memory.
         """
         return certified_beat(self.problem, self.wingbeat, self.certificate)
 

@@ -1,9 +1,9 @@
 """The solver's starts: one in each family of wingbeats, then seeded random ones within the bounds.
 
 Most starts have a high frequency. A vehicle that beats fast moves little within a beat, so closure is nearly linear
-and local searches do not diverge. A vehicle that beats too slowly to stay up has no orbit near. From a closed orbit
-of high frequency, the frequency decreases steadily towards its minimum. But where wings are large for the body,
-families with little wing pitching exist at low frequencies only, and fast starts miss them.
+and local searches do not diverge. A vehicle that beats too slowly to stay up is far from any orbit. From a closed
+orbit of high frequency, the search lowers the frequency steadily towards its minimum. But where wings are large for
+the body, families with little wing pitching exist at low frequencies only, and fast starts miss them.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The tuning numbers of the solvers, as frozen values that a user can pass."""
+"""The tuning numbers of the solvers, in frozen records that a user can pass."""

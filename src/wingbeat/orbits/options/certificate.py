@@ -47,21 +47,22 @@ class CertificateOptions:
 
     Parameters
     ----------
-    closure_tolerance : a certified orbit closes to this [m, rad, m/s, rad/s].
+    closure_tolerance : largest residual of a certified orbit [m, rad, m/s, rad/s].
     limit_tolerance : body pitch, the stroke and constraints may exceed their limits by this [rad, wing lengths, the
         constraint's scale].
     aimed_closure : target of the correction, stricter than the tolerance so that rounding does not decide [m, rad,
         m/s, rad/s].
     rtol : relative tolerance of the certifying flight (Dopri8).
-    rough_rtol : relative tolerance of flights that only correct. They are accurate to 1e-8 and take half the time.
-    fine_blocks : a corrected flight has this multiple of the steps of the solver's flights.
+    rough_rtol : relative tolerance of flights that only serve the correction. They are accurate to 1e-8 and take
+        half the time.
+    fine_blocks : a corrected flight has this many times as many steps as the solver's flights.
     linear_range : the derivative of a finer flight is valid within this distance, in the optimiser's scale.
     linearisations : the derivative of a finer flight is computed at most this many times.
     linearised_step : before the derivative is updated, Newton's method ends with a step shorter than this, in the
         optimiser's scale.
     corrections : largest number of certifying flights.
     trial_corrections, trial_reduction : after `trial_corrections` corrections, the residual must have shrunk to the
-        share `trial_reduction` of its first value; else the correction ends.
+        share `trial_reduction` of its first value; otherwise the correction ends.
     bound_updates : how often the active bounds are determined again if a wingbeat closes but is not optimal.
     iterations, tolerance : largest number of iterations of SLSQP, and its tolerance of the objective. SLSQP takes
         over where Newton's method fails.

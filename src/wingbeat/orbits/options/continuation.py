@@ -31,8 +31,8 @@ class ContinuationOptions:
     batch_size : largest number of problems that are solved in sequence, each with the help of the solutions before.
         It is small enough to spread a batch over processes.
     batch_first : in a larger group of similar problems, this many problems are solved first and help all others.
-    near_share : solutions have about equal weight in a prediction if they are nearer than this share of the
-        distance of the farthest solution in use.
+    near_share : solutions have about equal weight in a prediction if their distances are below this share of the
+        largest distance in use.
     rounding : relative differences between numbers that come from rounding.
     """
 
@@ -64,7 +64,7 @@ class SensitivityOptions:
 
     Parameters
     ----------
-    fine_blocks : a flight has this multiple of the steps of the solver's flights. It is accurate to 1e-5.
+    fine_blocks : a flight has this many times as many steps as the solver's flights. It is accurate to 1e-5.
     step : step of the central differences, as a share of a parameter's size.
     step_tolerance : Newton's method, which finds the optimum of these flights, ends with a step shorter than this,
         in the optimiser's scale.

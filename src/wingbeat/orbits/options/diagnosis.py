@@ -11,18 +11,18 @@ from wingbeat.orbits.options.least_squares import LeastSquaresOptions
 
 @dataclass(frozen=True)
 class DiagnosisOptions:
-    """Options of the diagnosis of a problem without an orbit: which balance fails, and which single changes fly.
+    """Options of the diagnosis of a problem without an orbit: which balance fails, and which changes help.
 
     Parameters
     ----------
-    nearest_ends : end points of starts from which the closest wingbeat is computed.
+    nearest_ends : number of starts' end points from which the closest wingbeat is searched.
     ends_apart : two end points count as different if an unknown differs by this share of its range.
     deficit : options of the least squares that find the wingbeat with the smallest deficit.
-    trial_evaluations : evaluations for each end point before only the best continues.
+    trial_evaluations : number of evaluations from each end point. After them, only the best end point continues.
     violation_weight : weight of the conditions that must hold. A residual of 1 in the optimiser's scale counts as
         much as a deficit of this multiple of the vehicle's weight.
     kept_closure : a condition holds if its residual is below this, in the optimiser's scale.
-    least_gravity : smallest gravity that defines the weight with which forces are compared [m/s2].
+    least_gravity : smallest gravity that is used to compute the weight by which forces are divided [m/s2].
     negligible_deficit : a deficit below this share of the weight counts as zero.
     negligible_change : a change below this share of its scale counts as zero. The problem then has an orbit that
         the starts missed.
@@ -31,19 +31,20 @@ class DiagnosisOptions:
     reported : largest number of reported changes.
     slack : the smallest change is widened to this multiple of itself. With the smallest change there is only one
         orbit, and that orbit is hard to certify.
-    widened : a change is widened by these numbers of steps of its last digit, one after the other, until an orbit
-        is certified.
+    widened : numbers of steps in the last digit by which a change is widened. They are tried in this order until
+        an orbit is certified.
     difference_step : step of the difference quotients for derivatives by a number of the vehicle or the flight, as
         a share of the number's scale.
-    far_iterations, back_iterations : iterations of SLSQP when the number is moved far, and each time it is moved
-        back.
+    far_iterations, back_iterations : largest number of SLSQP iterations when a changed number is first moved far,
+        and each time it is then moved back.
     back_times : the number is moved back at most this often, each time from the last end point.
     raised_bounds : multiples of the lower bound of frequency that are tried where the lowest frequency may be at
         this bound.
-    raised_starts : starts for each of these bounds.
-    term_starts : starts, after the closest wingbeat, of the search without one term of the air loads.
-    term_trace : this search first leaves such a share of the term, because the compiled programs then serve. The
-        problem without the term, which needs programs of its own, is solved only if the first search closes.
+    raised_starts : number of starts for each of these bounds.
+    term_starts : number of starts of the search without one term of the air loads. The closest wingbeat is one
+        more start.
+    term_trace : this search first keeps this share of the term, because the compiled programs then still apply. The
+        problem without the term needs programs of its own. It is solved only if the first search closes.
     """
 
     nearest_ends: int = 6

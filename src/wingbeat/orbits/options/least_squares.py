@@ -19,9 +19,9 @@ class LeastSquaresOptions:
     damping, least_damping : initial and smallest damping, each as a ratio to the largest curvature. If there are
         fewer residuals than unknowns, a step without damping would not be unique.
     shrink, growth : an accepted step multiplies the damping by the ratio `shrink` or a larger one. The first
-        rejected step multiplies it by `growth`, and each further rejected step by twice the ratio before.
+        rejected step multiplies it by `growth`, and each further rejected step by twice the previous ratio.
     accepted : a step that gains less than this share of the linear model's prediction is rejected.
-    trusted : only a step that gains more than this share may be the last.
+    trusted : only a step that gains more than this share of the prediction may be the last.
     bound_changes : largest number of bounds that become active or inactive in one step, divided by the number of
         unknowns.
     """

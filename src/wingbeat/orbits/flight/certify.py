@@ -1,7 +1,7 @@
 """The certificate: an independent adaptive flight of one period.
 
-It uses nothing of the solver's flights: Dopri8 with error control, at rtol 1e-10, evaluates the wing's motion at
-instants of its own.
+It shares nothing with the solver's flights: Dopri8, with error control at rtol 1e-10, evaluates the wing's motion
+at its own instants.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Certificate:
 
     Attributes
     ----------
-    phase : phases, shape (K,).
+    phase : phases of the samples, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     steps : the integrator's steps.
     """

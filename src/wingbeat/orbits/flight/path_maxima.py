@@ -1,7 +1,7 @@
 """The peaks of a series along a beat: its largest value in each quarter.
 
-A path seldom has two peaks in one quarter. With the largest peak alone, an optimiser would alternate between peaks
-of equal height.
+A path seldom has two peaks in one quarter. With only the largest peak of the whole beat, an optimiser would
+alternate between peaks of equal height.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ def highest(series: SampledSeries) -> Quarters:
 
 
 def peaks(series: SampledSeries) -> Quarters:
-    """Return the peak in each quarter of the beat of a smooth curve through a closed path's samples (first axis).
+    """Return the peak of a smooth curve through a closed path's samples (first axis), in each quarter of the beat.
 
-    The highest sample, as a function of the unknowns, has a kink where two samples are equal. A search that lowers
-    a peak, or that is at a bound of the path, would end in this kink. The curve between two samples is a
-    Catmull-Rom cubic.
+    The curve between two samples is a Catmull-Rom cubic. The highest sample would not do: as a function of the
+    unknowns, it has a kink where two samples are equal. A search that lowers a peak, or that is at a bound of the
+    path, would end in this kink.
     """
     samples = _taken(series, _samples_around(series, jnp), jnp)
     return jnp.sum(jax.lax.stop_gradient(_weights(samples, jnp)) * samples, axis=0)
@@ -65,7 +65,7 @@ def _samples_around(series: SampledSeries, xp: Any) -> Any:
 
 
 class WeightedSamples:
-    """The samples of a closed path that make its `peaks`, and their weights.
+    """The samples of a closed path from which its `peaks` are computed, and their weights.
 
     Parameters
     ----------
@@ -78,9 +78,9 @@ class WeightedSamples:
         self.peaks = self.of(series)
 
     def of(self, series: np.ndarray) -> np.ndarray:
-        """Return the weighted samples of a series of this shape, or of several along further axes at the end.
+        """Return the weighted sums of the samples of a series of this shape, or of several along further last axes.
 
-        Of a change of the path, they are the change of its peaks, because a shift of a peak's phase has no
+        For a change of the path, the result is the change of its peaks, because a shift of a peak's phase has no
         first-order effect.
         """
         more = tuple(range(self._weights.ndim, series.ndim + 1))
@@ -88,19 +88,19 @@ class WeightedSamples:
         return (weights * _taken(series, around, np)).sum(axis=0)
 
     def of_highest(self, count: int) -> np.ndarray:
-        """Return the weights of all samples of a single path that give the highest of its peaks, shape (K,)."""
+        """Return the weights, shape (K,), with which the samples of a single path sum to its highest peak."""
         weights, highest = np.zeros(count), self.peaks.argmax()
         np.add.at(weights, self._around[:, highest], self._weights[:, highest])
         return weights
 
 
 def peak_weights(path: np.ndarray) -> np.ndarray:
-    """Return the weights of the samples of a closed path, shape (K,), that give the highest of its `peaks`."""
+    """Return the weights, shape (K,), with which a closed path's samples sum to the highest of its `peaks`."""
     return WeightedSamples(path).of_highest(len(path))
 
 
 def _weights(samples: Quarters, xp: Any) -> Quarters:
-    """Return the weights of four samples that give the peak of the curve between the middle two.
+    """Return the weights with which four samples sum to the peak of the curve between the middle two.
 
     The first of these two is the higher. Samples and weights are the first axis; `xp` is their array module.
     """

@@ -1,8 +1,8 @@
 """One period flown with fixed steps, and the exact derivative of its end.
 
 First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes, each
-from the state at the start of its step. Last, the step maps are multiplied. The position (x, z) does not feed back:
-it is a sum over the steps.
+from the state at the start of its step. Last, the step maps are multiplied. The position (x, z) does not affect
+the flight: it is a sum over the steps.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""How close a stroke comes to its limits: the plane of symmetry for each wing, the range of the shoulder.
+"""How close a stroke comes to its limits: for each wing the plane of symmetry, and the range of the shoulder.
 
-Both depend on the wingbeat alone; a flight returns them with its end. Each row is the least distance from a limit.
-The strips' leading and trailing corners have a row for each quarter of the beat; the flap angles of arm and hand
-have rows for the whole beat. The phase of the least distance does not matter to first order.
+The distances depend on the wingbeat alone. A flight returns them as rows: each row is the least distance from a
+limit. The strips' leading and trailing corners have a row for each quarter of the beat; the flap angles of arm and
+hand have rows for the whole beat. The phase of the least distance does not matter to first order.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIn
 def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
     """Return the least distance of each row, shape (12,).
 
-    Derivatives are taken at fixed corner and phase; this is exact, because the derivative by phase is 0 at a
+    Derivatives are computed at a fixed corner and phase. They are exact, because the derivative by phase is 0 at a
     minimum.
     """
     samples = jnp.arange(_SAMPLES + 1) / _SAMPLES

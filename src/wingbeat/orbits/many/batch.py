@@ -61,7 +61,7 @@ def find_orbits(
 
     Raises
     ------
-    InvalidInputError : something that is not a problem, starts, seed, most_starts or processes out of range.
+    InvalidInputError : an item that is not an `OrbitProblem`; starts, seed, most_starts or processes out of range.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):

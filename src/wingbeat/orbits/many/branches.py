@@ -42,7 +42,7 @@ class Landing(NamedTuple):
 
 
 class Branches(NamedTuple):
-    """The optima of each problem, best first, and their links; one without an orbit has its failed solution."""
+    """The optima of each problem, best first, and their links; a problem without an orbit has a failed one."""
 
     optima: tuple[tuple[Solution, ...], ...]
     links: tuple[BranchLink, ...]
@@ -58,14 +58,14 @@ def trace(
     threads: int | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Branches:
-    """Solve at every speed and continue each optimum to the neighbouring speeds until nothing is new.
+    """Solve at every speed and continue each optimum to the neighbouring speeds until no new optimum appears.
 
     Parameters
     ----------
     problem : the problem; its own speed has no effect.
     speeds : increasing [m/s].
     starts, seed : number of starts at the first and the last speed, and the seed of all starts. Speeds between get
-        fewer starts. A speed at which nothing is certified then gets twice the number `starts`.
+        fewer starts. If nothing is certified at a speed, it then gets twice as many starts as the first speed.
     progress : called with (tasks done, tasks known).
     threads : number of tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.
@@ -83,7 +83,9 @@ def trace_along(
     threads: int | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Branches:
-    """Solve problems that differ in one number and continue each optimum to its neighbours until nothing is new.
+    """Solve problems that differ in one number, and continue each optimum to the neighbouring problems.
+
+    This ends when no new optimum appears.
 
     Parameters
     ----------
@@ -99,7 +101,7 @@ def trace_along(
 
 
 class _BranchTracer:
-    """The optima and links found so far. Tasks of a round are independent, so their order changes nothing."""
+    """The optima and links found so far. Tasks of a round are independent, so their order has no effect."""
 
     def __init__(
         self,

@@ -10,7 +10,7 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 
 GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
-# What a bound does that ceases to be active, or becomes active: for one name, and for several.
+# Words for bounds that cease to be active, and for those that become active: for one name, and for several.
 _LEFT = "leaves its bound", "leave their bounds"
 _REACHED = "reaches its bound", "reach their bounds"
 

@@ -47,7 +47,7 @@ class ParameterSpread(NamedTuple):
 
 
 def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
-    """Return the uniform spread over a parameter's plausible range, shrunk about its value to a share of it."""
+    """Return the uniform spread over a parameter's plausible range, or over a share of it about the value."""
     assert parameter.plausible is not None
     low, high = (share * (end - parameter.value) for end in parameter.plausible)
     return ParameterSpread(parameter.path, (parameter,), np.array([[((high - low) * _UNIFORM) ** 2]]), (low, high))
@@ -83,7 +83,7 @@ class ErrorBar(NamedTuple):
         return {name: part**2 / whole for name, part in self.due_to.items()} if whole > 0 else {}
 
     def ranked(self) -> dict[str, Any]:
-        """Return the quantity and its ranking, without an error bar, fit for JSON."""
+        """Return the quantity and its ranking, without an error bar, as plain values for JSON."""
         return {"quantity": self.quantity, "unit": self.unit, "value": self.value, "ranking": self.ranking}
 
 
@@ -143,7 +143,7 @@ def sample_orbits(
     """Solve a problem for random draws of its parameters.
 
     Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family.
-    If the correction leads to no orbit, a local search from the prediction follows, then a search from starts.
+    If the correction leads to no orbit, a local search from the prediction follows, and then one from starts.
 
     Parameters
     ----------
@@ -154,7 +154,8 @@ def sample_orbits(
     count : number of draws.
     seed : of the draws, and of the starts.
     processes, progress, options : as in `solve_orbits`.
-    starts : of that last search, which takes most of the time where many draws cannot fly; 0 leaves it out.
+    starts : number of starts of the last search, which takes most of the time if many draws have no orbit; 0 omits
+        this search.
     """
     generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]

@@ -15,7 +15,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 class Group(NamedTuple):
-    """Indices of problems that differ in numbers only: those that are solved first, and parts that they help."""
+    """Indices of problems that differ in numbers only: those to solve first, and the parts that these help."""
 
     first: list[int]
     parts: list[list[int]]
@@ -26,9 +26,9 @@ def group_similar(
 ) -> list[Group]:
     """Return groups of problems that differ in numbers only, each in an order that favours predictions.
 
-    The problems of a group have one species and one coefficient model, by name. The problems of a part have
-    neighbouring numbers. In each order, the next problem is the farthest from all before. Groups depend on the
-    problems alone, not on the number of processes.
+    The problems of a group share a species and a coefficient model, by name. The problems of a part have similar
+    numbers. In each list, the next problem is the farthest from all before it. Groups depend on the problems alone,
+    not on the number of processes.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
@@ -150,10 +150,11 @@ class Answers:
         self._known.append(known)
 
     def predict(self, place: int) -> list[tuple[np.ndarray, ReducedHessian | None]]:
-        """Predict unknowns from solutions with the same active bounds, with the curvature of the nearest.
+        """Return predicted unknowns, each with the curvature of the nearest solution that has one.
 
-        Where families meet, the nearest solutions differ in their active bounds, and each family makes its own
-        prediction. The list is empty if one of them has too few solutions.
+        A prediction uses solutions with the same active bounds, which count as one family. Where families meet, the
+        nearest solutions differ in their active bounds, and each family makes its own prediction. The list is empty
+        if one of these families has too few solutions.
         """
         away = self._places[self._at] - self._places[self._before + place]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
@@ -171,7 +172,7 @@ class Answers:
 
 
 def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.ndarray:
-    """Return the value at 0 of a parabola through values, nearest first, or of a line if they are too few."""
+    """Fit a parabola to values, nearest first, or a line if there are too few; return its value at distance 0."""
     directions = away.shape[1]
     columns = np.hstack([np.ones((len(away), 1)), away])
     one, other = np.triu_indices(directions)

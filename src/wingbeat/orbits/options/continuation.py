@@ -31,8 +31,8 @@ class ContinuationOptions:
     batch_size : largest number of problems that are solved in sequence, each with the help of the solutions before.
         It is small enough to spread a batch over processes.
     batch_first : in a larger group of similar problems, this many problems are solved first and help all others.
-    near_share : solutions have about equal weight in a prediction if their distances are below this share of the
-        largest distance in use.
+    near_share : solutions have about equal weight in a prediction if their distances from the predicted problem are
+        below this share of the largest of these distances.
     rounding : relative differences between numbers that come from rounding.
     """
 

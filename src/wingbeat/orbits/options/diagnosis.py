@@ -15,7 +15,7 @@ class DiagnosisOptions:
 
     Parameters
     ----------
-    nearest_ends : number of starts' end points from which the closest wingbeat is searched.
+    nearest_ends : number of end points of starts at which the search for the closest wingbeat begins.
     ends_apart : two end points count as different if an unknown differs by this share of its range.
     deficit : options of the least squares that find the wingbeat with the smallest deficit.
     trial_evaluations : number of evaluations from each end point. After them, only the best end point continues.

@@ -44,7 +44,7 @@ class SearchOptions:
         flights if its violation in every flight, in the optimiser's scale, exceeded `diverged_closure`. The rule
         would have stopped 2 of 376 searches that found an orbit.
     restoration : options of the least squares that bring a start close to closure before the objective counts.
-    restored_closure : a start whose residual is then still larger, in the optimiser's scale, is abandoned.
+    restored_closure : a start is abandoned if its residual is then larger than this, in the optimiser's scale.
     same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
         can change a little while the objective hardly changes. It is then chance where a local search stops.
     uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. An optimum

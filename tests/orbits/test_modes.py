@@ -77,9 +77,9 @@ def test_a_payload_asks_for_a_faster_wingbeat_and_is_in_the_record(capsys):
 
 
 def test_what_is_divided_by_the_speed_is_refused_in_hover():
-    mine = wb.Quantity("per_metre", lambda beat: beat.weight / beat.speed, in_hover="ask for the weight")
+    mine = wb.Quantity("per_metre", lambda beat: beat.weight / beat.speed, in_hover="use the weight")
     for name, asked in (("cost_of_transport", "cost-of-transport"), ("per_metre", mine)):
-        with pytest.raises(wb.InvalidInputError, match=f"leaves {name} undefined; in hover ask for"):
+        with pytest.raises(wb.InvalidInputError, match=f"leaves {name} undefined; in hover use"):
             wb.OrbitProblem(SPECIES["pigeon"], speed=0.0, minimise=asked)
     with pytest.raises(wb.InvalidInputError, match="leaves strouhal undefined; in hover limit frequency"):
         wb.OrbitProblem(SPECIES["pigeon"], speed=0.0, subject_to="strouhal<=0.4")

@@ -1,1 +1,1 @@
-"""The orbit problem: its objective, limits and parameters, and how they are read off a flight."""
+"""The orbit problem: its objective, limits and parameters, and how quantities are computed from a flight."""

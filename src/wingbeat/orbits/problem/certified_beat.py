@@ -9,7 +9,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 def certified_beat(problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate) -> Beat:
-    """Return the beat of a flight of the certifier, with what drives the vehicle's wings.
+    """Return the time series of a flight of the certifier, with the vehicle's muscles, motor and springs.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a beat asks of the muscles or of the motor that drive the flap hinges, behind their springs."""
+"""Quantities of the muscles or the motor that drive the flap hinges, with the vehicle's springs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NO_SPRINGS = Springs()
 
 
 def driven(beat: Beat) -> Driven:
-    """Return torque, rate and acceleration of the actuators of the flap hinges, behind the vehicle's springs."""
+    """Return torque, rate and acceleration of the flap actuators, with the vehicle's springs taken into account."""
     springs = beat.drive.springs or _NO_SPRINGS
     return actuated(springs, beat.flap, beat.flap_rate, beat.flap_torque, 1.0 / beat.frequency)
 
@@ -27,7 +27,7 @@ def _pitching(beat: Beat) -> Any:
 
 
 def _metabolic_power(beat: Beat) -> Any:
-    # The muscles that pitch the wing are small: they are taken to work at their best speed.
+    # The muscles that pitch the wing are small. We assume that they work at their most efficient speed.
     muscle, need = beat.drive.muscle, driven(beat)
     assert muscle is not None
     flapping = sum(beat.mean_positive(part) for part in metabolic_power(muscle, need.torque, need.rate))
@@ -56,13 +56,13 @@ def _muscle_efficiency(beat: Beat) -> Any:
 
 
 def motor_series(beat: Beat) -> MotorState:
-    """Return what the motor does along the beat."""
+    """Return the motor's speed, torque, current, voltage and power along the beat."""
     assert beat.drive.motor is not None
     return motor_state(beat.drive.motor, *driven(beat), beat.frequency)
 
 
 def _electrical_power(beat: Beat) -> Any:
-    # Else pitching would be free: its power is added as it is.
+    # The motor only flaps the wings. The power of pitching is added, because pitching would otherwise be free.
     return beat.mean_positive(motor_series(beat).power) + _pitching(beat)
 
 

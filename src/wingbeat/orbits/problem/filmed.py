@@ -1,4 +1,4 @@
-"""The orbit problem of a filmed wingbeat: what was filmed is fixed, the other parameters trim the flight."""
+"""The orbit problem of a filmed wingbeat: filmed parameters are fixed, and the others trim the flight."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
-    """Return the free parameters, those of the species that were not filmed, and their bounds.
+    """Return the species' free parameters that were not filmed, and bounds of those that are freed in addition.
 
     Two free parameters are needed to control forward and vertical speed. If fewer are left, the mean wing pitch is
-    freed too, and then its amplitude; the bounds returned limit their distance from the filmed values.
+    freed too, and then the wing pitch amplitude; the bounds returned limit their distance from the filmed values.
     """
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
@@ -64,15 +64,15 @@ def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, 
 
 
 def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) -> OrbitProblem:
-    """Return the problem of the trim that flies a filmed wingbeat at a speed.
+    """Return the orbit problem that trims a filmed wingbeat for flight at a speed.
 
     Parameters
     ----------
     beat : from `wingbeat.experiment.fit_film`.
     species : the filmed species.
     speed : mean forward speed [m/s].
-    more : other arguments of `OrbitProblem`. If it names no objective, the frequency is minimised where it is free,
-        else the mean positive power.
+    more : other arguments of `OrbitProblem`. Without an objective, the frequency is minimised if it is free,
+        and otherwise the mean positive power.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
     if "frequency" not in free:
         more.setdefault("minimise", "mean_positive_power")
     bounds |= more.pop("bounds", {})
-    # The filmed stroke is fixed, so that a limit could only hide where the wings cross. An orbit whose wings cross
-    # draws a warning.
+    # The filmed stroke is fixed, so a limit could not keep the wings apart. An orbit whose wings cross draws a
+    # warning.
     more.setdefault("wings_may_cross", True)
     return OrbitProblem(filmed_species(beat, species), speed, free=free, bounds=bounds, **more)

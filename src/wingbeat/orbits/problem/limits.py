@@ -20,7 +20,7 @@ class Constraint:
     ----------
     quantity : a `Quantity`, or the name of one.
     limit : in the unit of the quantity.
-    at_most : whether the limit is an upper one; else it is a lower one. A limit on a series applies to its maximum:
+    at_most : True for an upper limit, False for a lower one. A limit on a series applies to its maximum:
         an upper limit therefore holds at every instant, a lower limit at one instant or more.
 
     Raises
@@ -53,7 +53,7 @@ def parse_constraint(text: str) -> Constraint:
 
     Raises
     ------
-    InvalidInputError : a text not of that form, an unknown quantity, degrees for a quantity that is no angle.
+    InvalidInputError : a text not of that form, an unknown quantity, degrees for a quantity that is not an angle.
 
     >>> str(parse_constraint("peak_power <= 30"))
     'peak_power<=30'
@@ -75,7 +75,7 @@ def parse_constraint(text: str) -> Constraint:
 
 
 class WingbeatLimit(NamedTuple):
-    """A wingbeat parameter fixed at a value (``=``), or at most or at least at it, SI and radians."""
+    """A wingbeat parameter fixed at a value (``=``), or limited to it from above or below, SI and radians."""
 
     name: str
     sign: str
@@ -86,9 +86,9 @@ _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
 
 
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
-    """Return the limit of a wingbeat parameter in a text, or None.
+    """Return the limit of a wingbeat parameter in a text, or None if the text has another meaning.
 
-    An upper or lower limit of the frequency is a constraint like any other, so that the result is None.
+    The result is also None for an upper or lower limit of the frequency, which is a constraint like any other.
 
     >>> parse_wingbeat_limit("frequency = 6").value
     6.0

@@ -1,4 +1,4 @@
-"""Where the choices of a problem come from: the model of its flight, each choice with its reason."""
+"""The model with which a problem was made, and the model's choices, each with its reason."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ class Choice(NamedTuple):
 
 
 class Origin(NamedTuple):
-    """The model that a problem was made by.
+    """The model with which a problem was made.
 
     Attributes
     ----------
     name : of the model, ``"paper"`` or ``"animal"``.
     choices : all its choices.
-    changed : air loads and parameters of `OrbitProblem` that were chosen otherwise than by the model. Numbers of
-        the species that were changed are not among them; their sources say so.
+    changed : names of the air loads and of the parameters of `OrbitProblem` that the user chose differently. The
+        list omits changed numbers of the species; their sources name the change.
     """
 
     name: str
@@ -36,7 +36,7 @@ class Origin(NamedTuple):
     changed: tuple[str, ...] = ()
 
     def record(self) -> dict[str, Any]:
-        """Return it as lists and texts, fit for JSON.
+        """Return the origin as lists and texts, for JSON.
 
         >>> Origin("paper", (Choice("coefficients", "su-fan", "measured"),)).record()["choices"]
         [{'what': 'coefficients', 'value': 'su-fan', 'reason': 'measured'}]
@@ -46,11 +46,11 @@ class Origin(NamedTuple):
 
 
 def origin_from(record: dict[str, Any]) -> Origin:
-    """Return the origin that `Origin.record` described.
+    """Return the origin from its record.
 
     Parameters
     ----------
-    record : its name, choices and changes.
+    record : name, choices and changes, as from `Origin.record`.
 
     Raises
     ------

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     ----------
     path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
     unit : of the value, ``1`` if it has none.
-    value : SI and radians, but as published where the name ends in ``_deg``.
+    value : SI and radians, but degrees as published where the name ends in ``_deg``.
     size : magnitude of the value, or a typical magnitude if the value is 0; a change by this much is large.
     place : path from the problem to the number.
     plausible : lowest and highest plausible value, where the species file gives them.
@@ -42,7 +42,7 @@ class Parameter(NamedTuple):
     plausible: tuple[float, float] | None = None
 
     def changed(self, problem: OrbitProblem, value: float) -> OrbitProblem:
-        """Return the problem with this number at another value, all else unchanged.
+        """Return the problem with this number at another value, and all else unchanged.
 
         Raises
         ------
@@ -71,7 +71,7 @@ def with_number(record: Any, place: Place, value: float) -> Any:
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
-    Left out are the wrist, which has no effect until it crosses a strip; parameters of motions that are off; and
+    The list omits the wrist, which has no effect until it crosses a strip; parameters of motions that are off; and
     the numbers of coefficient models that are not formulas. The terms of a cambered wing have names such as
     ``aero.wing.lift_slope``.
 

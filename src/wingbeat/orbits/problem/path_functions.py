@@ -23,7 +23,7 @@ from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import Quantity
 
-# How a vehicle gets what drives its wings.
+# How to add what a quantity needs to a vehicle.
 _FIXES = {
     "muscle": "add a muscle with species.with_muscle(), or set the numbers muscle.* with --set",
     "motor": "add a motor: set the numbers motor.* with --set or in the species file",
@@ -40,7 +40,7 @@ def _value(function: Callable[[Beat], Any], beat: Beat) -> Any:
 
 @functools.partial(jit_soon, static_argnums=0)
 def _changes(function: Callable[[Beat], Any], beat: Beat, changes: Beat) -> tuple[Any, Any]:
-    """Return the value, and its changes with the beat's."""
+    """Return the value of a function of the beat, and its change for each change of the beat."""
     value, along = jax.linearize(lambda beat: _value(function, beat), beat)
     return value, jax.vmap(along)(changes)
 
@@ -56,7 +56,7 @@ class _Lacking:
 
 
 class OutputFunctions:
-    """The values of several quantities, one after the other, each over its scale."""
+    """The values of several quantities, one after the other, each divided by its scale."""
 
     def __init__(
         self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int, drive: Drive
@@ -73,7 +73,7 @@ class OutputFunctions:
         self.limits = np.repeat(limits, self.constraint_counts)
 
     def values(self, beat: Beat) -> np.ndarray:
-        """Return the values; for a series, its highest samples.
+        """Return the values; for a series, its highest sample in each quarter of the beat.
 
         Raises
         ------
@@ -86,7 +86,7 @@ class OutputFunctions:
     def linearised(self, beat: Beat, changes: Beat) -> tuple[np.ndarray, np.ndarray]:
         """Return the values and their derivatives, shape (values, directions).
 
-        A series has the peaks of a smooth curve through it.
+        The values of a series are the peaks of a smooth curve through it.
 
         Raises
         ------
@@ -119,7 +119,7 @@ def value_count(function: Callable[[Beat], Any], strips: int, drive: Drive) -> i
     return PARTS * math.prod(shape[1:]) if shape else 1
 
 
-# Tracing a function takes 2.5 ms, and every problem of a curve or study asks.
+# Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.
 @functools.lru_cache(256)
 def _given_by(function: Callable[[Beat], Any], strips: int, drive: Drive) -> Any:
     """Return the shapes of the arrays that a quantity's function returns."""

@@ -31,7 +31,8 @@ def drawn_in(
     species : gives the ranges.
     free : names of the free parameters.
     bounds : of each, SI and radians.
-    faults : receives bounds that do not overlap with the plausible range, and fixed parameters outside theirs.
+    faults : receives bounds that do not overlap with the plausible range, and fixed parameters
+        outside their ranges.
     """
     drawn = {}
     for name in free:
@@ -55,8 +56,8 @@ def drawn_in(
 def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
     """Return the limits that keep quantities of the beat plausible at a speed [m/s].
 
-    The Reynolds number has no limit, because no wingbeat changes it. A speed at which it is not plausible is a
-    fault.
+    The Reynolds number has no limit, because no wingbeat changes it. A speed is a fault if its Reynolds number is
+    not plausible.
     """
     limits = []
     for name in JUDGED:

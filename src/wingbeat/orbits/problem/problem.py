@@ -52,19 +52,20 @@ class OrbitProblem:
     free : names of the wingbeat parameters that are free; default those of the species.
     bounds : (lower, upper) of free parameters, SI and radians; they replace the species' bounds of the same names.
         Bounds of ``body_pitch``, and of ``flap`` (the flap angle of arm and hand), hold along the whole path.
-        ``"plausible"`` stays within the species' plausible ranges: the ranges of parameters narrow the bounds, and
-        the range of each quantity of the flown wingbeat becomes a limit of `subject_to`.
+        ``"plausible"`` keeps to the species' plausible ranges: the ranges of parameters narrow the bounds, and the
+        range of each quantity of the flown wingbeat becomes a limit in `subject_to`.
     minimise : the objective, a `Quantity` or the name of one; default the frequency, as in Su et al. 2023.
     air : replaces the species' air.
     subject_to : constraints, each a `Constraint` or a text such as ``"peak_power<=30"``. A text that names a
         wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
-    origin : the model that the problem was made by, see `wingbeat.models`; it has no effect on the solution.
+    origin : the model with which the problem was made, see `wingbeat.models`; it has no effect on the solution.
     wings_may_cross : whether a wing may cross the plane of symmetry, and flap angles may leave their range. A
         stroke whose parameters are all fixed may do so anyway, with a warning.
 
     Raises
     ------
-    InvalidInputError : speeds not finite or negative, unknown names, bounds missing, crossed or not finite.
+    InvalidInputError : a speed that is negative or not finite, unknown names, bounds that are missing, crossed or
+        not finite.
 
     >>> from wingbeat.species import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
@@ -174,7 +175,7 @@ class OrbitProblem:
         return any(name not in _NOT_OF_THE_STROKE for name in self.free)
 
     def _draw_in(self, faults: FaultList) -> None:
-        """Narrow the bounds to what is plausible, and limit quantities of the beat to it."""
+        """Narrow the bounds to the plausible ranges, and limit quantities of the beat to theirs."""
         bounds = {**self.species.bounds, **self.bounds}
         free = self.free or self.species.free
         drawn = drawn_in(self.species, free, bounds, faults)
@@ -187,7 +188,7 @@ class OrbitProblem:
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
-        """Return the problem at another speed; plausible bounds become those at that speed.
+        """Return the problem at another speed; plausible limits become those at that speed.
 
         Parameters
         ----------
@@ -195,7 +196,7 @@ class OrbitProblem:
 
         Raises
         ------
-        InvalidInputError : a speed at which nothing is plausible.
+        InvalidInputError : an impossible speed, or one whose Reynolds number is not plausible.
         """
         moved = dataclasses.replace(self, speed=speed)
         limits, faults = getattr(self, "_plausible_limits", None), FaultList()
@@ -247,7 +248,7 @@ class OrbitProblem:
         asked: Bounds = self.bounds
         for name, pair in asked.items():
             if name not in (*PATH_NAMES, *free):
-                faults.add("bounds", name, "is bounded but not free", f"free are {', '.join(free)}")
+                faults.add("bounds", name, "is bounded but not free", f"the free parameters are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
                 faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
             elif all(faults.number(f"bounds.{name}", value) for value in pair):
@@ -334,7 +335,7 @@ class OrbitProblem:
         return np.asarray(end) - np.concatenate([travelled, unknowns[:4]])
 
     def closure_jacobian(self, end_jacobian: np.ndarray, frequency: float) -> np.ndarray:
-        """Return the derivative of the residual by the unknowns, shape (6, unknowns).
+        """Return the derivative of the closure residual by the unknowns, shape (6, unknowns).
 
         Parameters
         ----------

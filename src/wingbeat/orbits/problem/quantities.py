@@ -26,7 +26,7 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number computed from one wingbeat, or a series along it, whose largest value then counts.
+    """A number computed from one wingbeat, or a series along it that counts by its largest value.
 
     Parameters
     ----------
@@ -144,13 +144,13 @@ def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
 
     Raises
     ------
-    InvalidInputError : a negative stiffness, a rest angle beyond half a turn, not finite.
+    InvalidInputError : a stiffness that is negative, a rest angle beyond half a turn, a number that is not finite.
 
     >>> SpringPower(0.5).name, SpringPower(0.5, -0.1).name
     ('spring_power(0.5)', 'spring_power(0.5,-0.1)')
     """
     faults = FaultList()
-    faults.number("stiffness", stiffness, at_least=0, unit=plain_unit("stiffness"), fix="of both springs together")
+    faults.number("stiffness", stiffness, at_least=0, unit=plain_unit("stiffness"), fix="the sum of both springs")
     if rest_angle is not None:
         faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit=plain_unit("rest_angle"))
     faults.raise_if_any()
@@ -211,7 +211,7 @@ QUANTITIES = {
         _known("mean_actuator_power", _Cost("actuator_power", 1.0)),
         _known("peak_actuator_power", _Series("actuator_power"), 5.0),
         _known("positive_power_per_mass", _power_per_mass, 10.0),
-        _known("cost_of_transport", _cost_of_transport, 0.1, "ask for mean_positive_power"),
+        _known("cost_of_transport", _cost_of_transport, 0.1, "use mean_positive_power"),
         _known("peak_force_over_weight", _force_over_weight, 0.5),
         _known("strouhal", _strouhal, 0.1, "limit frequency and flap_amplitude"),
         _known("peak_flap_torque", _Size("flap_torque"), 0.1),
@@ -228,7 +228,7 @@ QUANTITIES = {
 
 
 def of_drive(drive: Drive) -> dict[str, Quantity]:
-    """Return the quantities of what drives a vehicle's wings: of its muscles, and of its motor."""
+    """Return the quantities of a vehicle's muscles and of its motor, if it has them."""
     there = {name for name in ("muscle", "motor") if getattr(drive, name) is not None}
     return {name: quantity for name, quantity in QUANTITIES.items() if quantity.needs in there}
 

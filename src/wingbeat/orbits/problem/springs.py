@@ -22,7 +22,7 @@ _FARTHEST_REST = math.pi
 
 @dataclass(frozen=True)
 class SpringCost:
-    """The actuators' mean positive power at the hinges with springs, which are slack in mid-stroke by default."""
+    """The actuators' mean positive power with flap springs that by default exert no torque in mid-stroke."""
 
     stiffness: float
     rest_angle: float | None = None

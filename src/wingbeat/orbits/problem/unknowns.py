@@ -1,4 +1,4 @@
-"""The unknowns that the solver varies, and those that would change nothing."""
+"""The unknowns that the solver varies, and a check for tilts that have no effect."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ class Unknowns:
 
 
 def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
-    """Note a fault for each free tilt that has no effect on this vehicle's flight.
+    """Add a fault for each free tilt that has no effect on this vehicle's flight.
 
     Parameters
     ----------
-    vehicle : what flies.
+    vehicle : the vehicle.
     free : names of the free parameters.
-    faults : takes the faults.
+    faults : receives the faults.
     """
     ahead, _, above = vehicle.wing.shoulder
     if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:

@@ -1,4 +1,4 @@
-"""Which balance fails where there is no orbit, and by how much.
+"""Which balance fails if there is no orbit, and by how much.
 
 We look for the wingbeat, within bounds, that returns to its position and attitude and comes closest to its initial
 velocity. If the mean force is too small, the velocity changes over the beat; if the mean moment is too small, the
@@ -20,7 +20,7 @@ from wingbeat.orbits.problem.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 
 THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
 LAWS = (THRUST, LIFT, MOMENT)
-# The velocity that does not return if a balance fails.
+# The velocity that changes over the beat if a balance fails.
 _STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 
 
@@ -73,7 +73,7 @@ class Unbalanced:
 
     @property
     def is_excess(self) -> bool:
-        """Whether a force is too large, not too small."""
+        """Whether a force is too large."""
         return any(self.shares.get(law, 0.0) < 0 for law in (LIFT, THRUST))
 
     @property
@@ -141,11 +141,11 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes, or else the closest beat in which one balance fails, or else all balances.
+        """Return a beat that closes, or else the closest beat if one balance may fail, or else if all may fail.
 
-        If several balances would each suffice alone, the one with the smallest deficit is reported. An excess of
-        force is reported only if no deficit suffices, because excess force can mostly be removed at the expense of
-        another balance.
+        If any one of several balances may be the one that fails, the one with the smallest deficit is reported. An
+        excess of force is reported only if no deficit explains the failure, because excess force can mostly be
+        removed at the expense of another balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []

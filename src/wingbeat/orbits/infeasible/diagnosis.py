@@ -73,10 +73,10 @@ def least_changes(
 
     Parameters
     ----------
-    programme : of the problem without an orbit.
+    programme : the programme of the problem without an orbit.
     near : the unknowns of the closest wingbeat.
     nearest : that wingbeat with its deficits.
-    threads : changes tried at a time.
+    threads : number of changes that are tried at a time.
     progress : called with (changes tried, changes in all).
     """
     options = programme.options
@@ -114,9 +114,9 @@ def certified_without_terms(programme: Transcription, near: np.ndarray, threads:
 
     Parameters
     ----------
-    programme : of the problem without an orbit.
+    programme : the programme of the problem without an orbit.
     near : the unknowns of the closest wingbeat.
-    threads : terms tried at a time.
+    threads : number of terms that are tried at a time.
     """
     programme = _plainly(programme)
     with ThreadPoolExecutor(threads) as pool:
@@ -142,7 +142,7 @@ def _without_term(programme: Transcription, name: str, near: np.ndarray) -> Rela
 
 
 def _certified_from(programme: Transcription, start: np.ndarray) -> Corrected | None:
-    """Return the certified orbit to which a short or else a long local search from unknowns near it leads."""
+    """Search from unknowns near an orbit, first briefly and then at length; return the certified orbit, or None."""
     for attempt in (refine, search):
         found = attempt(programme.uncorrected(), start)
         if found.is_optimum and (orbit := correct(found.programme, found.scaled)).is_orbit():

@@ -29,7 +29,7 @@ def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: fl
 
 
 def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
-    """Return whether the lowest frequency may be its bound: in a descent, or if a beat at the bound closed."""
+    """Return whether the lowest frequency may be at its bound: in a descent, or if a beat at the bound closed."""
     problem, tolerance = programme.problem, programme.options.search.bound_tolerance
     if problem.minimise.parameter != "frequency":
         return False

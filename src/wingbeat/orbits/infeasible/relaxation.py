@@ -72,7 +72,7 @@ class Change:
 
     @property
     def widest(self) -> float:
-        """The farthest that the number may move, divided by its scale."""
+        """The largest distance that the number may move, divided by its scale."""
         return abs(self.reach - self.old) / self.scale
 
     @property
@@ -139,7 +139,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     ----------
     problem, change : the problem, and the number that changes.
     value : the number after the least change that suffices, SI.
-    more : by how many further steps of the last printed digit the number moves.
+    more : additional steps in the last printed digit.
     """
     unit = _unit(problem, change)
     factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
@@ -199,7 +199,7 @@ def possible_changes(
     ----------
     problem : the problem.
     at_bounds : (name, sign) of the bounds that the closest wingbeat is at, including those along the path.
-    short : that wingbeat's deficit of each balance, as a share of the weight, or of weight times chord. A vehicle
+    short : deficits of the balances in that wingbeat, as shares of the weight, or of weight times chord. A vehicle
         that is lighter by the missing lift, or that descends to make up for the missing thrust, is close to an
         orbit.
     options : how far each number may move, and which changes are tried first.
@@ -248,7 +248,7 @@ def possible_changes(
 
 
 def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[float, ...]) -> Iterator[Change]:
-    """Yield the change of a velocity, unless it is already at the reach."""
+    """Yield the change of a velocity, unless the velocity is already at the reach."""
     if reach != old:
         yield Change(name, "=", old, reach, scale, tries)
 
@@ -290,7 +290,7 @@ def rounded_outward(change: Change, value: float, factor: float, more: int = 0) 
     change : the number that changes, and its direction.
     value : the number after the least change that suffices, SI.
     factor : conversion factor from SI to the printed unit.
-    more : by how many further steps of the last printed digit the number moves.
+    more : additional steps in the last printed digit.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor
     digits = 1 - math.floor(math.log10(moved))

@@ -23,7 +23,7 @@ class RelaxedProgramme:
 
     Parameters
     ----------
-    programme : of the problem, with the number either at its reach or unchanged.
+    programme : the problem's programme, with the number either at its reach or unchanged.
     change : the number, and which way it moves.
     """
 
@@ -34,7 +34,7 @@ class RelaxedProgramme:
         self.upper = np.append(programme.upper, change.widest)
 
     def start(self, unknowns: np.ndarray, share: float) -> np.ndarray:
-        """Return a beat that closes, with the number moved back as far as this beat allows."""
+        """Return a start: a beat that closes, and the number moved back as far as this beat allows."""
         scaled = np.clip(np.append(unknowns / self._programme.unknowns.scale, share), self.lower, self.upper)
         slope = self.inequalities_jacobian(scaled)[:, -1]
         spare = (self.inequalities(scaled)[slope > 0] / slope[slope > 0]).min()
@@ -137,7 +137,7 @@ class _RelaxedNumber(RelaxedProgramme):
         self._moved: dict[float, Transcription] = {}
 
     def start(self, unknowns: np.ndarray, share: float) -> np.ndarray:
-        """Return the beat and the number as they are, because with another number this beat would not close."""
+        """Return a start: the beat and the number unchanged, because the beat closes with this number only."""
         return np.clip(np.append(unknowns / self._programme.unknowns.scale, share), self.lower, self.upper)
 
     def _at(self, scaled: np.ndarray) -> Transcription:

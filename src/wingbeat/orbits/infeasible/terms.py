@@ -22,9 +22,10 @@ def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
 
 
 def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
-    """Return a number of a term in a problem, the number without the term, and the unit of both.
+    """Return the number that describes a term in a problem, its value without the term, and its unit.
 
-    The number is the upstroke factor or the tail's area. A term that can only be on or off has 1, and 0 without it.
+    It is the upstroke factor or the tail's area. For a term that can only be on or off it is 1, and 0 without the
+    term.
     """
     if name == UPSTROKE:
         return problem.aero.upstroke_factor, 1.0, "1"
@@ -49,8 +50,8 @@ def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
 def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProblem | None:
     """Return the problem with a share `trace` of one of its terms; None for the hand, which has no share.
 
-    The compiled programs of the full problem serve this problem too. If the term is inflow, the coefficients stay
-    sectional.
+    The compiled programs of the full problem also run this problem. If the term is inflow, the coefficients remain
+    those of wing sections.
     """
     aero = problem.aero
     if name == TAIL:
@@ -84,9 +85,9 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
     closes = f"this flight closes at {frequency:.3g} Hz"
     if name == INFLOW:
         ratio = problem.aero.coefficients.aspect_ratio
-        why = f"the coefficients, of a wing of aspect ratio {ratio:g}, then hold that wing's induced flow"
+        why = f"the coefficients, of a wing of aspect ratio {ratio:g}, then include that wing's induced flow"
         if math.isinf(ratio):
-            why = "coefficients that were measured on a finite wing already hold its induced flow"
+            why = "coefficients that were measured on a finite wing already include its induced flow"
         return f"without momentum inflow {closes}: {why}"
     if name == UNSTEADY:
         return f"without the unsteady terms {closes}: rotation, added mass and couples make the difference"

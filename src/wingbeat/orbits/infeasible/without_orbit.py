@@ -23,7 +23,7 @@ from wingbeat.orbits.status import Status
 
 @dataclass(frozen=True)
 class Ending:
-    """How the solver ended; without an orbit also the closest wingbeat's deficits, and changes that lead to one."""
+    """How the solver ended; if no orbit exists, also the closest wingbeat's deficits, and changes that help."""
 
     status: Status
     message: str
@@ -42,11 +42,11 @@ def without_orbit(
 
     Parameters
     ----------
-    programme : of the problem.
+    programme : the problem's programme.
     found : where the local searches ended, none of them an orbit.
-    threads : changes tried at a time.
+    threads : number of changes that are tried at a time.
     advise : whether to search for changes that lead to an orbit.
-    progress : called with (starts done, starts in all); each change counts as one more.
+    progress : called with (starts done, starts in all); each change counts as one more start.
     """
     nearest = nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
@@ -77,7 +77,7 @@ def without_orbit(
     if flying:
         message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
     elif advise:
-        message += "; no single change of a bound, a limit, the mass, the speed or the shoulder was found to fly"
+        message += "; no single change of a bound, a limit, the mass, the speed or the shoulder gave an orbit"
     without = certified_without_terms(programme, near, threads) if advise else ()
     message = "; ".join([message, *(term.text for term in without)])
     ending = Ending(Status.INFEASIBLE, message, nearest.deficits, (*flying, *without))

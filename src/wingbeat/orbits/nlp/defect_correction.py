@@ -50,7 +50,7 @@ class Corrected:
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The optimum of the solver's coarse flight is slightly wrong. We first replace value and derivative of the
+    The optimum of the solver's coarse flight is inaccurate. We first replace value and derivative of the
     closure by those of a finer flight. In each round after that, we replace the value of the closure by that of the
     certifier's flight. After each replacement, Newton's method finds the new optimum.
     """
@@ -59,7 +59,7 @@ def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
 
 
 def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: np.ndarray) -> Corrected:
-    """Correct a candidate of an uncorrected programme as `correct` does, with a given Newton's method."""
+    """Correct a candidate as `correct` does, with a given Newton's method; the programme must be uncorrected."""
     options = programme.options.certificate
     for _ in range(options.linearisations):
         programme = programme.linearised_at(scaled, options.fine_blocks)

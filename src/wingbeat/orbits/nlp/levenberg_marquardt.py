@@ -29,7 +29,7 @@ def least_squares(
     Parameters
     ----------
     residuals, jacobian : functions of the unknowns; their values may be huge or not-a-number away from the start.
-    start : unknowns to start from, moved within the bounds.
+    start : unknowns to start from, clipped to the bounds.
     lower, upper : the bounds.
     options : when the method ends, and how its steps are damped.
     """

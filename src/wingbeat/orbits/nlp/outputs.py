@@ -22,7 +22,7 @@ class Outputs:
     count : values of objective and constraints together.
     of_objective : number of the objective's values, which come first.
     minimises_peaks : whether the objective has several values.
-    limits : of the constraints' values, shape (count - of_objective,).
+    limits : upper limits of the constraints' values, shape (count - of_objective,).
     """
 
     def __init__(self, problem: OrbitProblem) -> None:
@@ -57,7 +57,7 @@ class Outputs:
         return range(sum(counts[:index]), sum(counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
-        """Return indices of constraints with an active value; `active` flags the inequalities after the path's."""
+        """Return indices of constraints with an active value; `active` flags those after the path limits."""
         return [i for i in range(len(self._problem.subject_to)) if active[self.values_of(i)].any()]
 
     def active_constraints(self, active: np.ndarray) -> list[str]:

@@ -73,7 +73,7 @@ class Transcription:
         self.lower = np.append(self.unknowns.lower, [-_UNBOUNDED] * self.has_epigraph) / scale
         self.upper = np.append(self.unknowns.upper, [_UNBOUNDED] * self.has_epigraph) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
-        # With the smooth peak, starts for least frequency diverge: of a study's 14 orbits they found 11 with it,
+        # With the smooth peak, starts for least frequency diverge: they found 11 of a study's 14 orbits with it,
         # all 14 without it. Optima of outputs lie between two samples and need the smooth peak.
         self._peak = highest_sample if self.outputs is None else peak_weights
         self._stroke = StrokeLimits(problem, options.search.plane_clearance)
@@ -95,7 +95,7 @@ class Transcription:
         return Correction.none(self.lower.size, len(self.path_limits), outputs)
 
     def uncorrected(self) -> Transcription:
-        """Return the same programme uncorrected, for another local search in parallel; it keeps cached flights."""
+        """Return the programme without its correction, for a parallel local search; it keeps cached flights."""
         other = copy.copy(self)
         other._correction = self._no_correction
         other._points = dict(self._points)
@@ -132,7 +132,7 @@ class Transcription:
 
     @property
     def _minimised(self) -> int:
-        """How many of the outputs are the objective's."""
+        """Number of outputs that belong to the objective."""
         return 0 if self.outputs is None else self.outputs.of_objective
 
     def point(self, scaled: np.ndarray) -> Point:

@@ -57,7 +57,7 @@ def find_orbit(
     ----------
     problem : the orbit problem.
     starts : number of starts; default as in `SearchOptions` for such a problem. If peaks are minimised, half as
-        many further starts follow beside the best optimum.
+        many further starts follow near the best optimum.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
         as one more start.

@@ -75,7 +75,7 @@ def _with_tail(problem: OrbitProblem, tail: Tail | None) -> OrbitProblem:
 
 
 def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
-    """Return the sentence that a problem has an orbit without one of its terms.
+    """Return a sentence which says that a problem has an orbit without one of its terms.
 
     Parameters
     ----------

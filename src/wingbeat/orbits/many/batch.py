@@ -168,8 +168,7 @@ def find_with_known(
     Parameters
     ----------
     problem, starts, seed, most_starts, advise, explain, options : as in `find_orbit`.
-    known : a certified orbit, which takes the place of one start. Since there is then an orbit, `most_starts` and
-        `advise` have no effect.
+    known : a certified orbit, which counts as one start. If it is given, `most_starts` and `advise` have no effect.
     """
     if known is None:
         return find_orbit(problem, starts, seed, None, 1, most_starts, advise, explain, options)

@@ -26,9 +26,9 @@ def find_series(
     advise: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> list[Solution]:
-    """Solve a series of problems, such as speeds in order, each also from its neighbours' solutions.
+    """Solve a series of problems, such as increasing speeds, from starts and from the neighbours' solutions.
 
-    A start from a stock wingbeat finds whichever family of orbits is near. Solutions are passed up and down the
+    A start from the stock wingbeat finds the family of orbits that is near it. Solutions are passed up and down the
     series, so that the best family found for any problem reaches every problem where it exists. All problems must
     have the same free parameters.
 
@@ -75,7 +75,7 @@ def find_series(
 
 
 def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return a problem's own solution, or a better one found from a neighbour's, and whether it is better."""
+    """Return a problem's own solution, or a better one from a neighbour's, and whether there is a better one."""
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - own.options.continuation.improvement * abs(own.objective)

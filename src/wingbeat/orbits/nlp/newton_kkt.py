@@ -98,7 +98,7 @@ class NewtonKKT:
         return 0.5 * (curvature + curvature.T)
 
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
-        """Return a point from which the next step is shorter than `near`, or None as `converge` does.
+        """Return a point from which the next step is shorter than `near`; None if none is within the bounds.
 
         The next step is not taken. If the search starts from a prediction by certified optima, that step would lead
         to the optimum of the coarse flight, which is farther from the certified optimum.

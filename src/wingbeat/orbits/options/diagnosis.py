@@ -22,7 +22,7 @@ class DiagnosisOptions:
     violation_weight : weight of the conditions that must hold. A residual of 1 in the optimiser's scale counts as
         much as a deficit of this multiple of the vehicle's weight.
     kept_closure : a condition holds if its residual is below this, in the optimiser's scale.
-    least_gravity : smallest gravity that is used to compute the weight by which forces are divided [m/s2].
+    least_gravity : if gravity is below this, this value gives the weight that forces are divided by [m/s2].
     negligible_deficit : a deficit below this share of the weight counts as zero.
     negligible_change : a change below this share of its scale counts as zero. The problem then has an orbit that
         the starts missed.

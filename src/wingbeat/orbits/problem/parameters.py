@@ -180,7 +180,7 @@ def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
 
 
 def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
-    """Return the bound of a free parameter or along the path, such as ``bounds.flap_amplitude.upper``."""
+    """Return a bound as a parameter, such as ``bounds.flap_amplitude.upper`` or ``bounds.body_pitch.lower``."""
     pair = problem.bounds[name]
     size = 1.0 if plain_unit(name) == "rad" else pair[1] - pair[0]
     end = SIDES.index(side)

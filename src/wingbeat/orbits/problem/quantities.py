@@ -243,7 +243,7 @@ _SPRING_POWER = re.compile(rf"spring_power\(({NUMBER})(?:,\s*({NUMBER}))?\)")
 
 
 def named_quantity(name: str) -> Quantity:
-    """Return the quantity with a name.
+    """Return the quantity of this name.
 
     Raises
     ------
@@ -264,7 +264,7 @@ def named_quantity(name: str) -> Quantity:
 
 
 def named_objective(name: str) -> Quantity:
-    """Return the objective with a name, which may be written with hyphens, as on the command line.
+    """Return the objective of this name; hyphens may replace underscores, as on the command line.
 
     Raises
     ------

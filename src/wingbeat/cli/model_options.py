@@ -85,7 +85,7 @@ class ModelOptions:
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
-        """Return the species, with the model's parts, the numbers of ``--set`` and a payload, and the model.
+        """Return (species, model); the species has the model's parts, the numbers of ``--set`` and a payload.
 
         Raises
         ------

@@ -45,7 +45,7 @@ class Flying:
 
     Parameters
     ----------
-    downloads, session : the store, and the session's part of it, from which the browser fetches scenes.
+    downloads, session : the browser fetches scenes from `downloads`, which keeps them for this session.
     """
 
     def __init__(self, downloads: Downloads, session: str) -> None:

@@ -95,7 +95,9 @@ def orbit(
     ] = None,
     power: Annotated[
         bool,
-        Parameter(negative="", help="Print the parts of the power, the cost of braking, and what a spring saves."),
+        Parameter(
+            negative="", help="Print the parts of the power, the cost of negative work, and what a spring saves."
+        ),
     ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
     output: Output = None,

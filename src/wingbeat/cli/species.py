@@ -172,7 +172,7 @@ def _table(title: str, *columns: str) -> Table:
 
 
 def _print_list(everyone: list[Species]) -> None:
-    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "fitted at [m/s]>r"
+    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "su-fan fit [m/s]>r"
     table = _table("", "name", "animal", *columns)
     outside = []
     for animal in everyone:

@@ -156,7 +156,8 @@ def _band(one: Flown, name: str) -> str:
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
         "The table names the numbers of the animal with which a quantity changes most over the draws, and the "
-        "square of the rank correlation of each. A better measurement of the first number would narrow the band most.",
+        "square of the rank correlation of each. A better measurement of the first number would narrow the band "
+        "most.",
         "",
         "| speed [m/s] | quantity | follows |",
         "| --- | --- | --- |",

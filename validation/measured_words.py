@@ -125,9 +125,9 @@ def _meaning(rows: list[Row]) -> list[str]:
         "plate is 8 mm thick, with a chord of 76 mm, and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
-        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
+        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings stall "
         f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift, or their data end there, at a mount angle of "
-        f"25 degrees. The plate has it at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
+        f"25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
         "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "

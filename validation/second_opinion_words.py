@@ -84,16 +84,16 @@ these. Version 5.1.0 requires an older MuJoCo than our tests.
 
 READING = """
 
-**In none of these flights does the lattice check the whole beat**: averaged over the beat, {0:.0%} to {1:.0%} of the
-strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the leading
-edge and no profile drag. For the same motion it has {2:.0%} to {3:.0%} of our power, and a large mean thrust where our
-model has none.
+**In none of these flights does the lattice check the whole beat**: averaged over the beat, {0:.0%} to {1:.0%} of
+the strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the
+leading edge and no profile drag. For the same motion it has {2:.0%} to {3:.0%} of our power, and a large mean
+thrust where our model has none.
 
 **Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
 beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. They change the
 difference by a few percent for the pigeon at 12 m/s and for the bat, and increase it for the pigeon at 8 m/s. They
-improve neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a pigeon
-with 45 degrees of amplitude. Here it falls as well, but by less.
+improve neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a
+pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
 
 **Inflow** alone reduces our lift on the same motion. The difference from the lattice then increases or stays the
 same. The coefficients are those of a finite plate and already include most of its induced flow.

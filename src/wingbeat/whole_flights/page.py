@@ -16,19 +16,19 @@ _FIT = (
 
 _SUMMARY = """## What the comparisons say
 
-- **Power comes out best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
-  54 to 85 W/kg from 7 to 11 m/s, where 40 to 120 W/kg were measured over all speeds; at 3 and at 14 m/s it needs
-  too much. Curves of power are U-shaped. Their minimum is at 9 m/s for the cockatiel, where 10 m/s was measured,
-  and at 12 m/s for the pigeon, where 8 to 9 m/s were estimated.
-- **Frequency comes out worst.** In slow flight it is about twice that of live animals. At medium speed, pigeon and
-  zebra finch beat at a little more than half of it. No single number of the muscle explains that
-  ([what sets the frequency](frequency_trials.md)).
-- **Alcids beat twice as fast as measured**, with amplitudes near the measured ones. Their wings are small: at
-  16 m/s the murre and the puffins need a mean lift coefficient of 1.0 to 1.25 without flapping, and our gliding
-  wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that their authors assume. We have not
-  tested that.
-- **Muscle is too efficient**: 0.5, where 0.06 to 0.11 was measured. Measured metabolic power includes the rest of
-  the body and the recovery of the muscle, and ours does not."""
+- **Power agrees best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
+  54 to 85 W/kg from 7 to 11 m/s, within the 40 to 120 W/kg that were measured over all speeds. At 3 and 14 m/s the
+  predicted power is too high. Curves of power are U-shaped. The predicted minimum is at 9 m/s for the cockatiel
+  (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
+- **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
+  speed, the predictions for pigeon and zebra finch are a little more than half of the live animals' frequency. No
+  single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
+- **The predicted alcids beat twice as fast as measured**, with amplitudes near the measured ones. Alcids have small
+  wings. To carry the weight at 16 m/s without flapping, the murre and the puffins need a mean lift coefficient of
+  1.0 to 1.25, and our gliding wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that the
+  authors of the measurements assume. We have not tested that.
+- **The predicted muscle is too efficient**: its efficiency is 0.5, and the measured or estimated one 0.06 to 0.11.
+  Measured metabolic power includes the rest of the body and the recovery of the muscle, and ours does not."""
 
 
 _RATIO = " *Ratio* is the prediction divided by the middle of the measured range."

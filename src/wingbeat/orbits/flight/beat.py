@@ -206,7 +206,7 @@ def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity
     )
 
 
-@exported(static=("free",), hot=True)
+@exported(static=("free",))
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,

@@ -88,7 +88,7 @@ def _print(record: dict[str, Any]) -> None:
             console.print(f"- {_name(row)}: {row['refused']}", style="yellow", markup=False)
     share = record["beyond_15_deg"]
     console.print(
-        f"beyond 15 deg of angle of attack: {share:.0%} of beat and strips; the lattice is wrong there, "
+        f"beyond 15 deg of angle of attack: {share:.0%} of phases and strips; the lattice is wrong there, "
         "because it assumes attached, inviscid flow"
     )
     for code, label in (("ours", "our loads leave out"), ("theirs", "the lattice leaves out")):

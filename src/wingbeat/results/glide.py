@@ -37,12 +37,12 @@ class GlidePolar(Saveable):
 
     Attributes
     ----------
-    species : what glides.
+    species : the gliding species.
     aero : its air loads.
     trim : the angle that was turned until the pitching moment vanished.
-    glides : one for each angle of attack, in the order asked for.
-    least_sink, best_ratio : the glides of slowest sink and of flattest path between the angles of attack asked for;
-        None if the optimum is at an end of these angles.
+    glides : one for each angle of attack, in the given order.
+    least_sink, best_ratio : the glides of slowest sink and of flattest path within the given angles of attack; None
+        if the optimum is at the smallest or largest angle.
     """
 
     species: Species

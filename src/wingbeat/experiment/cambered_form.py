@@ -1,7 +1,7 @@
 """The form of a cambered wing, whose two sides differ: lift first, then drag, which depends on the lift.
 
-The formulas are those of `wingbeat.aero.CamberedTerms`. The widths of the bends in lift and
-drag are fixed, because the data of a single wing do not determine them.
+The formulas are those of `wingbeat.aero.CamberedTerms`. The widths of the bends in lift and drag are fixed, because
+the data of a single wing do not determine them.
 """
 
 from __future__ import annotations

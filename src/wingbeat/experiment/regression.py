@@ -37,7 +37,7 @@ class CurveFit:
     covariance : of the parameters, in that order, shape (p, p).
     condition : condition number of the scaled Jacobian; large if parameters cannot be separated.
     alpha_deg, values : the measurements, shape (n,) [deg].
-    sigma : their standard errors, shape (n,); all one where none were given.
+    sigma : their standard errors, shape (n,); all 1 if none were given.
     weighted : whether errors were given.
     notes : notes for the reader.
     """

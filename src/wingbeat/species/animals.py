@@ -1,4 +1,4 @@
-"""A bird, a bat or a robot from its mass, wing span and wing area; published laws give all other numbers."""
+"""A bird, a bat or a robot from its mass, wing span and wing area; laws or guesses give all other numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_va
 
 
 def _own_name(path: str) -> str:
-    """Return a number's name as a keyword: only the mass of a wing and the numbers of a tail name their part."""
+    """Return the keyword of a number; only the mass of a wing and the numbers of a tail name their part in it."""
     part, _, name = path.rpartition(".")
     if path == "vehicle.wing.mass" or part == "vehicle.tail":
         return f"{part.removeprefix('vehicle.')}_{name}"

@@ -100,7 +100,7 @@ def _quoted(text: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Return a text in quotes, over several lines if one would be too long; readers join them again."""
+    """Return a text in quotes, over several lines if one would be too long; TOML joins the lines again."""
     quoted = _quoted(text)
     if len(quoted) < 100:
         return quoted

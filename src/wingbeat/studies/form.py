@@ -60,12 +60,12 @@ class Vary(BaseModel):
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The ways that are used, of the five."""
+        """Which of the five ways are used."""
         return tuple(self.model_dump(by_alias=True, exclude_none=True))
 
     @property
     def how(self) -> str:
-        """The way that is used; valid only after a check that it is exactly one."""
+        """The one way that is used; valid only after a check that exactly one is given."""
         return self.given[0]
 
     @property

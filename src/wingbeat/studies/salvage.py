@@ -1,4 +1,4 @@
-"""Rebuilds a damaged store from its intact results."""
+"""Rebuild a damaged store from its intact results."""
 
 from __future__ import annotations
 

@@ -142,7 +142,7 @@ def predict_flights(
 
     Raises
     ------
-    InvalidInputError : draws neither 0 nor from 10 to 100000; faults in the species file or of the model.
+    InvalidInputError : draws neither 0 nor from 10 to 100000; faults of the species file or the model.
     FileError : the species file cannot be read.
     """
     faults = FaultList()

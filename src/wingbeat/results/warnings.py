@@ -181,7 +181,7 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
         share = _outside(reynolds, low, high)
         if share > _MENTION:
             notes.append(
-                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of phases and strips"
+                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of strips and instants"
                 f"{where} (it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
     low, high = np.radians(coefficients.alpha_range_deg)
@@ -189,7 +189,7 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of phases and strips{where}: there {_beyond(coefficients)} applies"
+            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)} applies"
         )
     return notes + guessed(coefficients)
 

@@ -39,7 +39,7 @@ def test_table_record_and_figure(standin, file, tmp_path, capsys):
     ("words", "reason"),
     [
         (["--with", "panels"], "--with = 'panels': is not a known choice; use one of uvlm"),
-        (["--steps", "17"], "steps = 17: must be even; a lattice of half as many is flown too"),
+        (["--steps", "17"], "steps = 17: must be even; a lattice with half as many is flown too"),
         (["--beats", "1.5"], '"1.5" is not a whole number'),
         (["--plot", "lift.txt"], "--plot = 'lift.txt'"),
     ],

@@ -112,7 +112,7 @@ def test_a_filmed_path_is_recovered_wherever_the_film_began():
 def test_what_no_path_can_be_is_refused():
     beat = wb.Wingbeat(6.0, 0.1, 0.8, 0.1, 0.3)
     short = fit_film(body_film(beat, BodyPath(6.0, (9.0, 0.0), SERIES), beats=0.8))
-    with pytest.raises(wb.InvalidInputError, match="travel and beat cannot be told apart"):
+    with pytest.raises(wb.InvalidInputError, match="too little to separate travel from periodic motion"):
         fit_body_path(short)
     pitch = {"flap_deg": short.film.columns["flap_deg"], "body_pitch_deg": short.film.columns["body_pitch_deg"]}
     only = fit_film(dataclasses.replace(short.film, columns=pitch))

@@ -183,7 +183,7 @@ def test_each_station_is_held_against_the_range(load: Any) -> None:
 def test_a_first_guess_outside_its_bounds_warns(load: Any) -> None:
     own = load(MINIMAL + "[free]\nflap_amplitude_deg = [50, 70]")
     assert own.warnings == (
-        "wingbeat.flap_amplitude = 40 deg is outside its bounds; the solver starts from the nearer one",
+        "wingbeat.flap_amplitude = 40 deg is outside its bounds; the solver starts from the nearer bound",
     )
 
 

@@ -1,4 +1,4 @@
-"""The motion of a filmed body: uniform travel, and a periodic smoothing spline upon it."""
+"""The motion of a filmed body: uniform travel plus a periodic smoothing spline."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SHORTEST = 0.9
 
 @dataclass(frozen=True)
 class BodyPath:
-    """A periodic motion of the body upon uniform travel; made by `fit_body_path`.
+    """Uniform travel of the body plus a periodic motion; made by `fit_body_path`.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class BodyPath:
         return self._series(np.asarray(phase, dtype=float), 2)
 
     def _series(self, phase: Array, derivative: int) -> Array:
-        """Return the series or one of their derivatives by time, shape (K, 3)."""
+        """Return the series or one of their time derivatives, shape (K, 3)."""
         turning = 2 * math.pi * self.frequency * np.arange(1, HIGHEST_ORDER + 1)
         waves = self.series[:, 1::2] + 1j * self.series[:, 2::2]
         # Cosine and sine are the real part of (a + i b) exp(-i w t).
@@ -71,18 +71,18 @@ def fit_body_path(
 ) -> BodyPath:
     """Fit the motion of a filmed body.
 
-    Each place is uniform travel and a periodic smoothing spline, as a wing's law is; the pitch is such a spline.
-    What was not filmed is given: a uniform velocity, a constant pitch.
+    Each coordinate, x and z, is uniform travel plus a periodic smoothing spline like those of the wings' laws. Body
+    pitch is such a spline alone. A velocity or pitch that was not filmed is constant, and given by the caller.
 
     Parameters
     ----------
     beat : the fitted wingbeat of a film with any of ``body_x_m``, ``body_z_m`` and ``body_pitch_deg``.
-    u, w : velocity forward and up where the place was not filmed [m/s]; w is 0 if not given.
-    body_pitch : where it was not filmed [rad]; 0 if not given.
+    u, w : velocity forward and up, if x or z was not filmed [m/s]; w is 0 if not given.
+    body_pitch : constant pitch, if it was not filmed [rad]; 0 if not given.
 
     Raises
     ------
-    InvalidInputError : a film of less than nine tenths of a beat, a number that is given and filmed, no velocity.
+    InvalidInputError : a film of less than nine tenths of a beat, a number both given and filmed, no velocity.
     """
     film, faults = beat.film, FaultList()
     given = {"body_x_m": u, "body_z_m": w, "body_pitch_deg": body_pitch}
@@ -100,7 +100,7 @@ def fit_body_path(
             phase, values = film.seen(name)
             covered = float(np.ptp(phase))
             if covered < _SHORTEST:
-                rule = f"is seen in {covered:.2g} beats: travel and beat cannot be told apart"
+                rule = f"is seen in {covered:.2g} beats: too little to separate travel from periodic motion"
                 faults.add(f"{film.name}, column {name}", f"{len(phase)} frames", rule, "film a whole wingbeat")
             travel, law = fit_travel(phase, values - values.mean())
             series = law.coefficients

@@ -1,7 +1,7 @@
 """The form of a cambered wing, whose two sides differ: lift first, then drag, which depends on the lift.
 
-The formulas are those of `wingbeat.aero.CamberedTerms`. How widely lift and drag bend is held fixed, because single
-wings do not determine it.
+The formulas are those of `wingbeat.aero.CamberedTerms`. The widths of the bends in lift and drag are fixed, because
+the data of a single wing do not determine them.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _DRAG = {
 
 @dataclass(frozen=True)
 class LiftForm(BoxForm):
-    """The lift of a cambered wing, between the two stalls that the measurements must show."""
+    """The lift of a cambered wing, up to its two stalls; the measurements must show both sides of zero lift."""
 
     def check(self, faults: FaultList, alpha_deg: Array, values: Array, label: str) -> None:
         """Note a fault if angles are too large, or if one side of the wing is not known."""
@@ -89,7 +89,7 @@ def stall_notes(lift: CurveFit) -> tuple[str, ...]:
         if side * (line - terms[end]) < 2 * _BENDS["lift_rounding"]:
             notes.append(
                 f"{lift.label}: at {angle:g} degrees, where the measurements end, lift has not levelled off; "
-                f"{end} rests on the shape of the form, so measure farther on that side"
+                f"{end} depends on the assumed form, so measure farther on that side"
             )
     return tuple(notes)
 
@@ -99,7 +99,7 @@ class DragForm(BoxForm):
     """The drag of a cambered wing; `beside` gives it the lift that its induced part and its onsets need."""
 
     def beside(self, lift: CurveFit) -> DragForm:
-        """Return the form with the terms of a fitted lift; they separate the two onsets and the grid's angles.
+        """Return the form for a fitted lift, whose terms also set the ranges of the two onsets.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class DragFit(CurveFit):
 
 
 def _slopes(fit: CurveFit, alpha_deg: Array, names: tuple[str, ...]) -> Array:
-    """Return the derivatives of a fitted drag by terms of lift and drag, shape (n, names)."""
+    """Return the derivatives of a fitted drag with respect to terms of lift and drag, shape (n, names)."""
     assert isinstance(fit.form, DragForm)
     terms = any_terms(fit.form.kind, fit.form.terms(fit.parameters))
     slopes = value_and_slopes(terms, alpha_deg, fit.form.curve)[1]
@@ -154,11 +154,11 @@ def _slopes(fit: CurveFit, alpha_deg: Array, names: tuple[str, ...]) -> Array:
 
 
 def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
-    """Return a fit of drag whose covariance includes the uncertainty of the fitted lift, which is held fixed.
+    """Return a fit of drag, made at fixed lift, with a covariance that includes the uncertainty of lift.
 
     If the terms of lift change by ``d``, those of drag follow by ``G d``, ``G = -(J^T W J)^-1 J^T W L``, where J
-    and L are the derivatives of drag by its own terms and by those of lift. So the covariance of both is
-    ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``, if the errors of lift and drag are independent: Murphy and
+    and L are the derivatives of drag with respect to its own terms and to those of lift. So the covariance of both
+    is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``, if the errors of lift and drag are independent: Murphy and
     Topel 1985, J. Bus. Econ. Stat. 3:370.
 
     Parameters
@@ -180,7 +180,7 @@ def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
 
 
 def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, label: str) -> DragFit:
-    """Fit the drag of a cambered wing beside its fitted lift.
+    """Fit the drag of a cambered wing, given its fitted lift.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """A SYNTHETIC water-channel campaign: records made by a random generator from a known truth, never measured.
 
-It exists to test what is done with real records: whatever the pipeline returns can be held against the truth.
+It tests how real records are processed: the results of the pipeline can be compared with the truth.
 """
 
 from __future__ import annotations

@@ -29,8 +29,8 @@ def draw(
 ) -> list[FormulaCoefficients] | list[CamberedCoefficients]:
     """Return coefficient models whose terms are random draws from the normal distribution of a fit's parameters.
 
-    The parameters of each curve (lift, drag, centre of pressure) are drawn with their covariance, and the curves
-    independently of one another, but all terms of a cambered wing together. A sample
+    The parameters of one curve (lift, drag or centre of pressure) are drawn together, with their covariance.
+    Different curves are drawn independently, except that all terms of a cambered wing are drawn together. A sample
     that is not a valid formula (a decay that grows) is drawn again. The same seed gives the same models.
 
     Parameters

@@ -1,4 +1,4 @@
-"""A wingbeat as somebody filmed it: angles and span by phase, and its CSV file."""
+"""A filmed wingbeat: angles and span by phase, and its CSV file."""
 
 from __future__ import annotations
 
@@ -49,16 +49,16 @@ class Film:
 
     Parameters
     ----------
-    name : its name, such as that of its file.
-    phase : beats since any moment, or since the top of the stroke where flap was not filmed, shape (n,).
+    name : for messages, such as the name of its file.
+    phase : in beats, from any zero; from the top of the stroke if flap was not filmed, shape (n,).
     columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
         normal), ``span_fraction`` (of the semi-span), ``sweep_deg`` (span ahead of the stroke plane),
         ``tip_pitch_deg`` (as pitch, at the tip), ``stroke_plane_deg`` (from the body axis, as the species'
         `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where it was
-        not seen. Pitch and stroke plane may jump by whole turns. Besides, of the body: ``body_x_m`` (forward),
+        not seen. Pitch and stroke plane may jump by whole turns. For the body: ``body_x_m`` (forward),
         ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
-    frequency, frequency_se : wingbeats per second and the standard error of that [Hz]; None if not known.
-    synthetic : whether it was made by a random generator.
+    frequency, frequency_se : wingbeat frequency, None if not known, and its standard error [Hz].
+    synthetic : whether a random generator made the film.
 
     Attributes
     ----------
@@ -87,13 +87,13 @@ class Film:
             shown = ", ".join(self.columns) or "nothing"
             faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(COLUMNS)}")
         if set(self.columns) & set(BODY) and self.frequency is None:
-            rule = "needs the frequency: the path of the body is one of time"
+            rule = "is needed: velocities of the body need times, not only phases"
             faults.add(f"{self.name}, frequency", None, rule, "give it in Hz")
         if not np.isfinite(self.phase).all():
             row = int(np.argmin(np.isfinite(self.phase)))
             faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
         if "tip_pitch_deg" in self.columns and "pitch_deg" not in self.columns:
-            rule = "needs pitch_deg: the twist is the pitch at the tip less that at the root"
+            rule = "needs pitch_deg: the twist is the pitch at the tip minus the pitch at the root"
             faults.add(f"{self.name}, columns", "tip_pitch_deg", rule, "add the column pitch_deg")
         faults.raise_if_any()
         object.__setattr__(self, "columns", dict(self.columns))
@@ -105,7 +105,7 @@ class Film:
 
     @property
     def shows_body(self) -> bool:
-        """Whether it shows the path of the body."""
+        """Whether the film shows the path of the body."""
         return bool(set(self.columns) & set(BODY))
 
     def seen(self, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -125,7 +125,7 @@ class Film:
             return []
         phase, values = self.seen(name)
         if len(values) < _FEWEST:
-            faults.add(where, f"{len(values)} frames", f"must be seen in at least {_FEWEST}", "film more of it")
+            faults.add(where, f"{len(values)} frames", f"must be seen in at least {_FEWEST}", "film more frames")
             return []
         place = np.sort(phase % 1.0)
         gaps = np.diff(np.append(place, place[0] + 1.0))
@@ -152,7 +152,7 @@ class Film:
         return notes
 
     def _unwrap(self, name: str, phase: NDArray[np.float64], faults: FaultList) -> list[str]:
-        """Take the jumps of whole turns out of a column, and say so."""
+        """Remove jumps of whole turns from a column, and return a note if there were any."""
         where, column = f"{self.name}, column {name}", self.columns[name].astype(float)
         there = np.isfinite(column)
         column[there], moved = unwrapped(faults, where, phase, column[there])
@@ -160,7 +160,7 @@ class Film:
             return []
         self.columns[name] = column
         return [
-            f"{where}: {moved} of {len(phase)} frames were moved by whole turns, for the angle jumps by 360 degrees"
+            f"{where}: {moved} of {len(phase)} frames were moved by whole turns, because the angle jumps by 360 deg"
         ]
 
     def save(self, path: str | Path) -> None:
@@ -188,9 +188,9 @@ class Film:
 def read_film(path: str | Path) -> Film:
     """Read a filmed wingbeat from CSV.
 
-    One column is phase (in beats) or time [s], which needs a line ``# frequency = 6.1`` [Hz] above the table;
-    the others are any of those of `Film`. A cell is empty where the wing was not seen.
-    Other columns are refused.
+    One column is phase (in beats) or time [s]; time needs a line ``# frequency = 6.1`` [Hz] above the table. The
+    other columns are any of those of `Film`; unknown columns are refused. A cell is empty where the wing was not
+    seen.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def read_film(path: str | Path) -> Film:
     names, constants = _names(faults, sheet), _constants(faults, sheet)
     if "time" in names and "frequency" not in constants:
         fix = "add the line '# frequency = ...' [Hz] above the table, or give phases"
-        faults.add(f"{sheet.file}, frequency", "", "is missing: times need it to become phases", fix)
+        faults.add(f"{sheet.file}, frequency", "", "is missing: it converts times to phases", fix)
     if set(names) & set(BODY) and "time" not in names:
         rule = "has the path of a body but no times"
         faults.add(f"{sheet.file} row {sheet.header_row}", ",".join(sheet.header), rule, "give time [s], not phase")
@@ -297,10 +297,10 @@ def synthetic_film(
     ----------
     wingbeat : the wingbeat to film, one period in equal steps.
     frames : number of frames.
-    noise_deg : standard deviation of the angles' noise [deg]; a hundredth of it is that of fractions.
+    noise_deg : standard deviation of the angles' noise [deg]; that of fractions is a hundredth of this number.
     seed : of the noise.
     columns : the columns that the film shows.
-    start : phase of the first frame, which the film calls 0 if it sees the flap.
+    start : phase of the wingbeat at the film's phase 0; without a column of flap, it has no effect.
     stroke_plane : angle of the vehicle's stroke plane from the body axis [rad], to which the wingbeat's tilt adds.
     """
     random = np.random.default_rng(seed)

@@ -1,4 +1,4 @@
-"""From a film to a wingbeat: a periodic spline for each column, and from them the laws with their errors.
+"""From a film to a wingbeat: a periodic spline for each column, and the laws, with errors, from these splines.
 
 The result is a `Wingbeat` with harmonics up to order 8, even if they are zero, so that one compiled program serves
 all films.
@@ -40,7 +40,7 @@ def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[st
 def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
     """Return retraction and harmonics of span or chord.
 
-    The law of retraction has a mean and a sine; the harmonics make up for the rest.
+    The law of retraction has a mean and a sine; harmonics describe the rest.
     """
     retraction = max(2.0 * (1.0 - mean), 0.0)
     harmonics = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
@@ -48,7 +48,7 @@ def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
 
 
 def _chord_of(area: Array, span: Array) -> Array:
-    """Return the coefficients of area over span, over the same phases; both are series."""
+    """Return the Fourier coefficients of area divided by span, from those of area and of span."""
     # Sixteen samples in the highest harmonic's period: what lies beyond it is not folded back.
     columns = fourier_columns(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
     ratio = (columns @ area) / (columns @ span)
@@ -56,7 +56,7 @@ def _chord_of(area: Array, span: Array) -> Array:
 
 
 def _span_of(wingbeat: Wingbeat) -> Array:
-    """Return the coefficients of a wingbeat's span law, in the phase of an even beat, as a film's is."""
+    """Return the Fourier coefficients of a span law with equally long down- and upstroke, as for a film."""
     wingbeat = dataclasses.replace(wingbeat, downstroke_fraction=0.5)
     phase = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
     found = np.linalg.lstsq(fourier_columns(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
@@ -72,7 +72,7 @@ def _top_of(laws: Mapping[str, Array]) -> float:
 def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> dict[str, Any]:
     """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0.
 
-    The chord law needs a span law: the film's, or if it shows none that of the species.
+    The chord law needs a span law: that of the film or, if the film shows no span, that of the species.
     """
     shift = _top_of(laws)
     fields: dict[str, Any] = {"downstroke_fraction": 0.5}
@@ -188,16 +188,16 @@ class FilmedBeat:
 
     @property
     def held(self) -> frozenset[str]:
-        """The parameters of a wingbeat that the film gives; an orbit may choose none of them."""
+        """The parameters of a wingbeat that the film gives; none of them can be free in an orbit problem."""
         filmed = tuple(_SETTLED[name] for name in self.laws)
         return frozenset(name for name in FREE_NAMES if name.startswith(filmed)) | self.numbers.keys()
 
     def draws(self, wingbeat: Wingbeat, count: int = 32, seed: int = 0) -> list[Wingbeat]:
-        """Return wingbeats as other films of the same beat would have given them.
+        """Return random wingbeats, such as other films of the same beat might have given.
 
         Parameters
         ----------
-        wingbeat : the fitted one, which holds what was not filmed.
+        wingbeat : the fitted wingbeat; it also gives what was not filmed.
         count : number of wingbeats; an impossible one, such as one without amplitude, is left out.
         seed : the same seed gives the same wingbeats.
         """

@@ -33,7 +33,7 @@ def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any, curve: str) -> An
 
 
 def value_and_slopes(terms: Any, alpha_deg: Array, curve: str = "at") -> tuple[Array, Any]:
-    """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and its derivatives by its terms.
+    """Return a formula of `wingbeat.aero` at angles [deg], shape (n,), and the derivatives by its terms.
 
     The derivatives are a record like `terms` with arrays of shape (n,) instead of numbers. All forms with the
     same terms share one compiled function. `curve` names the method of the terms that is the formula.
@@ -91,7 +91,8 @@ class CurveForm:
         try:
             inspect.signature(self.function).bind(np.zeros(1), **self.start)
         except (TypeError, ValueError) as error:
-            faults.add("function", self.formula, f"does not take the parameters of start ({error})", "name them so")
+            rule = f"does not take the parameters of start ({error})"
+            faults.add("function", self.formula, rule, "give its arguments these names")
         faults.raise_if_any()
 
     @property
@@ -110,7 +111,7 @@ class CurveForm:
         return np.asarray(self.function(alpha_deg, **parameters), dtype=np.float64)
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the derivatives by the parameters, shape (n, parameters), from central differences.
+        """Return the derivatives with respect to the parameters, shape (n, parameters), from central differences.
 
         Parameters
         ----------
@@ -147,7 +148,7 @@ class CurveForm:
         return [self.start]
 
     def check(self, faults: FaultList, alpha_deg: Array, values: Array, label: str) -> None:
-        """Note a fault if measurements lie where the form does not hold, or cannot decide it.
+        """Note a fault if measurements lie where the form does not hold, or do not determine it.
 
         Parameters
         ----------
@@ -176,7 +177,7 @@ class BoxForm(CurveForm):
         return self.fixed | parameters
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
-        """Return the derivatives in the parameters, shape (n, parameters)."""
+        """Return the derivatives with respect to the parameters, shape (n, parameters)."""
         return self.value_and_slopes(alpha_deg, parameters)[1]
 
     def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
@@ -185,7 +186,7 @@ class BoxForm(CurveForm):
         return value, np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
-        """Return three starts: the best grid nodes of the non-linear terms, with the others by least squares."""
+        """Return three starts: the best grid nodes of the non-linear terms, with linear terms by least squares."""
         found: list[tuple[float, dict[str, float]]] = []
         for node in product(*self.grids.values()):
             held = {name: float(at) for name, at in zip(self.grids, node, strict=True)}

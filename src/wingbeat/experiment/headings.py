@@ -1,4 +1,4 @@
-"""What stands above the numbers of a measurement file: ``# key = value`` lines, and columns with their units."""
+"""The head of a measurement file: ``# key = value`` lines, and the names of columns with their units."""
 
 from __future__ import annotations
 

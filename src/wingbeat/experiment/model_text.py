@@ -13,11 +13,11 @@ from wingbeat.aero.model_file import KIND
 from wingbeat.experiment.regression import CurveFit
 
 _HEAD = """\
-# Coefficients of a wing strip, fitted by `wingbeat fit`. Name this file where a model is asked for:
+# Coefficients of a wing strip, fitted by `wingbeat fit`. Give this file in place of a model's name:
 # wingbeat polar THIS.toml, wingbeat orbit pigeon --speed 12 --aero THIS.toml. Angles a in degrees."""
 _CAMBERED = """\
 # The formulas hold between the joins, where the wing was measured; beyond them it is a plate (su-fan). Drag's
-# onsets are counted from zero_lift_deg, and slope and rises are for each radian."""
+# onsets are counted from zero_lift_deg, and slope and rises are per radian."""
 
 
 def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:

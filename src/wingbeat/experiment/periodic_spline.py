@@ -1,9 +1,9 @@
 """Periodic smoothing splines, as Fourier series, with their errors.
 
 The penalty is the square of (third derivative plus (2 pi)^2 times first derivative) of the spline. It is zero for a
-mean and a plain sine (Ramsay and Silverman 2005, doi 10.1007/b98888): order k pays ``k^2 (k^2 - 1)^2``. Restricted
-maximum likelihood chooses its weight. The errors are those of the posterior whose mean is the spline (Wahba 1983,
-doi 10.1111/j.2517-6161.1983.tb01239.x), so they include the spline's bias.
+mean and a plain sine (Ramsay and Silverman 2005, doi 10.1007/b98888): order k has the factor ``k^2 (k^2 - 1)^2``.
+Restricted maximum likelihood chooses the weight of the penalty. The errors are those of the posterior whose mean is
+the spline (Wahba 1983, doi 10.1111/j.2517-6161.1983.tb01239.x), so they include the spline's bias.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class FilmedLaw(NamedTuple):
     coefficients : mean, cosine and sine of order 1, of order 2 and so on up to 8, shape (17,).
     covariance : of the coefficients, shape (17, 17).
     residual_sd : standard deviation of a frame from the series.
-    degrees : effective number of parameters of the spline; a mean and a plain sine are 3.
+    degrees : effective number of parameters of the spline; a mean and a plain sine count as 3.
     frames : number of frames.
     """
 
@@ -63,11 +63,11 @@ def fit_law(phase: Array, values: Array) -> FilmedLaw:
 
 
 def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
-    """Fit a uniform travel with a periodic smoothing spline upon it.
+    """Fit uniform travel plus a periodic smoothing spline.
 
     Parameters
     ----------
-    phase : beats, which go on from beat to beat, shape (n,).
+    phase : in beats, counted on from beat to beat, shape (n,).
     values : shape (n,).
 
     Returns
@@ -83,7 +83,7 @@ def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
 
 
 def _smoothed(columns: Array, values: Array) -> FilmedLaw:
-    """Fit values by columns of which all but the last 14, those of order 2 and up, are free of the penalty."""
+    """Fit values by columns; the penalty applies only to the last 14, which are of order 2 and up."""
     from scipy.optimize import minimize_scalar
 
     count, plain = len(values), columns.shape[1] - 2 * (HIGHEST_ORDER - 1)
@@ -113,7 +113,7 @@ def _smoothed(columns: Array, values: Array) -> FilmedLaw:
 
 
 def from_phase(shift: float, coefficients: Array) -> Array:
-    """Return the coefficients of a series whose phase begins at `shift` of the old one."""
+    """Return the coefficients of the same series if its phase is counted from `shift`."""
     cosines, sines = coefficients[1::2], coefficients[2::2]
     turns = 2 * math.pi * shift * np.arange(1, len(cosines) + 1)
     c, s = np.cos(turns), np.sin(turns)

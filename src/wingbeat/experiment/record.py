@@ -43,8 +43,8 @@ class LoadCellRun:
 
     Raises
     ------
-    InvalidInputError : a constant that is not positive, fewer than 32 samples, columns of different length, what
-        is not finite, times that do not rise, an angle that moves by more than a degree or exceeds half a turn.
+    InvalidInputError : a constant that is not positive, fewer than 32 samples, columns of different length, values
+        that are not finite, times that do not rise, an angle that moves by over a degree or exceeds half a turn.
     """
 
     name: str
@@ -155,7 +155,7 @@ def read_run(path: str | Path) -> LoadCellRun:
 
 
 def _in_sheet(where: str, sheet: Sheet) -> str:
-    """Return the place in the file of a run's fault: a constant, a sample, or a whole column."""
+    """Return where in the file a run's fault is: a constant, a sample, or a whole column."""
     name, _, index = where.removeprefix(f"{sheet.file}, ").removesuffix("]").partition("[")
     for key, (row, _) in sheet.constants.items():
         if split_unit(key).name == name:
@@ -190,7 +190,7 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
 
 
 def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
-    """Return the constants of the test; note missing ones, other units, and values that are not numbers."""
+    """Return the constants of the run; note missing ones, other units, and values that are not numbers."""
     found: dict[str, tuple[float, ...]] = {}
     units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
     for key, (row, text) in sheet.constants.items():
@@ -209,7 +209,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
             values = ()
         if len(values) != wanted:
             rule = "must be two numbers, before and after" if wanted == 2 else "must be one number"
-            faults.add(where, text, rule, f"in {units[name]}; the unit goes in brackets before the =")
+            faults.add(where, text, rule, f"write it in {units[name]}; the unit goes in brackets before the =")
             continue
         found[name] = values
     for name, unit in CONSTANT_UNITS.items():

@@ -1,4 +1,4 @@
-"""Weighted least squares of one curve, with everything that says how far to trust it."""
+"""Weighted least squares of one curve, with measures of how far to trust it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class CurveFit:
     covariance : of the parameters, in that order, shape (p, p).
     condition : condition number of the scaled Jacobian; large if parameters cannot be separated.
     alpha_deg, values : the measurements, shape (n,) [deg].
-    sigma : their standard errors, shape (n,); all one where none were given.
+    sigma : their standard errors, shape (n,); all 1 if none were given.
     weighted : whether errors were given.
     notes : notes for the reader.
     """
@@ -263,7 +263,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
         faults.add(label, f"{len(y)} points", rule, f"measure at least {count + 2}, or choose a simpler form")
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
-        faults.add(label, f"{angles} angles", rule, f"measure at no fewer than {count} angles, better at many")
+        faults.add(label, f"{angles} angles", rule, f"measure at {count} angles or more")
     form.check(faults, a, y, label)
     faults.raise_if_any()
 

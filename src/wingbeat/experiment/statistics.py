@@ -1,4 +1,4 @@
-"""The mean of a record and how well it is known, when neighbouring samples resemble each other."""
+"""The standard error of a record's mean if successive samples are correlated, and the scatter between repeats."""
 
 from __future__ import annotations
 

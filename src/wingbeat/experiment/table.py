@@ -37,7 +37,7 @@ class CoefficientTable:
     mean : C_L, C_D and, if measured, C_M and x_cp, each of shape (n,); NaN where x_cp is undefined.
     sd, se : standard deviation of the samples, standard error of the mean, by the same names, where known.
     reynolds : chord Reynolds numbers, shape (n,), or None.
-    runs : how many runs are behind each row, shape (n,), or None.
+    runs : number of runs averaged in each row, shape (n,), or None.
     notes : notes for the reader.
 
     Raises

@@ -1,4 +1,4 @@
-"""A whole wing fitted: lift, drag and centre of pressure, and the coefficient model that follows."""
+"""The fit of a whole wing: lift, drag and centre of pressure, and the coefficient model that follows."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ class WingFit:
 
         Parameters
         ----------
-        extension : how the formulas reach every angle, one of `EXTENSIONS`.
+        extension : how the formulas are extended to every angle, one of `EXTENSIONS`.
         blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
         Raises

@@ -12,14 +12,14 @@ Array = NDArray[np.float64]
 
 
 def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tuple[Array, int]:
-    """Return an angle that goes on smoothly over the beat [deg], and how many frames were moved by whole turns.
+    """Return an angle without jumps over the beat [deg], and the number of frames moved by whole turns.
 
     In the order of phase within the beat, each frame is moved by whole turns until it lies within half a turn of
-    the one before. The mean is then within half a turn of 0. An angle that jumps nowhere keeps every digit.
+    the one before. The mean is then within half a turn of 0. A frame that is not moved keeps every digit.
 
     Parameters
     ----------
-    faults : receives a fault if an angle never turns back.
+    faults : receives a fault if the angle is not periodic: it turns on and does not come back.
     where : of the column, for that fault.
     phase : beats, shape (n,).
     angle : as tracked [deg], shape (n,).

@@ -37,7 +37,7 @@ class Path(Protocol):
 
 @dataclass(frozen=True)
 class CarriedFlight(Saveable):
-    """A flight with prescribed wings on a body whose motion is prescribed too; made by `carry`.
+    """A flight in which the motions of wings and body are both prescribed; made by `carry`.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class CarriedFlight(Saveable):
         """Means over the flight [SI], and the mean and root mean square of the missing force and moment.
 
         Missing forces are over the weight, the missing moment over weight times mean chord. A positive
-        ``missing_force_z_mean`` is the share of the weight that the model's wings do not hold.
+        ``missing_force_z_mean`` is the share of the weight that the model's air loads do not support.
         """
         data, vehicle = self.dataset, self.model.vehicle
         weight = vehicle.mass * self.model.air.gravity

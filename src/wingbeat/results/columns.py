@@ -28,7 +28,7 @@ def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the same as `flat`, but keep lists that do not hold numbers as lists."""
+    """Yield the same as `flat`, except that lists of anything but numbers remain lists."""
     for key, value in record.items():
         path = f"{before}{key}"
         if isinstance(value, dict):

@@ -1,7 +1,7 @@
-"""A result as a flat CSV table: units and single numbers in the head, behind ``#``, then one row per sample.
+"""A result as a flat CSV table: header lines with units and single numbers, then one row per sample.
 
-The head can be skipped as comments: ``pandas.read_csv(file, comment="#")`` in Python, ``readtable(file,
-CommentStyle="#")`` in MATLAB, ``read.csv(file, comment.char = "#")`` in R.
+Header lines begin with ``#`` and can be skipped as comments: ``pandas.read_csv(file, comment="#")`` in Python,
+``readtable(file, CommentStyle="#")`` in MATLAB, ``read.csv(file, comment.char = "#")`` in R.
 """
 
 from __future__ import annotations

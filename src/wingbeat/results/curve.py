@@ -130,7 +130,7 @@ def solve_curve(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Curve:
-    """Find certified orbits that minimise an objective along speed, and every other optimum found on the way.
+    """Find certified orbits that minimise an objective at each speed of a range, and keep all other optima found.
 
     Every optimum that is found is continued to the neighbouring speeds, up and down, until nothing new appears.
     Each step changes every unknown only a little. If the best optimum of one speed does not lead to the best of the

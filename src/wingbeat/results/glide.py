@@ -37,12 +37,12 @@ class GlidePolar(Saveable):
 
     Attributes
     ----------
-    species : what glides.
+    species : the gliding species.
     aero : its air loads.
     trim : the angle that was turned until the pitching moment vanished.
-    glides : one for each angle of attack, in the order asked for.
-    least_sink, best_ratio : the glides of slowest sink and of flattest path between the angles of attack asked for;
-        None if the optimum is at an end of these angles.
+    glides : one for each angle of attack, in the given order.
+    least_sink, best_ratio : the glides of slowest sink and of flattest path within the given angles of attack; None
+        if the optimum is at the smallest or largest angle.
     """
 
     species: Species
@@ -105,7 +105,7 @@ def glide_polar(
     ----------
     species : gives vehicle, twist, air, and the range of body pitch.
     aero : as in `OrbitProblem`, `SuFan()` if not given.
-    angles_of_attack : of the chord at the root, without flap [rad]; default 1 to 30 degrees.
+    angles_of_attack : of the root chord at zero flap angle [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
     trim : what turns until the pitching moment is zero: ``"body-pitch"`` (the wings keep their angle of attack),
         ``"flap"`` or ``"tail"`` (the body stays along the path); without a tail, ``"tail"`` turns nothing.

@@ -19,7 +19,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
 
 
 def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
-    """Return the content of a MATLAB file, version 5, which every MATLAB since 5 and Octave load.
+    """Return the content of a MATLAB file, version 5, which Octave and every MATLAB since version 5 can read.
 
     Parameters
     ----------

@@ -79,7 +79,7 @@ class Orbit(Saveable):
         orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
         orbit.view()                  the flight in motion, in a notebook
         orbit.problem                 the problem it solves, to change and solve again
-        orbit.relaxations if there is no orbit: changes with which there is one
+        orbit.relaxations             single changes that lead to an orbit, if there is none
 
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
@@ -93,9 +93,9 @@ class Orbit(Saveable):
     message : what the status means, in terms of flight.
     wingbeat : the wingbeat found.
     initial_state : the body's state at phase 0.
-    unknowns : pitch state at phase 0 and free parameters, as the initial guess of a start.
-    relaxations : if there is no orbit, single changes with which there is one, the smallest first; then the terms
-        of the air loads without which there is one.
+    unknowns : pitch state at phase 0 and free parameters, in the form of a solver's initial guess.
+    relaxations : if there is no orbit, the single changes that lead to one, the smallest first; then the terms of
+        the air loads whose removal leads to one.
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.
@@ -170,7 +170,7 @@ class Orbit(Saveable):
 
     @property
     def relaxations(self) -> tuple[Relaxation, ...]:
-        """Single changes with which there is an orbit, the smallest first; empty if there is one already.
+        """Single changes that lead to an orbit, the smallest first; empty if this is an orbit already.
 
         `Relaxation.apply` returns the changed problem.
         """
@@ -188,12 +188,12 @@ class Orbit(Saveable):
 
     @property
     def unknowns(self) -> np.ndarray:
-        """Pitch state at phase 0 and free parameters, as the initial guess of a start."""
+        """Pitch state at phase 0 and free parameters, in the form of a solver's initial guess."""
         return self.problem.unknowns_of(np.array(self.initial_state), self.wingbeat)
 
     @property
     def problem(self) -> OrbitProblem:
-        """The problem that this orbit solves, set up again from its inputs unless these name a user's function."""
+        """The problem that this orbit solves, set up again from the inputs unless they name a user's function."""
         if self._problem is not None and own_functions(self._inputs):
             return self._problem
         return problem_from(self._inputs)

@@ -30,17 +30,17 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     Returns
     -------
     A dictionary for JSON; all values are None if the flight diverged. ``mean_power`` and ``mean_positive_power``
-    are those of the hinges. ``braking`` is the mean negative work. ``cost_by_returned`` holds pairs of the share of
-    negative work that is returned (-1: it costs as much as positive work) and the cost. ``shares`` has the parts
-    aerodynamic, inertial and body, each with mean, minimum (``least``) and maximum (``most``). ``spent`` has the
-    same numbers for what the power of all actuators is spent on: profile, induced, parasite and unsteady air loads,
-    and inertial, the rate of change of kinetic and potential energy. ``best_spring`` gives, for both flap springs
-    together, ``stiffness`` [N m/rad], ``rest_angle`` [rad] (None if no spring helps) and the remaining
-    ``mean_positive_power``.
+    are those of the hinges. ``braking`` is the mean power of negative work. ``cost_by_returned`` holds pairs
+    (share, mean power): the mean power if this share of negative work is returned; at share -1, negative work costs
+    as much as positive work. ``shares`` has the parts aerodynamic, inertial and body, each with mean, minimum
+    (``least``) and maximum (``most``). ``spent`` divides the power of all actuators in the same way, into profile,
+    induced, parasite and unsteady air loads, and inertial, the rate of change of kinetic and potential energy.
+    ``best_spring`` gives, for both flap springs together, ``stiffness`` [N m/rad], ``rest_angle`` [rad]
+    (None if no spring helps) and the remaining ``mean_positive_power``.
 
     Raises
     ------
-    InvalidInputError : the dataset is not an orbit, or a version of wingbeat without these parts wrote it.
+    InvalidInputError : the dataset is not an orbit, or was written by a version of wingbeat without these parts.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)

@@ -1,4 +1,4 @@
-"""Everything that went into an orbit, as a dictionary that alone can set up the same problem again."""
+"""All inputs of an orbit, in a dictionary that suffices to set up the same problem again."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from wingbeat.vehicle import Air
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
-    """Return all inputs of a problem and its search, and the solver options that differ from their defaults."""
+    """Return a problem's inputs, number of starts and seed, and the solver options that differ from defaults."""
     species = problem.species
     inputs = {
         "species": {

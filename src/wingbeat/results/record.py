@@ -38,7 +38,7 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
-    """Return the vehicle that `vehicle_record` described; it has no part, such as a tail, that the record lacks.
+    """Return the vehicle that `vehicle_record` described, without a tail or other part that the record lacks.
 
     Raises
     ------

@@ -51,7 +51,7 @@ SUFFIXES = (".nc", *_WRITERS)
 
 
 def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
-    """Note a fault unless a file name has a suffix to which a result can be written."""
+    """Note a fault unless the suffix of a file name is that of a format for results."""
     if _suffix(path) not in SUFFIXES:
         fix = "end it in .nc (NetCDF, which wingbeat reads again), .csv or .mat"
         faults.add(where, os.fspath(path), "is not a format for results", fix)

@@ -38,8 +38,8 @@ class Sensitivities:
     unknowns : pitch state at phase 0 and free parameters of the optimum.
     values : the quantities at the optimum, by name.
     units : their units.
-    slopes : derivatives by the parameters.
-    prices : derivatives by the bounds and limits that bind.
+    slopes : derivatives with respect to the parameters.
+    prices : derivatives with respect to the active bounds and limits.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class Sensitivities:
         Parameters
         ----------
         fit : the fit from which the coefficients come, read with `read_model`; without it, they count as exact.
-        share : share of every range, around the value, that is used; the covariance is narrowed in the same way.
+        share : every range is narrowed to this share, around the value; the covariance is narrowed alike.
 
         Raises
         ------
@@ -146,7 +146,7 @@ class Sensitivities:
 def sensitivities(
     orbit: Orbit, quantities: Sequence[str | Quantity] = QUANTITIES, options: SolverOptions = DEFAULTS
 ) -> Sensitivities:
-    """Differentiate an orbit with respect to every number it depends on, and price the bounds and limits that bind.
+    """Differentiate an orbit with respect to every number it depends on; find the prices of its active bounds.
 
     The envelope theorem gives the derivative of the objective, ``dJ/dp - multipliers . dc/dp``. The derivatives of
     the wingbeat and of other quantities follow from the conditions of the optimum (implicit function theorem;
@@ -196,7 +196,7 @@ def _plain(slope: Sensitivity) -> dict[str, Any]:
 def _of_fit(
     problem: OrbitProblem, parameters: Sequence[Parameter], fit: Fitted, share: float
 ) -> list[ParameterSpread]:
-    """Return the spreads of a fit's terms, one for each curve, because their errors are correlated."""
+    """Return one spread for each curve of a fit, because the errors of a curve's terms are correlated."""
     by_path = {p.path: p for p in parameters}
     coefficients, found = problem.aero.coefficients, []
     names = {field: name for name, field in CURVES.items()}
@@ -256,12 +256,12 @@ def uncertainty_by_samples(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> dict[str, Comparison]:
-    """Solve the orbit for parameters drawn from their uncertainties, and compare the result with the first order.
+    """Solve the orbit for randomly drawn parameters, and compare the uncertainty with its first-order estimate.
 
     Parameters
     ----------
     found : the sensitivities of the orbit.
-    quantities : names of those that were differentiated.
+    quantities : names of quantities that were differentiated.
     samples : number of random samples.
     seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.

@@ -112,7 +112,7 @@ def solve_orbits(
 
     Raises
     ------
-    WorkerError : processes die over the same problem twice, or cannot be started.
+    WorkerError : two processes die on the same problem, or processes cannot be started.
     InvalidInputError : something that is not a problem, starts, seed, most_starts or processes out of range, or
         problems in order with different free parameters.
 

@@ -1,4 +1,4 @@
-"""How uncertain an orbit's numbers are because its wingbeat was measured: the flight is solved for random draws."""
+"""How errors of the measured wingbeat spread an orbit's numbers: the flight is solved for random draws of it."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def orbit_spread(
 
     Returns
     -------
-    Spread : of powers, cost of transport, and the free parameters of the wingbeat as ``wingbeat.pitch_mean``.
+    Spread : of powers, cost of transport, and the wingbeat's free parameters, named like ``wingbeat.pitch_mean``.
     """
     problem = orbit.problem
     rows = []

@@ -1,4 +1,4 @@
-"""What terms of the air loads do: best orbits from none of a term to all of it, and where their family changes."""
+"""Effects of terms of the air loads: best orbits as a term grows from none to all, and changes of family."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _NUMBERS = ("objective_value", "mean_power", "mean_positive_power", "mean_actuat
 
 @dataclass(frozen=True)
 class TermTrace:
-    """Best orbits along the share of the terms of the air loads; made by `trace_terms`.
+    """Best orbits at each share of the terms of the air loads; made by `trace_terms`.
 
     Attributes
     ----------
     problem : the problem with the full terms, at share 1.
-    orbits : the best orbit of each share, in order; one that is not certified says why.
+    orbits : the best orbit of each share, in order; the message of an uncertified one says why.
     branches : every optimum that was found, and how they are linked.
     seconds : computing time [s].
     """
@@ -47,8 +47,8 @@ class TermTrace:
         """Return the trace as a JSON-able dictionary: SI units, radians, None for missing values.
 
         ``points`` has the best orbit of each share, with its ``family``. ``marks`` lists the shares between which
-        the best orbit changes branch or bounds, or is missing. ``same_family`` says whether continuation along the
-        best orbits leads from none of the terms to all of them.
+        the best orbit changes branch or active bounds, or is missing. ``same_family`` says whether continuation
+        along the best orbits leads from none of the terms to all of them.
         """
         labels = families(self.branches)
         marks = [mark._asdict() for mark in marks_of(self.branches)]
@@ -95,9 +95,9 @@ def trace_terms(
     Parameters
     ----------
     problem : with ``unsteady`` or ``inflow`` in its air loads, or both; they grow together. With ``inflow``, the
-        coefficients are those of sections also at share 0, where there is no induced flow.
+        sections' coefficients apply even at share 0, where there is no induced flow.
     shares : at least two, increasing, from 0 (none) to 1 (all).
-    starts : number of starts at the first and the last share; each between gets a third as many.
+    starts : number of starts at the first and the last share; each share in between gets a third as many.
     seed : of the random starts.
     progress : called with (tasks done, tasks known so far).
     options : of the solvers.

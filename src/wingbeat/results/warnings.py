@@ -67,13 +67,13 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
 
 
 def at_lower_bound(solution: Solution) -> list[str]:
-    """Warn that the lowest frequency is the bound itself: other orbits at the bound are equally good."""
+    """Warn that the minimised frequency is at its lower bound: other orbits at the bound are equally good."""
     if solution.status is not Status.CONVERGED:
         return []
     low = solution.problem.bounds["frequency"][0]
     return [
-        f"the lowest frequency is its lower bound, {low:g} Hz: more starts cannot improve it, and other orbits "
-        "at this bound are equally good; lower the bound, minimise a power, or see "
+        f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it, and other "
+        "orbits at this bound are equally good; lower the bound, minimise a power, or see "
         f"`wingbeat glide {solution.problem.species.name}`"
     ]
 
@@ -159,7 +159,7 @@ def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
 
 
 def fitted_range(solution: Solution, beat: Beat) -> list[str]:
-    """Warn of the share of beat and strips outside the coefficients' Reynolds and alpha range.
+    """Warn if strips leave the Reynolds numbers or angles of attack of the fit, and say for what share.
 
     Every phase and every strip counts equally; strips have equal width.
     """
@@ -181,15 +181,15 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
         share = _outside(reynolds, low, high)
         if share > _MENTION:
             notes.append(
-                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of beat and strips{where} "
-                f"(it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
+                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of strips and instants"
+                f"{where} (it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
     low, high = np.radians(coefficients.alpha_range_deg)
     share = _outside(alpha, low, high)
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of beat and strips{where}: there {_beyond(coefficients)} applies"
+            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)} applies"
         )
     return notes + guessed(coefficients)
 

@@ -1,4 +1,4 @@
-"""An orbit's own loads beside those of a vortex lattice on the same motion, as numbers."""
+"""An orbit's own loads compared with those of a vortex lattice on the same motion, as numbers."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class SecondOpinion:
     weight : [N].
     options : of the lattice.
     phase : phases of the samples, shape (K,).
-    strokes : phases between which the wing goes down.
+    strokes : phases at the start and end of each downstroke.
     terms : (unsteady, inflow), the terms with which the orbit was computed.
     ours : our loads for each pair of terms; None if the coefficients do not allow these terms.
     refused : for each pair of terms without loads, the reason.

@@ -1,4 +1,4 @@
-"""The wings as a lattice of panels at every step of some beats, and what forces on the panels add up to."""
+"""The wings as a lattice of panels at every step of some beats, and the sums of the forces on the panels."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ class LatticeOptions:
         for name, least, most in (("chordwise", 2, 40), ("spanwise", 2, 80), ("steps", 16, 1000)):
             value = getattr(self, name)
             if faults.whole(name, value, least, most) and value % 2:
-                faults.add(name, value, "must be even", "a lattice of half as many is flown too")
+                faults.add(name, value, "must be even", "a lattice with half as many is flown too")
         faults.whole("beats", self.beats, 2, 20, "the first beat starts from rest and is never compared")
         faults.raise_if_any()
 
     @property
     def halved(self) -> LatticeOptions:
-        """The lattice of half the panels and steps."""
+        """The lattice with half as many panels and steps."""
         half = {name: getattr(self, name) // 2 for name in ("chordwise", "spanwise", "steps")}
         return unchecked(LatticeOptions, half | {"beats": self.beats})
 
@@ -61,10 +61,10 @@ def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np
     """Return the corners of the panels of both wings [m], shape (K, C + 1, 2 S + 1 or 2, 3).
 
     Corners run from leading to trailing edge and from the left tip to the right tip, in axes that fly at the mean
-    velocity (x forward, y left, z up). Every corner is a point of our strips' wing. A column of panels across the
-    body joins the wings, so that no vortex ends at their roots. Our loads have nothing to compare with this column,
-    so `sum_of_panels` leaves it out. If the roots come too close to the plane of symmetry for this column, their
-    points are moved along y into the plane.
+    velocity (x forward, y left, z up). Every corner is a point of the wing that our strips describe. A column of
+    panels across the body joins the wings, so that no vortex ends at their roots. Our loads have nothing to compare
+    with this column, so `sum_of_panels` leaves it out. If the roots come too close to the plane of symmetry for
+    this column, their points are moved along y into the plane.
 
     Parameters
     ----------

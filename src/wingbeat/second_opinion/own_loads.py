@@ -1,4 +1,4 @@
-"""Our own loads on a motion that is given: what each term of the air loads would make of the same beat."""
+"""Our own loads for a given motion, to show what each term of the air loads contributes to the same beat."""
 
 from __future__ import annotations
 

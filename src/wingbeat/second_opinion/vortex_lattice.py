@@ -3,8 +3,8 @@
 Its own movements are sums of sines of the angles of a wing's axes, and no wing here moves like that: ours flap,
 pitch, twist, fold and sweep, change span, and ride on a body that heaves and pitches. So we build the lattice of
 each step here, with subclasses of three of its classes: a wing whose mesh is given, a movement that is a list of
-airplanes, and a solver that reports progress. Its geometry axes are aft, right and up; these turn into ours by
-half a turn about the third.
+airplanes, and a solver that reports progress. Its geometry axes are aft, right and up; half a turn about the
+third converts them to ours.
 """
 
 from __future__ import annotations

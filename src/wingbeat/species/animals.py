@@ -1,4 +1,4 @@
-"""A bird, a bat or a robot in two lines: from mass, wing span and wing area, the rest from published laws."""
+"""A bird, a bat or a robot from its mass, wing span and wing area; laws or guesses give all other numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_va
 
 
 def _own_name(path: str) -> str:
-    """Return the name of a number among those of a whole animal: that of a wing's mass or of a tail says so."""
+    """Return the keyword of a number; only the mass of a wing and the numbers of a tail name their part in it."""
     part, _, name = path.rpartition(".")
     if path == "vehicle.wing.mass" or part == "vehicle.tail":
         return f"{part.removeprefix('vehicle.')}_{name}"
@@ -124,10 +124,10 @@ def robot(
     scientific_name: str = "",
     **measured: Any,
 ) -> Species:
-    """Return a flapping robot from its mass [kg], wing span [m] and wing area [m2], as `bird`, with rigid wings.
+    """Return a flapping robot from its mass [kg], wing span [m] and wing area [m2], like `bird`.
 
-    No law of robots was found. Masses and inertias are scaled by isometry from single robots; the stock frequency
-    is that of a bird of this size. Give the numbers that you know of your robot.
+    The wings are rigid. No law of robots was found. Masses and inertias are scaled by isometry from single robots;
+    the stock frequency is that of a bird of this size. Give the numbers that you know of your robot.
 
     Parameters
     ----------

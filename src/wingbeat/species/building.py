@@ -45,7 +45,7 @@ def default_of(path: str) -> Any:
 
 
 def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultList) -> dict[str, Any]:
-    """Return vehicle, wingbeat and air; faults in `given` are quoted as they were written.
+    """Return vehicle, wingbeat and air; faults quote the values in `given` as they were written.
 
     What is missing is filled in by `default_of`, so that one fault does not hide the others.
     """
@@ -71,12 +71,12 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
 
 
 def has_part(numbers: Mapping[str, Number], part: str) -> bool:
-    """Say whether some number of a part that a vehicle may lack is among these."""
+    """Return whether the numbers include one of an optional part, such as a tail."""
     return any(key.path in numbers for key in PARTS[part])
 
 
 def complete_parts(numbers: dict[str, Number]) -> None:
-    """Add, to the numbers of parts that a vehicle may lack, those that are not given and have a default."""
+    """Add defaults for the missing numbers of each optional part of which some number is given."""
     for part, keys in PARTS.items():
         if not has_part(numbers, part):
             continue
@@ -87,7 +87,7 @@ def complete_parts(numbers: dict[str, Number]) -> None:
 
 
 def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
-    """Note the numbers that a part must have and that are not given, nor refused already."""
+    """Note the required numbers of a part that are missing and were not already refused."""
     for part, keys in PARTS.items():
         for key in keys if has_part(numbers, part) else ():
             refused = any(fault.where.endswith(f"{part}.{key.name}") for fault in faults.faults)
@@ -131,7 +131,7 @@ def check_bounds(content: SpeciesText, faults: FaultList) -> None:
 
 
 def words(path: str, number: Number) -> str:
-    """Return value and unit as a reader wants them, angles in degrees."""
+    """Return value and unit as text for a reader, angles in degrees."""
     _, shown = display(path, number)
     unit = "" if shown.unit == "1" else f" {shown.unit}"
     if isinstance(shown.value, tuple):

@@ -1,4 +1,4 @@
-"""Numbers of an animal that were not measured: values, bounds, alternatives from mass, wing span and wing area."""
+"""The unmeasured numbers of an animal, its bounds and alternatives, from mass, wing span and wing area."""
 
 from __future__ import annotations
 
@@ -82,8 +82,8 @@ def derive(
 
     Parameters
     ----------
-    kind : whose laws.
-    content : holds what was measured, by path.
+    kind : the kind of animal, with its laws.
+    content : the measured numbers, by path; the others are added to it.
     mass, span, area : mass of the whole animal [kg], span tip to tip [m], area of both wings [m2].
     frequencies : bounds of the wingbeat frequency [Hz]; None for wide ones around the stock frequency.
     """

@@ -33,7 +33,7 @@ class Law:
     Parameters
     ----------
     unit : of the number.
-    formula : as it is printed, for the reader of a source.
+    formula : as text, for the source of the number.
     inputs : symbol and unit of each value that it takes.
     function : the formula.
     source : where it was read.
@@ -71,7 +71,7 @@ class Law:
         return Number(value, self.unit, source + self.outside(*values), (low * value, high * value))
 
     def outside(self, *values: float) -> str:
-        """Return, as the end of a source, which of these values are outside the law's data; empty if none is."""
+        """Return which of these values are outside the law's data, as text to append to a source; empty if none."""
         found = []
         for pair, value in zip(self.inputs, values, strict=True):
             symbol, unit = pair.split()

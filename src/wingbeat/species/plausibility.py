@@ -99,7 +99,7 @@ def plausible_of_bats(mass: float, chord: float, viscosity: float) -> dict[str, 
 
 
 def plausible_of_robots(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return ranges that are open at both ends, and say so: motors differ too much for a law."""
+    """Return ranges that are open at both ends: no law of robots was found, because motors differ too much."""
     return {key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE}
 
 

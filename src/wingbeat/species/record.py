@@ -94,7 +94,7 @@ class Species:
 
         Parameters
         ----------
-        name : as in the record's ``plausibility``. That of a wingbeat parameter is the range of its number.
+        name : as in the record's ``plausibility``; for a parameter of the wingbeat, the species' own range applies.
         speed : of the flight [m/s].
 
         >>> from wingbeat.species import load_species
@@ -212,7 +212,7 @@ class Species:
     def with_tail(self) -> Species:
         """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
 
-        Its sources say ``derived``; see `wingbeat.species.tail_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `wingbeat.species.tail_laws`. The mass does not change.
 
         Raises
         ------
@@ -227,7 +227,7 @@ class Species:
     def with_muscle(self) -> Species:
         """Return this species with the flight muscle that laws give for its mass.
 
-        Its sources say ``derived``; see `wingbeat.species.muscle_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `wingbeat.species.muscle_laws`. The mass does not change.
 
         Raises
         ------
@@ -262,7 +262,7 @@ class Species:
     def with_alternative(self, name: str) -> Species:
         """Return this species with the numbers of one of its `alternatives`.
 
-        The whole mass stays unless the alternative names a mass: heavier wings make a lighter body.
+        Heavier wings make a lighter body, unless the alternative also sets the mass of the body or of the whole.
 
         Parameters
         ----------
@@ -289,7 +289,7 @@ class Species:
         return self._rebuilt(numbers, patch, faults)
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
-        """Return a copy with other numbers; records are checked, whole mass and warnings are made anew."""
+        """Return a copy with other numbers; records are checked, whole mass and warnings computed again."""
         complete_parts(numbers)
         check_parts(numbers, faults)
         records = build_records(numbers, given, faults)

@@ -1,7 +1,7 @@
 """Published laws that give a flying animal's numbers from its mass, wing span and wing area.
 
 Where we found no law, we scale one animal or robot by isometry, or guess; the source says which. Each law names the
-data it was fitted to. Outside their range, the source of the number says so, and the species warns.
+data it was fitted to. If an animal is outside their range, the number's source says so and the species warns.
 """
 
 from __future__ import annotations
@@ -240,7 +240,7 @@ def _pennycuick(mass: float, span: float, area: float, density: float, gravity: 
 
 
 def _bullen(mass: float, speed: float) -> float:
-    """Return the law of bats; outside its data, a power of mass: from 10 kg on the logarithm gives none."""
+    """Return a bat's frequency; outside the law's masses, a power of mass, as the logarithm fails from 10 kg up."""
     inside = min(max(mass, _BATS_MASSES[0]), _BATS_MASSES[1])
     fitted = 5.54 - 3.068 * math.log10(inside) - 2.857 * math.log10(speed)
     return fitted * (mass / inside) ** -0.26

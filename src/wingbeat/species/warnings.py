@@ -34,7 +34,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         if not low <= value <= high:
             path = f"wingbeat.{name}"
             guess = words(path, Number(value, plain_unit(name)))
-            found.append(f"{path} = {guess} is outside its bounds; the solver starts from the nearer one")
+            found.append(f"{path} = {guess} is outside its bounds; the solver starts from the nearer bound")
     derived = [
         path.removeprefix("vehicle.")
         for path, number in species.numbers.items()

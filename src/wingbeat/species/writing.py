@@ -16,7 +16,7 @@ _HEAD = "# SI units; _deg means degrees. A source that begins with derived or gu
 
 
 def species_text(species: Species) -> str:
-    """Return the TOML text of a species; `load_species` makes the same species of it, to six digits.
+    """Return the TOML text of a species; `load_species` makes the same species from it, to six digits.
 
     >>> from wingbeat.species import load_species
     >>> species_text(load_species("pigeon")).splitlines()[1]
@@ -100,7 +100,7 @@ def _quoted(text: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Return a text in quotes, over several lines if one would be too long; readers join them again."""
+    """Return a text in quotes, over several lines if one would be too long; TOML joins the lines again."""
     quoted = _quoted(text)
     if len(quoted) < 100:
         return quoted

@@ -1,4 +1,4 @@
-"""The engine on other machines: batches go to the workers of a Dask cluster, whoever started that."""
+"""The engine on other machines: it sends batches to the workers of a Dask cluster."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def check_dask(faults: FaultList, where: str, value: Any) -> None:
 
 
 class DaskEngine:
-    """The workers of a Dask cluster; each of their threads takes one batch and runs it in its own process.
+    """The workers of a Dask cluster; each of their threads takes one batch and runs it in a separate process.
 
     Parameters
     ----------
     where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
-        cluster of Dask's own, as of dask-jobqueue.
+        Dask cluster object, for example of dask-jobqueue.
     timeout : a process that has work and sends nothing for this time is ended [s].
     told : called with notices for the user: no workers yet, other versions on the workers.
 
@@ -120,7 +120,7 @@ class DaskEngine:
         return ended
 
     def _watch(self, batch: int, future: Future) -> None:
-        """Remember a future, and have its batch queued as finished when it ends, without blocking."""
+        """Remember a future, and queue its batch as finished when the future ends; this call does not block."""
         self._flying[batch] = future
         future.add_done_callback(lambda _: self._done.put(batch))
 
@@ -144,7 +144,7 @@ class DaskEngine:
         return None
 
     def close(self) -> None:
-        """End every process that works for this study; a cluster that we did not start goes on."""
+        """End every process that works for this study; a cluster that we did not start keeps running."""
         with suppress(Exception):  # leaving a cluster that may be half gone
             if self._client.status == "running":
                 self._client.cancel(list(self._flying.values()))

@@ -1,7 +1,7 @@
 """What a thread of a Dask worker does: it hands a batch to a process of its own, and waits.
 
-A thread cannot be ended and a point may crash its process, so neither is left to the Dask worker itself. What runs
-is the same process, with the same one thread, as without Dask: answers are the same to the bit.
+Python cannot end a thread, and a point may crash its process, so no point is solved in the Dask worker itself.
+Points are solved in the same kind of process as without Dask, with one thread: results are equal to the last bit.
 Nothing here imports Dask.
 """
 

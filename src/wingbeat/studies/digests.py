@@ -1,4 +1,4 @@
-"""Digests of what a study's store holds, so that no damaged value is taken for an answer."""
+"""Digests of the content of a study's store, so that no damaged value is taken for a result."""
 
 from __future__ import annotations
 

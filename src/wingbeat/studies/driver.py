@@ -1,4 +1,4 @@
-"""The driver of a study: hands out points without an answer, and saves every answer before it asks for more."""
+"""The driver of a study: it hands out points without a result, and saves each result before it waits for more."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ GRACE = 1.0
 
 @dataclass
 class Stop:
-    """A request to stop: level 1 stops soon and keeps batches that end before; level 2 stops now; `by` is a signal.
+    """A request to stop, made by the signal `by`: level 1 waits briefly for batches to end, level 2 stops at once.
 
     Signals become requests only while the driver has batches in flight; at other times they act as usual.
     """
@@ -50,7 +50,7 @@ class Stop:
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Make SIGINT a request to stop soon, a second one or SIGTERM to stop now; `told` is called with the level."""
+    """Take SIGINT as a request to stop soon, a second SIGINT or SIGTERM to stop at once; `told` gets the level."""
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
@@ -236,8 +236,8 @@ def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: 
 def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
     """Return the points to give up, and the jobs to retry.
 
-    The first point that was not reported is the one to blame. If an engine reports nothing before a batch ends,
-    each unit goes into a process of its own before any is blamed.
+    The first point without a report is blamed. If an engine reports no points before a batch ends, each unit is
+    first retried in a separate process; only then is a unit blamed.
     """
     told = {outcome.key for outcome in ended.outcomes}
     given_up: list[Outcome] = []

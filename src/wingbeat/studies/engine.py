@@ -36,8 +36,8 @@ class Ended(NamedTuple):
     worker : name of the worker.
     lost : None, or how the worker ended: ``crashed`` or ``timeout``.
     text : what is known about the loss.
-    told : whether a worker reports each point when it is done; the first unreported point of a lost batch is then
-        to blame.
+    told : whether a worker reports each point as soon as it is solved; if so, the first unreported point of a lost
+        batch is to blame.
     """
 
     batch: int
@@ -102,7 +102,7 @@ class LocalProcesses:
 
     Attributes
     ----------
-    false_starts : processes that died in a row before they said anything.
+    false_starts : number of consecutive processes that died before they sent a message.
     """
 
     # What the processes run; tests put something cheaper in its place.

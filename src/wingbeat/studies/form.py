@@ -1,4 +1,4 @@
-"""The form of a study: what a TOML file, or a Python dictionary of the same keys, may hold."""
+"""The form of a study: the keys and values that a TOML file or a Python dictionary may have."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class Vary(BaseModel):
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The ways that are used, of the five."""
+        """Which of the five ways are used."""
         return tuple(self.model_dump(by_alias=True, exclude_none=True))
 
     @property
     def how(self) -> str:
-        """The way that is used; valid only after a check that it is exactly one."""
+        """The one way that is used; valid only after a check that exactly one is given."""
         return self.given[0]
 
     @property
@@ -84,7 +84,7 @@ class Sample(BaseModel):
 
 
 class StudyForm(BaseModel):
-    """A study. Each key above `vary` may be a list, and lists multiply; ``free`` and a limit set are one value."""
+    """A study of all combinations of the lists above `vary`; ``free`` and a set of limits count as one value."""
 
     model_config = _STRICT
     species: _Texts
@@ -120,7 +120,7 @@ class StudyForm(BaseModel):
 
 
 def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a study file, and the faults of its shape; the form is None if there are any.
+    """Return the form of a study file, and the faults in its structure; the form is None if there are any faults.
 
     Raises
     ------
@@ -130,7 +130,7 @@ def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultLi
 
 
 def check_form(raw: Mapping[str, Any]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a dictionary, and the faults of its shape; the form is None if there are any."""
+    """Return the form of a dictionary, and the faults in its structure; None if there are any faults."""
     faults = FaultList()
     try:
         form = StudyForm.model_validate(_plain(raw))

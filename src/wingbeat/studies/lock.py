@@ -1,4 +1,4 @@
-"""One driver at a time: a lock of the operating system, which ends with its process however that ends."""
+"""One driver at a time: a lock that the operating system releases when its process ends, even by a crash."""
 
 from __future__ import annotations
 

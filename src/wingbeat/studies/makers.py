@@ -21,7 +21,7 @@ from wingbeat.studies.recipe import OF_COEFFICIENTS, OF_ELEMENTS
 
 
 def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
-    """Return functions that make the parts of a base from top-level keys; equal keys are evaluated only once."""
+    """Return functions that make the parts of a base from top-level keys; equal values are evaluated only once."""
 
     @functools.cache
     def flown(species: str, model: str) -> tuple[Species, Model]:
@@ -68,7 +68,7 @@ def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
 
 
 def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
-    """Return bounds in radians; those of a name that ends in _deg are given in degrees."""
+    """Return bounds in radians; bounds whose name ends in _deg are given in degrees."""
     found, faults = {}, FaultList()
     for name, (low, high) in given.items():
         own = name.removesuffix("_deg")

@@ -1,7 +1,7 @@
-"""The pages of a store's files read without SQLite, which refuses a whole file for one damaged page.
+"""Read the pages of a store's files without SQLite, because SQLite refuses a whole file for one damaged page.
 
 Formats: https://www.sqlite.org/fileformat2.html, sections 1.6 (cells and overflow pages), 2.1 (records) and 4
-(the write-ahead log). Digests decide which rows are whole, so nothing here needs to know what is damaged.
+(the write-ahead log). Digests decide which rows are intact, so nothing here needs to know what is damaged.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _SIZES = {0: 0, 1: 1, 2: 2, 3: 3, 4: 4, 5: 6, 6: 8, 7: 8, 8: 0, 9: 0}
 
 
 def whole_answers(path: Path) -> dict[str, tuple[Any, ...]]:
-    """Return the rows of the table ``points`` whose digests match, by key, from the files of a store in any state.
+    """Return the intact rows of the table ``points``, by key; the store's files may be damaged in any way.
 
     If a point has two results, the one that did not fail is used, or else that of the later run.
 
@@ -100,7 +100,7 @@ def _payload(page: bytes, at: int, length: int, whole: mmap.mmap, latest: Mappin
 
 
 def _record(payload: bytes) -> tuple[Any, ...]:
-    """Return the values of a record, as SQLite would give those of the table ``points``."""
+    """Return the values of a row of the table ``points``, as SQLite would return them."""
     end, at = _varint(payload, 0)
     kinds = []
     while at < end:
@@ -156,7 +156,7 @@ def _is_of(frame: bytes, head: bytes) -> bool:
 
 
 def _logged(path: Path) -> list[tuple[int, bytes]]:
-    """Return the pages of a database's log by number, in the order in which they were written."""
+    """Return the number and content of each page in a database's log, in the order of writing."""
     head, frames = _frames(path)
     own = [frame for frame in frames if _is_of(frame, head)]
     return [(int.from_bytes(frame[:4], "big"), frame[_FRAME_HEAD:]) for frame in own]

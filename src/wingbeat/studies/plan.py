@@ -81,7 +81,7 @@ class Plan:
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """The varied parameters; that of a chain is the last."""
+        """The varied parameters; a chain's parameter is the last."""
         chain = self.form.chain
         return (*(path for path in self.form.vary if path != chain), *([] if chain is None else [chain]))
 
@@ -175,8 +175,8 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
 
     Parameters
     ----------
-    form : the form, None where its shape is wrong.
-    faults : the faults of the form's shape; further faults are added.
+    form : the form, None if its structure is wrong.
+    faults : the faults in the form's structure; further faults are added.
     folder : the folder to which paths of species and coefficient files are relative.
 
     Raises

@@ -1,4 +1,4 @@
-"""What a combination of a study's top level fixes, and how a point changes it: all paths and values are here."""
+"""The problem that a combination of a study's top-level keys defines, and how a point changes its values."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Recipe:
     objective : in the form of `objective.as_inputs`.
     free, bounds : as in `OrbitProblem`.
     subject_to : limits as texts.
-    search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; None for the usual number.
+    search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; a number that is None has its default.
     """
 
     species: Species
@@ -104,7 +104,7 @@ class Recipe:
 
     @functools.cached_property
     def example(self) -> OrbitProblem:
-        """The problem at some speed, unchanged."""
+        """The problem at an arbitrary speed, otherwise unchanged."""
         return self.problem(_AT_REST)
 
     def name_of(self, path: str) -> str:
@@ -131,7 +131,7 @@ class Recipe:
         return None if found is None else found.value
 
     def check(self, path: str, value: Any, faults: FaultList) -> None:
-        """Raise `InvalidInputError`, or note a fault, if a path cannot have a value, whatever the others are."""
+        """Raise `InvalidInputError`, or note a fault, if a value is impossible at its path."""
         if path in MOTION:
             faults.number(path, value, **MOTION[path])
         elif _key(path) is not None:
@@ -201,7 +201,7 @@ def _degrees(value: Any) -> Any:
 
 
 def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:
-    """Return a parameter of a problem that is not in species files: of a coefficient model, a bound, or a limit."""
+    """Return a parameter that species files do not hold: of a coefficient model, a bound, or a limit."""
     kind, _, rest = path.partition(".")
     if kind == "bounds":
         name, _, side = rest.rpartition(".")

@@ -1,4 +1,4 @@
-"""A damaged store made anew from the answers in it that are whole."""
+"""Rebuild a damaged store from its intact results."""
 
 from __future__ import annotations
 

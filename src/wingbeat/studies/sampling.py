@@ -1,4 +1,4 @@
-"""Points of the unit cube that cover it evenly: Sobol's sequence and Latin hypercubes, of SciPy."""
+"""Points of the unit cube that cover it evenly: SciPy's Sobol sequence and Latin hypercubes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a study's store is undamaged; checked whenever one is opened, before anything in it is used."""
+"""Check that a study's store is undamaged, whenever a store is opened and before its content is used."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def check_contents(connection: sqlite3.Connection, path: Path) -> None:
 
 
 def _stamp(path: Path) -> tuple[tuple[int, int, int], ...]:
-    """Return a stamp of each file of a store that is not empty; it differs if the file was changed."""
+    """Return a stamp for each non-empty file of a store; the stamp differs if the file was changed."""
     found = []
     for file in (path, path.with_name(path.name + "-wal")):
         with suppress(FileNotFoundError):

@@ -1,4 +1,4 @@
-"""The store of a study: one SQLite file that survives whatever happens to its writer."""
+"""The store of a study: one SQLite file that stays intact whatever happens to the process that writes it."""
 
 from __future__ import annotations
 

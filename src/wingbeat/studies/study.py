@@ -1,4 +1,4 @@
-"""A study in Python: planned, run, looked at."""
+"""A study in Python: how to plan it, run it and read its results."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Study:
         return len(self.plan)
 
     def estimate(self, processes: int = 1, waiting: int | None = None) -> float:
-        """Return about how long points will take [s], from those of the store that have a result, if any.
+        """Return about how long points will take [s], estimated from the results in the store, if there are any.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class Study:
         return self.status()
 
     def prepare(self) -> Summary:
-        """Write the study's points to its store, which then knows which of them have a result.
+        """Write the study's points to its store, solve none, and return how many already have a result.
 
         Raises
         ------
@@ -143,7 +143,7 @@ class Study:
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
-        """Solve all points without a result, on an engine of your own.
+        """Solve all points without a result, with your own engine.
 
         Parameters
         ----------
@@ -173,11 +173,11 @@ class Study:
             return Summary(total, counts, kept, changed, store.spent())
 
     def uncertified(self, most: int = 10) -> list[dict[str, Any]]:
-        """Return the first points without a certified orbit: its varied values, ``status`` and ``reason``.
+        """Return the first points without a certified orbit: their varied values, ``status`` and ``reason``.
 
         Parameters
         ----------
-        most : how many points to return at most.
+        most : largest number of points to return.
         """
         with Store.read(self.store) as store:
             bases = store.bases()

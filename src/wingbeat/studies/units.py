@@ -20,7 +20,7 @@ class Task(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """Points that are solved together: one point, or those of a chain in order, each with help from the previous.
+    """Points that are solved together: one point, or a chain in order, in which earlier results help later points.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Outcome(NamedTuple):
     ----------
     key : of the point.
     status : one of `STATUSES`.
-    record : the orbit record as JSON without its times, None where there is none.
+    record : the orbit record as JSON without its computing time; None if there is none.
     certificate : largest residual of the certifier's flight (m, rad, m/s, rad/s); None if nothing was flown or the
         flight diverged.
     text : the search's message if nothing is certified, or the error.

@@ -1,4 +1,4 @@
-"""What a worker does: points in, outcomes out, each depending on its inputs alone.
+"""What a worker does: it solves points and returns outcomes, each of which depends on its inputs alone.
 
 Nothing here knows of stores, processes or clusters.
 """

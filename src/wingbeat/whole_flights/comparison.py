@@ -23,18 +23,18 @@ AGREES = {
 
 @dataclass(frozen=True)
 class Score:
-    """A measurement and what was predicted for it.
+    """A measurement and its prediction.
 
     Attributes
     ----------
     measurement : as read.
-    speeds : the flown speeds that it is for [m/s]; none for the speed of minimum power.
+    speeds : the flown speeds to which it applies [m/s]; none for the speed of minimum power.
     predicted : lowest and highest prediction at these speeds; None if none is certified.
     ratio : lowest and highest ratio of prediction to the middle of the measured values; None if there is none, or
         for the speed of minimum power.
-    agrees : whether every prediction is within the factor of `AGREES` of the measured values; without a factor if
-        they begin at 0 and are thus a limit. For the speed of minimum power, whether it is within 3 m/s. None if no
-        flight is certified.
+    agrees : whether every prediction is within the measured range or outside it by at most the factor in `AGREES`;
+        no factor applies to a range that begins at 0, because its upper end is a limit. The speed of minimum power
+        may be outside by 3 m/s. None if no flight is certified.
     at_edge : whether the speed of minimum power is the first or the last that was flown.
     """
 
@@ -63,7 +63,7 @@ def compared(prediction: Prediction) -> list[Score]:
 
 
 def _is_known(prediction: Prediction, quantity: str) -> bool:
-    """Say whether the model gives the quantity; where no flight is certified, it might."""
+    """Return whether the model gives the quantity; also true if no flight is certified to show it."""
     flown = [one for one in prediction.flown if one.values]
     return not flown or any(quantity in one.values for one in flown)
 

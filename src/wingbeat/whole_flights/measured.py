@@ -29,15 +29,16 @@ _FASTEST = 60.0
 
 @dataclass(frozen=True)
 class Measurement:
-    """One measured, estimated or lawful number of a flight.
+    """One number of a flight: measured, estimated, or from a law.
 
     Attributes
     ----------
     quantity : one of `COMPARED`.
-    basis : ``"measured"``, ``"estimated"`` with somebody's model, or ``"law"``: from a law of other animals.
-    speeds : lowest and highest flight speed that it is for [m/s]; None for the speed of minimum power.
-    values : lowest and highest value, in the unit of the nomenclature; a standard deviation either side of a mean.
-    what : which animals, how many, what the two values are.
+    basis : ``"measured"``, ``"estimated"`` with a model, or ``"law"``: from a law fitted to other animals.
+    speeds : lowest and highest flight speed to which it applies [m/s]; None for the speed of minimum power.
+    values : lowest and highest value, in the unit of the nomenclature; if a mean was published, the mean minus and
+        plus one standard deviation.
+    what : which and how many animals, and what the two values are.
     source : where it is published.
     """
 
@@ -56,12 +57,12 @@ class Measurement:
 
 @dataclass(frozen=True)
 class MeasuredFlights:
-    """What is known of the flights of an animal.
+    """The measurements of an animal's flights.
 
     Attributes
     ----------
     species : name of a built-in species, or of a species file beside this one.
-    speeds : speeds to fly it at [m/s], rising; those of single measurements are among them.
+    speeds : speeds to fly it at [m/s], increasing; they include those of measurements at one speed.
     measurements : the numbers to compare with.
     """
 
@@ -82,8 +83,9 @@ def measured_animals() -> list[str]:
 def read_measured_flights(name: str | Path) -> MeasuredFlights:
     """Read the measured flights of an animal.
 
-    A file has ``species``, ``speeds`` [m/s] and tables ``[[measured]]``. Each has quantity, basis, values and,
-    except for the speed of minimum power, speeds, both a lowest and a highest number; what and source are words.
+    A file has ``species``, ``speeds`` [m/s] and tables ``[[measured]]``. Each table has the keys ``quantity``,
+    ``basis``, ``values``, ``what``, ``source`` and, except for the speed of minimum power, ``speeds``. Values and
+    speeds are a lowest and a highest number.
 
     Parameters
     ----------

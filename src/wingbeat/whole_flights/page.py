@@ -41,8 +41,8 @@ _IN_SHORT = {
     "muscle_efficiency": "muscle efficiency",
 }
 _ABOUT_DRAWS = (
-    "A draw takes all numbers of the animal at random from their ranges; it flies if its orbit is certified. In "
-    "brackets: the range of the middle 80 % of the draws that fly."
+    "Each draw takes random values, within their ranges, for all numbers of the animal; the draw flies if its "
+    "orbit is certified. In brackets: the range of the middle 80 % of the draws that fly."
 )
 
 
@@ -71,7 +71,7 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
         "muscle is too weak. " + (_ABOUT_DRAWS if drawn else "This page has no draws (option `--draws`)."),
     ]
     if any(one.due_to for one in prediction.flown):
-        parts += ["## What the bands follow", _due_text(prediction.flown)]
+        parts += ["## What the bands depend on", _due_text(prediction.flown)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -155,11 +155,11 @@ def _band(one: Flown, name: str) -> str:
 
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
-        "The table names the numbers of the animal with which a quantity changes most over the draws, and the "
-        "square of the rank correlation of each. A better measurement of the first number would narrow the band "
-        "most.",
+        "The table names the numbers of the animal that are most correlated with a quantity over the draws, and "
+        "the square of the rank correlation of each. A better measurement of the first number would narrow the "
+        "band most.",
         "",
-        "| speed [m/s] | quantity | follows |",
+        "| speed [m/s] | quantity | depends on |",
         "| --- | --- | --- |",
     ]
     for one in flown:

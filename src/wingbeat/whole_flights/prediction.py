@@ -1,4 +1,4 @@
-"""Whole flights predicted: an animal flown at each speed, with the band that its uncertain numbers leave."""
+"""Predictions of whole flights: an animal flown at each speed, with the band due to its uncertain numbers."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ class Flown:
     speed : [m/s].
     status, message : of the orbit.
     values : quantities of a certified orbit, in the units of the nomenclature; empty without one.
-    peak_activation : largest share of its muscle that it uses; None without muscle.
+    peak_activation : largest share of the muscle's fibres that the beat uses; None without muscle.
     active_bounds : free parameters that are at a bound.
-    low, high : the band of each quantity: 10 and 90 per cent of the certified draws; empty without draws.
+    low, high : the band of each quantity: 10th and 90th percentile of the certified draws; empty without draws.
     drawn, certified : number of draws of the animal's numbers, and of those that fly.
-    due_to : by quantity, the numbers of the animal that its draws follow most, each with the square of the rank
-        correlation; empty with fewer than 100 certified draws.
+    due_to : for each quantity, the numbers of the animal that are most correlated with it over the draws, each with
+        the square of the rank correlation; empty with fewer than 100 certified draws.
     """
 
     speed: float
@@ -111,7 +111,7 @@ class Prediction:
 
     @property
     def minimum_power_speed(self) -> float | None:
-        """Speed of the certified flight of least positive power [m/s]; None if none is certified."""
+        """Speed of the certified flight with the lowest mean positive power [m/s]; None if none is certified."""
         flown = [one for one in self.flown if one.values]
         best = min(flown, key=lambda one: one.values["positive_power_per_mass"], default=None)
         return None if best is None else best.speed
@@ -127,22 +127,22 @@ def predict_flights(
 ) -> Prediction:
     """Fly an animal at the speeds of its measured flights.
 
-    No number is fitted to the measurements: they only say at which speeds to fly. For the band, the numbers of the
-    species file and of the laws are drawn from their ranges, all at once. Draws stay in the orbit's family: one
-    that a search from the orbit does not lead to a flight counts as not certified.
+    No number is fitted to the measurements: they only say at which speeds to fly. For the band, each draw takes
+    random values, within their ranges, for all numbers of the species file and of the laws. Draws stay in the
+    orbit's family: a draw counts as not certified if the solver, started from the orbit, finds no flight for it.
 
     Parameters
     ----------
     flights : from `read_measured_flights`.
     model : ``"animal"`` or ``"paper"``.
-    draws : of the animal's numbers at each speed; 0 for no band.
+    draws : number of draws of the animal's numbers at each speed; 0 for no band.
     seed : of starts and draws.
     processes : Python processes that share the draws.
     progress : called with (flights and draws done, all).
 
     Raises
     ------
-    InvalidInputError : draws not 0 or from 10 to 100000; what the species file and the model refuse.
+    InvalidInputError : draws neither 0 nor from 10 to 100000; faults of the species file or the model.
     FileError : the species file cannot be read.
     """
     faults = FaultList()
@@ -163,7 +163,7 @@ def predict_flights(
 
 
 def _after(progress: Progress | None, before: int, total: int) -> Progress | None:
-    """Return what tells the progress of a part of the work, of which an earlier part is done."""
+    """Return a function that reports the progress of a part of the work, after `before` of `total` steps."""
     return None if progress is None else lambda done, _: progress(before + done, total)
 
 
@@ -227,7 +227,7 @@ def _band(
 
 
 def _due_to(samples: Samples, column: int) -> dict[str, float]:
-    """Return the numbers that a quantity follows most over the draws, with the square of the rank correlation."""
+    """Return the numbers most correlated with a quantity over the draws, with the squared rank correlation."""
     from scipy.stats import rankdata
 
     values = rankdata(samples.quantities[samples.certified, column])

@@ -1,4 +1,4 @@
-"""The page on measured motions, in Markdown: what the loads of every model and term come to."""
+"""The page on measured motions, in Markdown: the scores of every model and choice of terms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from wingbeat.measured_motion.scores import Score
 _HEAD = """# Air loads on measured motions
 
 `uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It moves
-strips of a wing as somebody measured them, and compares the computed forces with the measured ones. For a case
+strips of a wing as they were measured, and compares the computed forces with the measured ones. For a case
 of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` and the docstring of
 `wb.read_strip_case` describe its files.
 
@@ -21,10 +21,11 @@ of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` 
   Inflow and lag need a model that states its aspect ratio.
 - **Recommended.** A written rule chooses one row, from the Reynolds number, the reduced frequency, the kind of
   wing and the speed. It never sees the measured force, so the recommended row is not always the closest.
-- **Mean** is the computed mean force over the measured one, **peak** the same of the largest force. **rms** is
-  the root mean square of the difference over the weight, **rms about mean** that of what is left without both
-  means, over that of the measurement. **lag** is the share of a beat by which the computed force comes late.
-- **Power** is what the wings give to the air.
+- **Mean** is the computed mean force over the measured one, **peak** the computed largest force over the measured
+  one. **rms** is the root mean square of the difference between the two forces, over the weight. For **rms about
+  mean**, each force is taken about its own mean: it is the rms of the difference over the rms of the measured
+  force. **lag** is the share of a beat by which the computed force comes late.
+- **Power** is the mean power that the wings give to the air.
 - **Best sine** is a mean and a sine at the beat's frequency, fitted to the measured force itself. A model of the
   air that is farther from the measurement than this has explained little.
 
@@ -35,38 +36,38 @@ of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` 
 2. Below a Reynolds number of 10 000 the vortex on the leading edge of a wing that turns about its root stays
    attached, on wings of insects and hummingbirds alike ([Usherwood and Ellington
    2002](https://doi.org/10.1242/jeb.205.11.1565)). The rule takes the polar of a revolving wing, `dickinson`,
-   which holds its own induced flow.
-3. Above, it takes the model named after the kind of wing where there is one, and the plate, `su-fan`, otherwise.
-   In slow flight, below twice the induced speed of hover, a model of revolving wings of this kind comes first.
+   which includes the induced flow.
+3. Above it, the rule takes the model named after the kind of wing if there is one, or else the plate, `su-fan`. In
+   slow flight, below twice the induced speed of hover, a model of revolving wings of this kind comes first.
 4. Above a reduced frequency of 0.1 it adds rotation and added mass (Leishman 2006, Principles of Helicopter
    Aerodynamics, draws the line between 0.05 and 0.2).
-5. It adds the lag of the wake as well where the theory's picture holds: the flight carries off a straight wake
-   (Theodorsen 1935, NACA Report 496). So the model must be one of straight flow, which states an aspect ratio;
-   the speed at least twice the induced speed of hover; and the angle of attack of the motion below that of the
-   polar's largest lift for nine tenths of the beat, by area.
-6. It adds momentum inflow in slow flight, where the polar of a finite wing does not hold the right one, if the
-   model states its aspect ratio.
+5. It also adds the lag of the wake if the assumption of the theory holds: a straight wake that stays behind the
+   flyer (Theodorsen 1935, NACA Report 496). So the model must state an aspect ratio, as models measured in straight
+   flow do. The speed must be at least twice the induced speed of hover. And for nine tenths of the beat, weighted
+   by area, the angle of attack of the motion must be below that of the polar's largest lift.
+6. In slow flight it adds momentum inflow if the model states its aspect ratio, because the polar of a finite wing
+   does not include the right induced flow there.
 
 """
 
 _TAIL = """## Derivatives of measured data
 
-Added mass needs accelerations, and frames hold noise. Rates of change are the slopes of a cubic smoothing spline
-whose stiffness generalised cross-validation chooses ([Craven and Wahba
+Added mass needs accelerations, and measured positions contain noise. Rates of change are the slopes of a cubic
+smoothing spline whose stiffness generalised cross-validation chooses ([Craven and Wahba
 1979](https://doi.org/10.1007/BF01404567)), one stiffness for all strips. Exact data pass unchanged, and the
 first four harmonics of the beat are never smoothed away. A motion that repeats is continued on both sides. In
 others, the first and last frames are less certain: leave them out with `from` and `to`.
 
-Velocities in a case are those of the wing's material through still air. Without them the positions are
-differentiated; positions that do not advance with the animal are those of a wind tunnel, and get the speed.
+Velocities in a case are those of points fixed in the wing, through still air. If a case has none, its positions
+are differentiated. If these positions do not advance with the animal, as in a wind tunnel, the speed is added.
 
 ## The lag of the wake
 
-Vorticity that a wing sheds when its lift changes slows the change. Each strip has the two states of Jones's
-form of Wagner's function (Jones 1940, NACA Report 681), driven by the downwash at three quarters of the chord.
-Past the polar's largest lift they are driven by its lift instead. The polar is read at the angle of the air
-that the wake moves. With lift `2 pi sin(alpha)` this is Theodorsen's lift with his C(k). In a motion that
-repeats, the states repeat too; in any other, the wake starts as that of steady flight.
+When the lift of a wing changes, the wing sheds vorticity, and this slows the change. Each strip has the two states
+of Jones's form of Wagner's function (Jones 1940, NACA Report 681), driven by the downwash at three quarters of the
+chord. Past the angle of the polar's largest lift, the polar's lift drives them instead. The polar is read at the
+angle of attack in the air that the wake moves. With lift `2 pi sin(alpha)` this is Theodorsen's lift with his C(k).
+In a motion that repeats, the states repeat too; in any other, the wake starts as in steady flight.
 
 The lag is that of a section, as rotation and added mass are. A whole wing lags less than its sections: [air
 loads](air_loads.md) says what that means for the robot.
@@ -76,9 +77,10 @@ loads](air_loads.md) says what that means for the robot.
 `wingbeat validate pigeon` predicts flights instead of computing loads on a given motion: see
 [whole flights](whole_flights.md).
 
-## What no row holds
+## What no row includes
 
-Stall that comes late in fast pitching. Strips do not influence each other, and neither do fore wing and hind wing.
+No row includes stall that comes late in fast pitching. Strips do not influence each other, and neither do fore wing
+and hind wing.
 """
 
 
@@ -88,7 +90,7 @@ def validation_text(found: Sequence[Validation], figures: Sequence[str]) -> str:
     Parameters
     ----------
     found : one result for each case.
-    figures : the file name of the figure of each.
+    figures : the file name of the figure of each case.
     """
     summary = ["## Recommended rows", "", *_table(_SUMMARY, [_summary(one) for one in found]), ""]
     parts = [_section(one, figure) for one, figure in zip(found, figures, strict=True)]

@@ -32,7 +32,7 @@ _SPEEDS = np.linspace(8.0, 14.0, 20)
 
 
 def median_seconds(run: Callable[[], Any], repeats: int) -> float:
-    """Return the median time of a call [s]; one call before, which compiles, is not counted."""
+    """Return the median time of a call [s]; a call before these, which compiles, is not counted."""
     run()
     times = []
     for _ in range(repeats):
@@ -68,7 +68,7 @@ def jacobian() -> float:
 
 
 def orbits(animal: str) -> list[Solution]:
-    """Return the orbits of an animal at 20 shuffled speeds, one start each; one orbit before is not counted."""
+    """Return the orbits of an animal at 20 shuffled speeds, one start each, after one that is not counted."""
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]

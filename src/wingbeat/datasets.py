@@ -1,4 +1,4 @@
-"""Names in wingbeat's data sets, and functions that all their readers share."""
+"""Names in wingbeat's data sets, and functions that the readers of data sets share."""
 
 from __future__ import annotations
 

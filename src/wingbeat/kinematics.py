@@ -1,8 +1,7 @@
 """How the wings beat: the record of a wingbeat and its laws as functions of phase.
 
-Phase runs from 0 at the top of the stroke to 1. The downstroke takes its first half, or its first
-`downstroke_fraction`. All laws beyond those of Su et al. 2023 are off by default; a law that is off is left out of
-the compiled programs.
+Phase runs from 0 at the top of the stroke to 1. The downstroke lasts from 0 to 1/2, or to `downstroke_fraction`.
+All laws beyond those of Su et al. 2023 are off by default; a law that is off is left out of the compiled programs.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ class Tail:
         faults = FaultList()
         faults.number("tail.area", self.area, above=0, unit="m2", fix="leave the tail out if there is none")
         faults.number("tail.arm", self.arm, unit="m")
-        fix = "for a slender tail, pi/2 times its aspect ratio"
+        fix = "pi/2 times the aspect ratio of a slender tail"
         faults.number("tail.lift_slope", self.lift_slope, above=0, unit="1/rad", fix=fix)
         faults.number("tail.drag_coefficient", self.drag_coefficient, at_least=0)
         faults.number("tail.height", self.height, unit="m")

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class Motor:
     """A motor with brushes, or a brushless one with its controller, that flaps both wings; it does not pitch them.
 
-    For two motors, one a wing, give twice the rotor inertia and the no-load current, the same torque constant, and
-    half of the resistance. Torques and currents are then sums of both motors.
+    For two motors, one for each wing, give twice the rotor inertia and the no-load current, the same torque
+    constant, and half of the resistance. Torques and currents are then sums of both motors.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class MotorState(NamedTuple):
 
 
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
-    """Return what the motor does to give the flap hinges a torque at a rate.
+    """Return the state of the motor while it gives the flap hinges a torque at a flap rate.
 
     Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load while
     the motor drives, and subtracted from it while the wings drive the motor, ``i = torque/kt + sign(omega) i0``,

@@ -98,7 +98,7 @@ class ClippedPatch(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """The blends of one mirrored coefficient at 0 and 90 degrees, and its patch for a < 0, or None."""
+    """The blends of one mirrored coefficient at 0 and 90 degrees, and its patch for a < 0 (None without one)."""
 
     at_zero: tuple[Any, ...]
     at_right: tuple[Any, ...]

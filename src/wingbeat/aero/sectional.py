@@ -1,8 +1,8 @@
 """Sectional coefficients from those of a finite wing, by removing the wing's own induced flow.
 
-Prandtl's lifting line: a wing of aspect ratio A meets the air at ``alpha`` less ``eps = C_L / (pi A)``, and the
-force on its sections is normal to that air. So the section at ``alpha - eps`` has
-``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
+Prandtl's lifting line: if a wing of aspect ratio A has the angle of attack ``alpha``, its sections meet the air at
+``alpha - eps`` with ``eps = C_L / (pi A)``, and their lift is normal to that air. So the section at ``alpha - eps``
+has ``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ class UpstrokeKernel(NamedTuple):
     """The kernel of a wing that lets air through, or folds away, where air meets it from above; a JAX pytree.
 
     Lift and drag are those of `kernel` times `factor` where ``sin(alpha) < 0``. Within 5 degrees of an angle of
-    attack of 0 or 180 degrees, this factor changes from 1 to `factor`, smoothly to the second derivative.
+    attack of 0 or 180 degrees the multiplier changes from 1 to `factor`, with continuous second derivative.
     """
 
     kernel: Kernel

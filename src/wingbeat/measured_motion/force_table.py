@@ -41,7 +41,7 @@ def read_forces(
         rows = np.flatnonzero((name in _ERRORS and _ERRORS[name] + "_n" in by_name) & (column < 0))
         for i in rows[:LISTED]:
             where = f"{sheet.file} row {sheet.rows[i][0]}, column {name}"
-            faults.add(where, float(column[i]), "must be >= 0: it is a standard error", "give its size")
+            faults.add(where, float(column[i]), "must be >= 0: it is a standard error", "give its absolute value")
     if place is None or len(faults.faults) > before:
         return None
 

@@ -168,7 +168,7 @@ def check_measured(faults: FaultList, case: Any) -> None:
             elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():
                 faults.add(place, "not finite or beyond 1e7 N", "must be numbers [N] from start to end")
             elif kind == "errors" and (values[case.inside] < 0).any():
-                faults.add(place, "below 0", "must be standard errors", "give their size")
+                faults.add(place, "below 0", "must be standard errors", "give their absolute values")
 
 
 def check_mean_force(faults: FaultList, where: str, given: Any) -> None:

@@ -3,7 +3,7 @@
 In steady glide nothing accelerates, so the five-coordinate equations say what must act on each coordinate:
 ``tau = g - f_aero``. Its first two components vanish if the forces balance; the third is the moment that a tail
 would have to supply; the last two are the torques with which the hinges hold the wings. With a plain wing at the
-body's centre of mass the first two rows are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and
+body's centre of mass the first two equations are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and
 ``tan(gamma) = C_D / C_L``.
 """
 

@@ -62,18 +62,19 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
     """
     faults = FaultList()
     if len(flights) not in (1, 2):
-        faults.add("flights", len(flights), "must be 1 or 2", "give one flight, or two to compare")
+        faults.add("flights", len(flights), "must be 1 or 2", "give one, or two to compare")
     for label, dataset in flights:
         if dataset.sizes.get("phase", 0) > MOST_SAMPLES:
             rule = f"are more samples than the {MOST_SAMPLES} that the viewer shows"
-            faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples a beat")
+            faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples per beat")
     faults.raise_if_any()
     return {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
 
 
 def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
     if dataset.attrs.get(KIND) not in ("orbit", "flight") or "strip_corner" not in dataset:
-        kind = dataset.attrs.get(KIND, "not from wingbeat")
+        known = dataset.attrs.get(KIND)
+        kind = f"of kind {str(known)!r}" if known else "not from wingbeat"
         way = "give a file of `orbit -o` or `simulate -o` of this version"
         raise FileError(f"cannot show {label!r}: it is {kind}, without the corners of its strips; {way}")
     reached = flown(dataset)

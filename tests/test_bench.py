@@ -32,7 +32,7 @@ def test_bench_prints_json_alone(capsys):
 def test_bench_prints_a_table_for_people(capsys):
     assert main(["bench", "--batch", "1"]) == 0
     text = capsys.readouterr().out
-    for part in ("one orbit, pigeon", "certificate", "one of 1 mixed orbits", "jax"):
+    for part in ("one orbit, pigeon", "certificate", "one orbit in a batch of 1 mixed problems", "jax"):
         assert part in text
 
 

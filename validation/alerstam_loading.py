@@ -89,7 +89,7 @@ def _answer(model: str, as_is: float, left: float, gained: tuple[float, float, f
     else:
         verdict = "**only if fitted**" if gained[0] <= -CLEARLY and gained[2] < 0 else "**no**"
     return (
-        f"- By `{model}`: {verdict}. The better of its two speeds scatters by {as_is:.2f} as predicted; what the "
-        f"fit by wing loading leaves is {math.exp(alone):.2f}. The same fit by the better speed leaves "
+        f"- By `{model}`: {verdict}. As predicted, the better of the model's two speeds has a scatter of "
+        f"{as_is:.2f}. A fit to wing loading has {math.exp(alone):.2f}, and the same fit to the better speed "
         f"{math.exp(left):.2f}."
     )

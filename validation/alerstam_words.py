@@ -36,9 +36,9 @@ lowest power and its two neighbours gives the minimum-power speed. In the same w
 maximum-range speed. Each bird also flies at its measured airspeed, with least power and with minimum frequency.
 
 By `paper`, one batch solves all problems; the orbits of a bird whose power does not change smoothly with speed are
-solved again, each starting from its neighbours' results. By `animal`, the birds follow one another by rising mass;
-the orbits of a bird are starts for the next, beside starts from its stock wingbeat, and pass to neighbouring speeds
-as long as that helps. {certified}
+solved again, each starting from its neighbours' results. By `animal`, the birds are solved in order of mass. Each
+bird starts from the orbits of the bird before, and at some speeds also from its own stock wingbeat. Each orbit then
+serves as a start at the neighbouring speeds, until no orbit improves. {certified}
 
 The orbits are the best found; better ones may exist. The tables behind this page are
 [alerstam.csv](../data/alerstam.csv) (all species) and [alerstam_points.csv](../data/alerstam_points.csv) (all

@@ -51,7 +51,7 @@ and has no feathers. We therefore take least drag and induced drag from the live
 INTERVALS = """
 The intervals come from a bootstrap over wings, and for {live} from a bootstrap over flights and wings. The
 angle of zero lift is measured at the wing's mount. The prints are twisted, so the spread of this angle comes
-from their postures. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are held fixed. `drag_induced` is
+from their postures. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are not fitted. `drag_induced` is
 below that of an ideal wing, 0.053, because the wake of the jackdaw also contains the lift of its tail and
 body.
 """
@@ -62,7 +62,7 @@ in units of `sqrt(2 W / (rho S))`, with W the weight and S the wing area.
 """
 LEFT_OUT_VERDICT = """
 Our goal was an error of at most {goal:.0%} for wings that the fit did not see. **Not every gull wing meets
-it.** The ratio of {ratios} and the sink of {sinks} of the {wings} wings do; the root-mean-square errors are
+it.** Of the {wings} wings, {ratios} meet it in ratio and {sinks} in sink; the root-mean-square errors are
 {of_ratio:.0%} (ratio) and {of_sink:.0%} (sink). The measured ratios themselves differ by {spread:.0%} from
 wing to wing (standard deviation). One set of numbers cannot reproduce these differences.
 """

@@ -22,26 +22,26 @@ TEXT = """# What sets the frequency?
 
 `python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
 speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
-([models](models.md)) does not: its least metabolic power lies at 14 to 17 Hz up to 10 m/s and at 4 Hz around
-13 m/s. Each row changes one thing of that model. A cell holds frequency [Hz], flap amplitude [deg], positive power
-[W/kg of the bird] and activation, the largest share of its muscle fibres that the beat uses.
+([models](models.md)) does not: its beats of least metabolic power have 14 to 17 Hz up to 10 m/s and 4 Hz around
+13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz], flap amplitude [deg], positive power
+[W/kg of the bird] and activation, the largest share of the flight muscle's fibres that the beat uses.
 
 {table}
 
-- **No number of the muscle alone gives the frequency of live pigeons at all three speeds.** Mass, share of the
-  elevators, strength, speed and leverage change it by at most 1.7 Hz below 12 m/s and by 1.5 Hz at 14 m/s. So the
-  price of the muscle hardly depends on frequency: a beat that is faster and smaller costs about the same.
+- **No single number of the muscle gives the frequency of live pigeons at all three speeds.** Mass, share of the
+  elevators, strength, speed and leverage change the frequency by at most 1.7 Hz below 12 m/s and by 1.5 Hz at
+  14 m/s. So metabolic power hardly depends on frequency: a beat that is faster and smaller costs about the same.
 - Weak and fast muscle, with the stress that was measured in a zebra finch's pectoralis, comes closest: 5.2 Hz at
   14 m/s.
 - Lighter or heavier wings, a span that retracts more, and an upstroke with 0.4 of its load change the frequency by
   at most 1 Hz.
-- The beat of least positive power is no better: it runs to the bound of 30 Hz at 10 m/s. Nor is the beat of least
+- The beat of least positive power is no better: at 10 m/s it is at the bound of 30 Hz. Nor is the beat of least
   activation.
 - **Up to 10 m/s the elevators are too weak for any of these beats.** They must stop and raise the wings. With three
   times their mass, activation falls from 8.3 to 3.6 at 6 m/s, and from 2.3 to 1.2 at 10 m/s.
 
-Two things are missing, and we can measure neither. First, muscle that becomes active and relaxes costs energy and
-takes time, so each beat has a price of its own ([muscles](muscles.md)). We found no number of it for birds. Second,
+Two things are missing, and we can measure neither. First, activating and relaxing a muscle costs energy and takes
+time, so each beat has a fixed cost ([muscles](muscles.md)). We found no value of this cost for birds. Second,
 stopping the wing at the end of the downstroke costs our elevators more than a live bird's. Live wings fold there,
 and tendons may store energy. Both may lower the frequency in slow flight. Neither explains the slow beats around
 13 m/s. There the optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
@@ -68,20 +68,24 @@ def trials() -> Iterator[Trial]:
         return base.with_values({f"muscle.{name}": value for name, value in numbers.items()})
 
     yield Trial("**the model `animal`**", base, {})
-    yield Trial("0.19 of the mass is depressors, as in pigeons, in place of 0.14", with_muscle(mass=0.059), {})
-    yield Trial("elevators a third of the depressors in place of a ninth", with_muscle(elevator_share=1 / 3), {})
+    yield Trial("depressors of 0.19 of the mass, as in pigeons, instead of 0.14", with_muscle(mass=0.059), {})
+    yield Trial(
+        "elevators with a third of the depressors' mass instead of a ninth", with_muscle(elevator_share=1 / 3), {}
+    )
     stress, rate = muscle.isometric_stress, muscle.max_strain_rate
-    yield Trial("isometric stress 400 kPa in place of 250", with_muscle(isometric_stress=400e3), {})
+    yield Trial("isometric stress 400 kPa instead of 250", with_muscle(isometric_stress=400e3), {})
     weaker = with_muscle(isometric_stress=101e3, max_strain_rate=rate * stress / 101e3)
     yield Trial("isometric stress 101 kPa, and faster muscle of the same power", weaker, {})
     yield Trial("muscle half as fast", with_muscle(max_strain_rate=0.5 * rate), {})
     strain = muscle.strain_per_angle
     yield Trial("strain per angle 1.5 times as large", with_muscle(strain_per_angle=1.5 * strain), {})
-    yield Trial("wings of the dissected pigeon: heavier, held closer to the root", _dissected(model, pigeon), {})
+    yield Trial(
+        "wings of the dissected pigeon: heavier, with their mass closer to the root", _dissected(model, pigeon), {}
+    )
     folded = base.with_values({"wingbeat.span_retraction": 0.5})
-    yield Trial("half of the span retracted in place of 0.3", folded, {})
+    yield Trial("half of the span retracted instead of 0.3", folded, {})
     spared = dataclasses.replace(model.aero, upstroke_factor=0.4)
-    yield Trial("0.4 of the load where air meets the wing from above", base, {"aero": spared})
+    yield Trial("load times 0.4 where air meets the wing from above", base, {"aero": spared})
     yield Trial("least positive power", base, {"minimise": "mean_positive_power"})
     yield Trial("least activation", base, {"minimise": "peak_activation"})
     yield Trial("least frequency", base, {"minimise": "frequency"})

@@ -12,9 +12,9 @@ from wingbeat.experiment import FORMS, CurveFit
 
 HEAD = """# Measured wings against the paper's plate
 
-`python validation/measured_wings.py` writes this page and computes every number in and below its tables. It
-compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. The data of the wings
-are from other people and not part of this project:
+`python validation/measured_wings.py` writes this page and computes every number in and below its tables. The page
+compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. Other people measured the
+wings; their data are not part of this project:
 
 - 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds. The source's
   units are ambiguous; its numbers support our reading of them.
@@ -39,10 +39,10 @@ COLUMNS = (
 NOTES = f"""
 - For the gulls and the thin plates, the table uses the mean of the measurements at each angle.
 - *Lift slope* is a least-squares fit between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
-  with its 95 % interval. The lift of the plate of Su et al. is curved there, so its slope is a mean.
-- The drag of the jackdaw is that of a parabola, C_D = a + b (C_L - c)^2 with fitted a, b and c. We do not use its
-  single measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's
-  largest C_L is that of steady gliding, not of stall.
+  with its 95 % interval. For the plate of Su et al., the lift curve is not straight there, so its slope is a mean.
+- For the drag of the jackdaw, the table uses a fitted parabola, C_D = a + b (C_L - c)^2. We do not use single
+  measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's largest
+  C_L is the largest in steady gliding; the bird did not stall.
 - *Centre* is -dC_M/dC_N below stall. For gulls it is measured in mean aerodynamic chords behind the shoulder, for
   Su-Fan in chords behind the leading edge.
 - The two models are evaluated from 0 to 60 degrees. A dash means that a value was not measured.
@@ -125,9 +125,9 @@ def _meaning(rows: list[Row]) -> list[str]:
         "plate is 8 mm thick, with a chord of 76 mm, and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
-        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
+        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings stall "
         f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift, or their data end there, at a mount angle of "
-        f"25 degrees. The plate has it at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
+        f"25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
         "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "
@@ -138,11 +138,12 @@ def _meaning(rows: list[Row]) -> list[str]:
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
         f"behind the gulls' shoulder: posture alone moves this point by {max(postures) - min(postures):.2f} "
         "chords. From 5 to 60 degrees, the angle of attack moves the plate's centre of pressure by "
-        f"{centre[1] - centre[0]:.2f} chords. A model with one x_cp for all postures omits the larger of these two "
-        "effects.",
+        f"{centre[1] - centre[0]:.2f} chords. A model with the same centre of pressure for all postures omits "
+        "the larger of these two effects.",
         f"- **Reynolds numbers.** The gulls were measured at {_thousand(gulls)} thousand, the plate at "
         f"{_thousand([plate])} thousand. Only the jackdaw ({_thousand([jackdaw])} thousand) comes close. The "
-        "difference in drag is partly due to Reynolds number and partly to shape; these data cannot separate them.",
+        "difference in drag is partly due to Reynolds number and partly to shape; these data cannot separate the "
+        "two.",
     ]
 
 
@@ -151,8 +152,8 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     lines = [
         "## Which forms these data determine",
         "",
-        "The table shows R-squared of lift and drag with each form of `wingbeat fit`. *No* means that the form is",
-        "not identified: an interval is wider than its own parameter, a parameter is at the limit of its fit, or",
+        "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the form is",
+        "not identified: an interval is wider than its own parameter, a parameter is at a bound of the fit, or",
         "the fit is ill-conditioned. Do not use such a fit outside its range. Su-Fan's form is fitted only from 0",
         "degrees up, where its exponential applies. The other three forms are fitted to the same",
         "measurements; of these three, the best by AICc (a corrected Akaike criterion) is in bold.",
@@ -171,13 +172,13 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     return [
         *lines,
         "",
-        f"Su-Fan's lift is identified in {told} of {len(lift)} wings: only angles far beyond stall can "
+        f"Su-Fan's form of lift is identified for {told} of {len(lift)} wings: only angles far beyond stall can "
         "distinguish its",
-        "exponential from its slow sine. The form cambered is the best by AICc for "
-        f"{followed} of the {2 * len(lift)} curves, and it leads to",
-        "the coefficients of a plate beyond the measurements. For a wing measured up to 25 degrees on both sides, "
-        "use it;",
-        "Dickinson's form holds within that range only.",
+        f"exponential from its slow sine. The form `cambered` is the best by AICc for {followed} of the "
+        f"{2 * len(lift)} curves. Beyond the",
+        "measurements it continues with the coefficients of a plate. For a wing measured up to 25 degrees on both "
+        "sides, use",
+        "`cambered`; Dickinson's form is valid only within the measured range.",
     ]
 
 

@@ -30,9 +30,9 @@ of the orbit: with the measured coefficients alone, with `--unsteady thin-aerofo
   the lattice's lift is earlier.
 - *rms / weight*: root mean square over the beat of the difference between the two lifts, divided by the weight.
 - *rms / lattice*: the same root mean square, divided by that of the lattice's lift.
-- *beyond 15 deg*: the share of beat and strips at which the angle of attack in our model exceeds 15 degrees. In a
-  vortex lattice the flow is attached at any angle, so beyond 15 degrees it must be wrong. The lattice checks our
-  loads only if this share is small.
+- *beyond 15 deg*: the share of strips, averaged over the beat, at which the angle of attack in our model exceeds 15
+  degrees. In a vortex lattice the flow is attached at any angle, so beyond 15 degrees the lattice must be wrong. It
+  checks our loads only if this share is small.
 
 ![lift and thrust by both codes](second_opinion.png)
 
@@ -84,16 +84,16 @@ these. Version 5.1.0 requires an older MuJoCo than our tests.
 
 READING = """
 
-**In none of these flights does the lattice check the whole beat**: {0:.0%} to {1:.0%} of beat and strips are
-beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the leading edge and
-no profile drag. For the same motion it has {2:.0%} to {3:.0%} of our power, and a large mean thrust where our
-model has none.
+**In none of these flights does the lattice check the whole beat**: averaged over the beat, {0:.0%} to {1:.0%} of
+the strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the
+leading edge and no profile drag. For the same motion it has {2:.0%} to {3:.0%} of our power, and a large mean
+thrust where our model has none.
 
-**Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest stalled
-share: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. They change the difference by
-a few percent for the pigeon at 12 m/s and for the bat, and increase it for the pigeon at 8 m/s. They improve
-neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a pigeon
-with 45 degrees of amplitude. Here it falls as well, but by less.
+**Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
+beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. They change the
+difference by a few percent for the pigeon at 12 m/s and for the bat, and increase it for the pigeon at 8 m/s. They
+improve neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a
+pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
 
 **Inflow** alone reduces our lift on the same motion. The difference from the lattice then increases or stays the
 same. The coefficients are those of a finite plate and already include most of its induced flow.
@@ -193,8 +193,8 @@ def _reading(records: dict[tuple[str, float, float | None], dict[str, Any]]) -> 
         lags = [_lag(row["lift_lag"]) for row in (bare, turned)]
         lines.append(
             f"- {_name(case)}: with rotation and added mass, the difference of lift {verb} from {shares[0]:.2f} to "
-            f"{shares[1]:.2f} of the lattice's lift. The lattice's lift is {lags[1]} than ours, "
-            f"without these terms {lags[0]}."
+            f"{shares[1]:.2f} of the lattice's lift. The lattice's lift is {lags[1]} than ours; "
+            f"without these terms it is {lags[0]}."
         )
     power = [record["aerodynamic_power"]["ratio"] for record in records.values()]
     share = [record["beyond_15_deg"] for record in records.values()]

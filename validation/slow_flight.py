@@ -31,11 +31,11 @@ and induced flow. Every row changes one thing, except where its name says two. T
 
 {table}
 
-- **Delayed stall lowers the frequency most**: by 11 % at 4 m/s and by 12 to 20 % above. Revolving, dried pigeon
-  wings reach a C_L of 1.64, gliding wings 1.38 ([sources](animal_wings.md)). How the delayed stall joins the
-  attached flow is a guess.
-- A free downstroke fraction lowers it by 11 % at 4 m/s and by 5 to 8 % above. Free twist lowers it by 8 % at 4
-  m/s and by 11 to 14 % above. We found no measurement of either for pigeons.
+- **Delayed stall lowers the frequency most**: by 11 % at 4 m/s and by 12 to 20 % at higher speeds. Revolving, dried
+  pigeon wings reach a C_L of 1.64, gliding wings 1.38 ([sources](animal_wings.md)). How the polar passes from
+  attached flow to the delayed stall is a guess.
+- A free downstroke fraction lowers it by 11 % at 4 m/s and by 5 to 8 % at higher speeds. Free twist lowers it by
+  8 % at 4 m/s and by 11 to 14 % at higher speeds. We found no measurement of either for pigeons.
 - A longer chord, a span that retracts more, an upstroke with half the load, and a tail change the frequency at
   4 m/s by at most 2 %. From 8 m/s on, a longer chord lowers it by 7 %.
 - Rotation and added mass raise the frequency by 7 to 15 %.
@@ -44,8 +44,8 @@ and induced flow. Every row changes one thing, except where its name says two. T
 
 The model `animal` ([models](models.md)) has the delayed stall, a tail and a free downstroke fraction. The
 lowest frequency found for its pigeon is 9.6 Hz at 4 m/s, a fifth more than live pigeons at 4.5 m/s, and 8.5 Hz
-at 6 m/s. For the rest we found no measured number: a C_L above 1.64, the clap of the wings at the top of the
-stroke, and twist.
+at 6 m/s. Perhaps the rest is due to a C_L above 1.64, to the clap of the wings at the top of the stroke, or to
+twist. We found no measured numbers of these.
 """
 
 
@@ -66,7 +66,7 @@ def trials() -> Iterator[Trial]:
     yield Trial("base", pigeon, gliding, {})
     yield Trial("no rotation, no added mass", pigeon, wb.aero.BladeElement("feathered", inflow="momentum"), {})
     revolving = wb.aero.BladeElement("feathered-revolving", unsteady="thin-aerofoil")
-    yield Trial("revolving wing (`feathered-revolving`), which holds its own inflow", pigeon, revolving, {})
+    yield Trial("revolving wing (`feathered-revolving`), whose polar includes the inflow", pigeon, revolving, {})
     delayed = wb.aero.BladeElement("feathered-flapping", **unsteady)
     yield Trial("delayed stall (`feathered-flapping`)", pigeon, delayed, {})
     yield Trial("downstroke fraction free, 0.4 to 0.6", pigeon, gliding, {"downstroke_fraction": (0.4, 0.6)})

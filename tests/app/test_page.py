@@ -75,7 +75,7 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     path.write_text(path.read_text().replace('kind = "bird"', "", 1).replace("<b>x</b>", "kindless", 1))
     page.locator("input[type=file]").set_input_files(path)
     solved(page, "kindless")
-    page.get_by_label("Flown as", exact=True).first.select_option("animal")
+    page.get_by_label("Flight model", exact=True).first.select_option("animal")
     page.locator(".fault", has_text='write kind = "bird", "bat" or "robot" into the file of kindless').wait_for()
     assert page.locator(".what b, select b, .what script").count() == 0
 

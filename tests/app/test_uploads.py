@@ -120,7 +120,7 @@ def test_arrays_that_would_unpack_to_a_flood_are_refused_before_they_are_read(al
             "points to other places or files",
         ),
         (lambda f: f.create_dataset("texts", (1000,), h5py.string_dtype()), "arrays that are not numbers"),
-        (lambda f: f.attrs.__setitem__("many", ["x"] * 100), "an attribute too large"),
+        (lambda f: f.attrs.__setitem__("many", ["x"] * 100), "an attribute that is too large"),
         (lambda f: f["alpha"].__setitem__((0, 0), np.nan), "alpha holds values that are not numbers"),
         (lambda f: f.attrs.__delitem__("inputs"), "damaged"),
         (lambda f: f.attrs.__setitem__("wingbeat", '{"frequency": "<b>"}'), "damaged"),

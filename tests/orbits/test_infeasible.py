@@ -218,7 +218,7 @@ def test_a_shortage_in_words(shortage, words):
     [
         ("flap_amplitude", "<=", math.radians(70), 1.5, math.radians(82.31), "70 -> 83 deg", math.radians(83)),
         ("pitch_mean", ">=", math.radians(-30), -1.5, math.radians(-41.2), "-30 -> -42 deg", math.radians(-42)),
-        ("mass", "=", 0.316, 0.07, 0.28764, "0.316 -> 0.287 kg (-9.2 %, off the body)", 0.287),
+        ("mass", "=", 0.316, 0.07, 0.28764, "0.316 -> 0.287 kg (-9.2 %, by a lighter body)", 0.287),
         ("speed", "=", 3.0, 18.0, 3.4001, "speed 3 -> 3.41 m/s", 3.41),
         ("speed", "=", 10.0, 0.0, 4.2, "speed 10 -> 4.2 m/s", 4.2),
         ("shoulder", "=", -0.15, 0.07, -0.0623, "shoulder -150 -> -62 mm", -0.062),

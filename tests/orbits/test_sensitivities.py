@@ -258,7 +258,7 @@ def test_the_command_line_tells_what_an_orbit_hangs_on(capsys, tmp_path):
         == 0
     )
     told = capsys.readouterr().out
-    assert "Hz: depends most on wing.semi_span (" in told
+    assert "Hz; largest shares of the variance: wing.semi_span (" in told
     assert "+-" not in told.partition("change at the low")[0]
     assert "1 deg more of bounds.flap_amplitude.upper: -0.1" in told
     assert figure.read_bytes()[:4] == b"\x89PNG"
@@ -289,7 +289,7 @@ def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
     _print(wrong, Console())
     told = capsys.readouterr().out
     assert "first order is a ranking only" in told
-    assert "depends most on wing.shoulder.x (89%), wing.mass (11%) of the variance" in told
+    assert "largest shares of the variance: wing.shoulder.x (89%), wing.mass (11%)" in told
     assert "17" not in told
     assert "7.4 +- 2.3 Hz" in told
     plain = _plain(wrong)

@@ -65,7 +65,8 @@ def _message(answer: dict[str, Any]) -> str:
         parts.append("Continued from the previous result, with one start.")
     if answer.get("continued_better") is not None:
         better = number(answer["continued_better"])
-        parts.append(f"Continuation from a neighbour found a better one: {better}. More starts may find it.")
+        found = f"Continuation from an earlier result found a better optimum: {better}."
+        parts.append(f"{found} More starts may find it.")
     text = ". ".join(part.rstrip(".") for part in parts if part)
     return f"{text[:1].upper()}{text[1:]}." if text else ""
 
@@ -158,11 +159,11 @@ class Influence:
 
 
 def _ranking(one: dict[str, Any]) -> str:
-    """Return what a quantity depends on most, without error bar: a linear change over whole ranges gives none."""
+    """Return what a quantity depends on most; a linear change over whole ranges gives no valid error bar."""
     unit = "" if one["unit"] == "1" else f" {one['unit']}"
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(one["ranking"].items())[:3])
-    due = f"depends most on {parts} of the variance, to first order" if parts else "no plausible ranges are known"
-    return f"{str(one['quantity']).replace('_', ' ')} {number(one['value'])}{unit}: {due}"
+    due = f"largest shares of the variance, to first order: {parts}" if parts else "no plausible ranges are known"
+    return f"{str(one['quantity']).replace('_', ' ')} {number(one['value'])}{unit}; {due}"
 
 
 def _ranked(one: dict[str, Any], names: list[str]) -> None:

@@ -50,7 +50,7 @@ class Controls:
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
             whole = [("paper", "paper: the plate of Su et al."), ("animal", "animal: wing and muscle of its kind")]
-            self._fields["model"] = choice_field("Flown as", whole, now.model, self._choose_model)
+            self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
 
@@ -81,13 +81,13 @@ class Controls:
             hands = [("none", "none"), *models]
             self._fields["hand"] = choice_field("Model of the hand", hands, now.hand, self._word("hand"))
             for name, label in (
-                ("hand_from", "Hand begins at, of the span"),
+                ("hand_from", "Hand begins at span fraction"),
                 ("upstroke_factor", "Upstroke factor"),
             ):
                 self._fields[name] = number_field(label, f"{getattr(now, name):g}", self._number(name))
             width, strips = f"{now.blend_width_deg:g}", str(now.strips)
             self._fields["blend_width_deg"] = number_field(
-                "Blends, half width", width, self._number("blend_width_deg"), unit="deg"
+                "Half width of the blends", width, self._number("blend_width_deg"), unit="deg"
             )
             self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
         with box("Solver"):
@@ -95,7 +95,7 @@ class Controls:
             hint = "empty: the default number"
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
             self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
-            hint = "such as peak_power<=30, body_pitch_range<=10 deg; commas between"
+            hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
             limits = ", ".join(now.limits)
             self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
         self._numbers_place = tag("div", classes="numbers")
@@ -157,7 +157,7 @@ class Controls:
         self._change(species=name, species_file="", values={}, bounds={}, **loads)
 
     def _choose_model(self, name: str) -> None:
-        """Take the air loads and the objective of a model; the numbers that were changed may be none of its own."""
+        """Take the air loads and objective of a model; drop changed numbers, which the new model may not have."""
         try:
             chosen = choices_of(name, own_species(self._scenario))
         except InvalidInputError as error:
@@ -199,7 +199,7 @@ def choices_of(name: str, species: Species) -> dict[str, Any]:
 
 
 def _animal_of(scenario: Scenario) -> tuple[str, str]:
-    """Return what decides which numbers the species has: the species and its model."""
+    """Return the species and its model, which together determine the numbers on the page."""
     return scenario.species_file or scenario.species, scenario.model
 
 

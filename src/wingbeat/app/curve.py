@@ -1,4 +1,4 @@
-"""The curve against speed: point by point through the pool, so it fills in, waits its turn and can be cancelled."""
+"""The curve against speed. Workers solve it point by point; it can wait in the queue and be cancelled."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SWEEP = ("from", "to", "step")
 
 
 class CurvePanel:
-    """Frequency and power along speed.
+    """The panel of frequency and power against speed.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class CurvePanel:
         self._speeds: list[float] = []
         self._points: list[dict[str, Any]] = []
         self._asked: Scenario | None = None
-        with box("Along speed", "curve"):
+        with box("Curve against speed", "curve"):
             self._build()
 
     def _build(self) -> None:
@@ -46,7 +46,9 @@ class CurvePanel:
         with tag("div", classes="acts"):
             button("Compute the curve", self.start)
             self._stop = button("Cancel the curve", self.cancel, disabled=True)
-        self._state = tag("p", "Each speed is solved from every start and from its neighbour's result.", "note")
+        self._state = tag(
+            "p", "Each speed is solved from every start and from the result of the neighbouring speed.", "note"
+        )
         self._state.props["role"] = "status"
         self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Points of the curve")
         self._found = tag("div", classes="found")
@@ -162,7 +164,7 @@ class CurvePanel:
             what = f"{self._asked.species}, {self._asked.aero}, minimum {self._asked.minimise.replace('_', ' ')}"
             tag("caption", what)
             with tag("thead"), tag("tr"):
-                for head in ("Speed [m/s]", "Frequency [Hz]", "Power [W]", "Status", "Look at it"):
+                for head in ("Speed [m/s]", "Frequency [Hz]", "Power [W]", "Status", "Result"):
                     tag("th", head, scope="col")
             with tag("tbody"):
                 for point in self._points:

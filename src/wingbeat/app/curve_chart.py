@@ -1,4 +1,4 @@
-"""A curve along speed as a drawing for the page: plain SVG of our own numbers, in the page's own colours."""
+"""The drawing of a curve against speed: plain SVG in the colours of the page."""
 
 from __future__ import annotations
 

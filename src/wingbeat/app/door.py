@@ -1,4 +1,4 @@
-"""Who may come in: pages that this server sent, under its own name, and messages as these pages write them."""
+"""Access control: only pages of this server, under its own name, may send requests and messages."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Door:
     Parameters
     ----------
     app : the web application that is protected.
-    host : the address or name that the server listens at.
+    host : the address or name that the server listens on.
     """
 
     def __init__(self, app: Callable[[Scope, Receive, Send], Awaitable[None]], host: str) -> None:

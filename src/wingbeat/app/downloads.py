@@ -1,4 +1,4 @@
-"""What a browser may fetch: each under a name nobody can guess, few at a time for each session."""
+"""What a browser may fetch: each item has a name that nobody can guess; a session keeps its last few items."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The flying animal on the page: the one place that knows how the viewer is mounted and fed."""
+"""The flying animal on the page: this module mounts the viewer and sends it scenes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Flying:
 
     Parameters
     ----------
-    downloads, session : the store, and the session's part of it, from which the browser fetches scenes.
+    downloads, session : the browser fetches scenes from `downloads`, which keeps them for this session.
     """
 
     def __init__(self, downloads: Downloads, session: str) -> None:
@@ -55,7 +55,7 @@ class Flying:
         with self._place:
             tag(
                 "p",
-                "The first wingbeat is being solved. The first solve after a start takes some seconds.",
+                "The first wingbeat is being solved. The first solve after the server starts takes some seconds.",
                 "empty",
             )
 

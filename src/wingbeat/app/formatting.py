@@ -1,4 +1,4 @@
-"""Numbers of the page in words: with their units, angles in degrees, as short as is honest."""
+"""Numbers as the page shows them: with units, angles in degrees, and no more digits than they deserve."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def range_text(path: str, number: Number) -> str:
 
 
 def from_shown(text: str, unit: str, several: bool) -> float | tuple[float, ...] | None:
-    """Return the typed number or numbers (with commas between) in SI units and radians; None if not a number."""
+    """Return the typed number or numbers (separated by commas) in SI units and radians; None if not a number."""
     try:
         parts = tuple(float(part) for part in text.replace(";", ",").split(","))
     except ValueError:

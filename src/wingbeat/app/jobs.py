@@ -1,4 +1,4 @@
-"""What a worker does for the explorer: orbits, sensitivities, files. Everything in and out is fit for JSON."""
+"""What a worker does for the explorer: orbits, sensitivities, files. Its inputs and outputs are fit for JSON."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution |
 
 
 def _point(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return one point of a curve: the better of the orbit from its own starts and the continued neighbour."""
+    """Return one point of a curve: the better of the orbits from its own starts and from the neighbouring speed."""
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))

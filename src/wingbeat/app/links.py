@@ -164,7 +164,7 @@ def from_plain(plain: Any) -> Scenario:
     for name, value in plain.items():
         understood = checks[name](value)
         if understood is None and not (name == "starts" and value is None):
-            faults.add(name, repr(value)[:60], "is not understood", "save the state anew")
+            faults.add(name, repr(value)[:60], "is not understood", "save the state again")
         else:
             given["values" if name == "set" else name] = understood
     faults.raise_if_any()
@@ -229,7 +229,7 @@ def _word(value: Any) -> str | None:
 
 
 def _text(value: Any) -> str | None:
-    """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which it cannot."""
+    """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which have no code in UTF-8."""
     return value if isinstance(value, str) and value.encode(errors="ignore").decode() == value else None
 
 

@@ -1,4 +1,4 @@
-"""Bounds and numbers of the animal on the page: each with its unit, its source and what is plausible."""
+"""Bounds and numbers of the animal on the page, each with its unit, source and plausible range."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Numbers:
         return path != "vehicle.mass" and path.partition("wingbeat.")[2] not in free and not empty
 
     def _build_law(self, part: str, law: Callable[[float], dict[str, Number]]) -> None:
-        """Offer to add a part with the numbers of its laws, and to remove it."""
+        """Offer to add a part whose numbers follow from scaling laws, and to remove it."""
         paths = TAIL_PATHS if part == "tail" else tuple(key.path for key in PARTS[part])
 
         def add() -> None:

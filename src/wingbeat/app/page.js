@@ -1,4 +1,4 @@
-// What the explorer's page does in the browser besides showing what the server tells it.
+// What the explorer's page does in the browser itself: uploads, downloads and the link.
 window.wingbeatPage = {
   // Send a file; return why it was refused, nothing if it was taken.
   async upload(input, session) {
@@ -33,7 +33,7 @@ window.wingbeatPage = {
   },
 };
 
-// What is typed and not entered yet makes the answer one of an earlier question.
+// While a text is typed but not entered yet, the answer belongs to an earlier request.
 const typing = (is) => (event) => {
   if (event.target.matches?.('.side input[type="text"]')) document.body.classList.toggle("typing", is);
 };

@@ -1,4 +1,4 @@
-"""The page: what stands where, and how choices, answers and files go from one part to the other."""
+"""The page: its layout, and how choices, answers and files go from one part to the other."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ class Page:
             chooser.props["id"] = self._upload.props["for"] = chooser.html_id
             script = f"async (event) => emit(await wingbeatPage.upload(event.target, {json.dumps(self.name)}))"
             chooser.on("change", self._uploaded, js_handler=script)
-            button("Save the state", self._save_state, title="JSON that this page loads again")
+            button("Save the state", self._save_state, title="A JSON file that this page can load")
             button("Copy the link", lambda: run_script("wingbeatPage.copyLink()"), title="It reproduces this page")
             self._dark = ui.dark_mode(None)
             choice_field("Colours", _THEMES, "system", self._set_theme)
@@ -212,7 +212,7 @@ class Page:
             self._influence.say("Sensitivities need a certified orbit.")
             return
         self._influence.clear()
-        self._influence.say("Computing sensitivities; the first time takes some twenty seconds.")
+        self._influence.say("Computing sensitivities; the first time takes about twenty seconds.")
 
         def show(found: dict[str, Any]) -> None:
             if self._session.answer is answer:

@@ -1,4 +1,4 @@
-"""Pinned answers: a table to compare, bring back, or fly as a ghost beside the answer."""
+"""Pinned answers: a table to compare them, to bring one back, or to show one as a ghost beside the answer."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class Pins:
         self._answers: list[dict[str, Any]] = []
         self._ghost: dict[str, Any] | None = None
         with box("Pinned results", "pins"):
-            self._note = tag("p", "Pin a result to compare it with the next one, or to show it as a ghost.", "note")
+            text = "Pin a result to compare it with the next one, or to show it as a ghost beside the next one."
+            self._note = tag("p", text, "note")
             self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
@@ -37,7 +38,7 @@ class Pins:
         text = "Pinned."
         if len(self._answers) > _MOST_PINS:
             gone = self._answers.pop(0)
-            text = f"Pinned; the oldest of more than {_MOST_PINS} was removed."
+            text = f"Pinned; the oldest was removed, because at most {_MOST_PINS} are kept."
             if gone is self._ghost:
                 self._fly(None)
         self._note.set_text(text)

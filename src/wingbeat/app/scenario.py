@@ -1,4 +1,4 @@
-"""What somebody asks of the explorer: every choice of the page, checked, and the orbit problem it stands for."""
+"""A scenario: every choice of the page, their checks, and the orbit problem that they define."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ class Scenario:
     species : name of a built-in species, or of the one in `species_file`.
     species_file : TOML text of the visitor's own species, empty for a built-in one.
     speed, climb : mean velocity [m/s].
-    model : ``"paper"`` or ``"animal"``, see `wingbeat.models`: what it adds to the species. The page sets the
-        air loads and the objective of a model when it is chosen; they can be changed afterwards.
+    model : ``"paper"`` or ``"animal"``, see `wingbeat.models`; it determines what is added to the species. If a
+        model is chosen on the page, the page also sets its air loads and objective, which can be changed later.
     aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
         hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
     limits : limits on quantities, texts as for ``--subject-to``.
-    bounds : bounds of free parameters in place of the species' own. Bounds of ``tail_tilt``, which species hold
-        fixed, make it free.
+    bounds : bounds of free parameters in place of the species' own. Species keep ``tail_tilt`` fixed; bounds make
+        it free.
     values : numbers of the species that were changed, by their paths.
     starts : number of starts, None for the default.
     seed : of the random starts.
@@ -162,7 +162,7 @@ def _built_in(name: str) -> Species:
 def species_in(scenario: Scenario) -> Species:
     """Return the species with the numbers of its file and of its model, before the user's changes.
 
-    A model that has none for the species' kind adds nothing; `problem_of` says so.
+    A species of unknown kind gets none from the model; `problem_of` then refuses a model that needs the kind.
     """
     own = own_species(scenario)
     return model_of(scenario.model, own).species(own) if own.kind else own

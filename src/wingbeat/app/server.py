@@ -1,4 +1,4 @@
-"""The server: one page a visitor, files in and out, one pool of workers behind them all."""
+"""The server: one page per visitor, uploads and downloads, and one pool of workers for all pages."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class _Server(uvicorn.Server):
     """A server that does not wait for open connections when it ends."""
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Close the connection to every browser; soon drop connections that browsers leave open."""
+        """Close the connection to every browser; drop those that browsers still leave open shortly afterwards."""
         asyncio.get_running_loop().call_later(_FAREWELL, self._hang_up)
         await super().shutdown(sockets)
 
@@ -136,7 +136,7 @@ def _announce(host: str, listening: socket.socket) -> str:
     if not is_loopback(bound):
         where = "every address of this machine" if shown != host else f"{host}, a public address"
         print(
-            f"warning: the explorer listens at {where}. Anyone who reaches it can use this machine's processors: "
+            f"warning: the explorer listens on {where}. Anyone who reaches it can use this machine's processors: "
             "there are no passwords. Leave --host out to keep it to this machine.",
             file=sys.stderr,
             flush=True,

@@ -1,4 +1,4 @@
-"""One visitor's session: what is asked, what is being solved, what is shown. It knows no element of the page."""
+"""One visitor's session: its scenario, its jobs and its answer. It uses no elements of the page."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Session:
 
     Parameters
     ----------
-    name : of the session, unlike any other's.
+    name : unique name of the session.
     pool : the worker pool that does the work.
     scenario : the first scenario.
     """

@@ -1,4 +1,4 @@
-"""Files that somebody sent: looked at with suspicion, in a worker process, before anything is believed."""
+"""Uploaded files: a worker process checks them before anything in them is used."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     Parameters
     ----------
     path : where the server stored the file, under a name that the server chose.
-    label : the visitor's name of the file.
+    label : the visitor's name for the file.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def _check_attributes(item: Any, refuse: Any) -> None:
         about = item.attrs.get_id(name)
         count = math.prod(about.shape or (1,))
         if count * about.dtype.itemsize > _MOST_ATTRIBUTE or (about.dtype.kind == "O" and count > _MOST_TEXTS):
-            raise refuse("it holds an attribute too large")
+            raise refuse("it holds an attribute that is too large")
         if about.dtype.kind == "O":
             texts += len(str(item.attrs[name]))
         if texts > _MOST_ATTRIBUTE:
@@ -152,7 +152,7 @@ def _checked(path: str, label: str) -> Orbit:
 
 
 def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
-    """Return the scenario that has the problem of an orbit, or None and the reason why there is none."""
+    """Return the scenario that gives the problem of an orbit, or None and the reason why there is none."""
     inputs, why_not = orbit.inputs, ""
     for written_out in (False, True):
         try:
@@ -170,7 +170,7 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
 
 
 def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool) -> Scenario:
-    """Return a scenario of the problem; its species is the built-in one of this name, or is written out."""
+    """Return a scenario for the problem; its species is the built-in one of this name, or the text of a file."""
     species, aero = problem.species, problem.aero
     name, text = species.name, ""
     if written_out:

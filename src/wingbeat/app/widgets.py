@@ -1,4 +1,4 @@
-"""Plain HTML controls with their labels, units, hints and faults: what assistive technology knows best."""
+"""Plain HTML controls, which assistive technology handles best, with labels, units, hints and faults."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def box(title: str, classes: str = "") -> Any:
 
 
 def set_class(element: Any, name: str, on: bool) -> None:
-    """Give an element a class of the style sheet, or take it away."""
+    """Give an element a class of the style sheet, or remove it."""
     element.classes(name) if on else element.classes(remove=name)
 
 
@@ -150,7 +150,7 @@ def _hearing(field: Field, act: Callable[[str], Any]) -> Field:
 def number_field(
     label: str, value: str, act: Callable[[str], Any], *, unit: str = "", hint: str = "", tip: str = ""
 ) -> Field:
-    """Return a field for one number, or several with commas between; `act` gets the text on entry."""
+    """Return a field for one number, or several separated by commas; `act` gets the text on entry."""
 
     def make() -> Any:
         return tag("input", type="text", inputmode="decimal", autocomplete="off", value=value)

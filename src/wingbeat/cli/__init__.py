@@ -20,7 +20,7 @@ def __getattr__(name: str) -> object:
 
 
 def program() -> int:
-    """Run the process's command line and end the process without freeing its memory, which the system does."""
+    """Run the command line and end the process at once: the operating system frees the memory, not Python."""
     end_on_signals()  # before all else: imports take a second
     import gc
 

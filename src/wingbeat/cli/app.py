@@ -28,9 +28,9 @@ Exit codes: 0 success, 2 bad input, 3 no certified orbit (infeasible or not conv
 COMMANDS = {
     "orbit": "Find and certify the wingbeat that flies at a given speed.",
     "uncertainty": "Compute the uncertainty of an orbit's frequency and power.",
-    "glide": "Find the steady glides of wings held still: sink, glide ratio, trim.",
+    "glide": "Find the steady glides with the wings held still: sink, glide ratio, trim.",
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
-    "terms": "Follow the best wingbeat as a term of the air loads grows from none to all.",
+    "terms": "Follow the best wingbeat while the share of a term of the air loads rises from 0 to 1.",
     "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",
@@ -82,7 +82,7 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
 
     Returns
     -------
-    The exit code; a command asks for one other than 0 by returning it.
+    The exit code: the one that the command returns, or 0 if it returns none.
     """
     try:
         code = _outcome(list(sys.argv[1:] if argv is None else argv), app)

@@ -1,4 +1,4 @@
-"""What ``simulate`` says of a flight whose body was filmed too: it is carried along its path, not integrated."""
+"""What ``simulate`` reports if the film shows the body too: the body then moves as filmed, not as computed."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def carried(
 ) -> tuple[CarriedFlight, dict[str, float | None]]:
     """Return the flight of a filmed body with filmed wings, and the standard errors of its summary.
 
-    The errors hold the noise of the wing's film, not that of the body's path.
+    The errors include the noise of the filmed wing motion, but not that of the body's path.
 
     Parameters
     ----------
@@ -82,9 +82,9 @@ def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: in
 
 
 def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], beat: FilmedBeat, json: bool) -> None:
-    """Print the velocities, body pitch and powers of a flight whose body moves as filmed, and what the model lacks.
+    """Print velocities, body pitch and powers of a flight whose body moves as filmed, and what the model lacks.
 
-    The model may lack force and moment.
+    It lacks the force and moment that its air loads would have to add to give the filmed motion.
 
     Parameters
     ----------

@@ -39,8 +39,8 @@ def compare(
 
     The motion is that of the file; the body does not respond to the other code's loads. A vortex lattice assumes
     attached, inviscid flow, so it is wrong for strips beyond 15 degrees of angle of attack. The table also has our
-    own loads on the same motion, with and without each of the terms of --unsteady and --inflow. Needs the extra
-    uvlm.
+    own loads on the same motion, with and without each of the terms of --unsteady and --inflow. The command needs
+    the extra uvlm.
 
     Examples: wingbeat orbit pigeon --speed 12 -o pigeon.nc; wingbeat compare pigeon.nc --with uvlm --plot lift.png
     """
@@ -69,10 +69,11 @@ def _print(record: dict[str, Any]) -> None:
     from rich.text import Text
 
     console = plain_console()
-    console.print(f"{record['species']} at {record['speed']:.4g} m/s beside {record['code']}, both wings, one beat")
+    about = f"{record['species']} at {record['speed']:.4g} m/s, compared with {record['code']}"
+    console.print(f"{about}; both wings, one beat")
     table = Table(box=None, pad_edge=False)
     table.add_column("loads")
-    heads = ("lift\n[N]", "thrust\n[N]", "power\n[W]", "lift later\n[beat]", "lift, rms of\ndifference / weight")
+    heads = ("lift\n[N]", "thrust\n[N]", "power\n[W]", "lift delay\n[beat]", "lift, rms of\ndifference / weight")
     for head in heads:
         table.add_column(Text(head), justify="right", no_wrap=True)
     first = record["terms"][0]
@@ -82,13 +83,13 @@ def _print(record: dict[str, Any]) -> None:
         mark = " *" if all(row[term] == record[term] for term in ("unsteady", "inflow")) else ""
         table.add_row(Text(_name(row) + mark), *_cells(row))
     console.print(table)
-    console.print("* the loads of the file. lift later: delay of the lattice's lift, as a share of a beat")
+    console.print("* the loads of the file; lift delay: of the lattice's lift behind ours, as a share of a beat")
     for row in record["terms"]:
         if "refused" in row:
             console.print(f"- {_name(row)}: {row['refused']}", style="yellow", markup=False)
     share = record["beyond_15_deg"]
     console.print(
-        f"beyond 15 deg of angle of attack: {share:.0%} of beat and strips; the lattice is wrong there, "
+        f"share of strips and instants beyond 15 deg of angle of attack: {share:.0%}; the lattice is wrong there, "
         "because it assumes attached, inviscid flow"
     )
     for code, label in (("ours", "our loads leave out"), ("theirs", "the lattice leaves out")):

@@ -1,4 +1,4 @@
-"""``wingbeat curve``: power and frequency along speed, with every branch, jump and characteristic speed."""
+"""``wingbeat curve``: power and frequency against speed, with every branch, jump and characteristic speed."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def curve(
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
     power_limit: Annotated[
-        float | None, Parameter(help="Sustainable power [W]: prints the speeds within it.")
+        float | None, Parameter(help="Sustainable power [W]; the speeds that need no more are printed.")
     ] = None,
     starts: Annotated[Whole, Parameter(help="Starts at the first and last speed; others get a third as many.")] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
@@ -59,7 +59,7 @@ def curve(
     output: Output = None,
     plot: Annotated[Path | None, Parameter(help="Draw power and frequency: .png, .pdf or .svg.")] = None,
 ) -> int:
-    """Find the power and frequency curves along speed, their branches and their characteristic speeds.
+    """Find the curves of power and frequency against speed, their branches and their characteristic speeds.
 
     Every optimum found is continued to the next lower and higher speeds. A mark on the curve shows where the best
     orbit changes branch or reaches other bounds. Exit code 0: some speeds certified, gaps reported. 3: none.

@@ -55,7 +55,7 @@ def print_curve(curve: Curve) -> None:
         table.add_row(*map(Text, _row(point)))
     console.print(table)
     console.print()
-    console.print(Text("from speed to speed", style="bold"))
+    console.print(Text("changes from one speed to the next", style="bold"))
     for mark in record["marks"]:
         where = f"{mark['lower_speed']:g} to {mark['upper_speed']:g} m/s"
         console.print(
@@ -63,7 +63,7 @@ def print_curve(curve: Curve) -> None:
         )
     if not record["marks"]:
         console.print("  one branch, always at the same bounds")
-    console.print(Text(f"characteristic speeds, of the {_power(record)}", style="bold"))
+    console.print(Text(f"characteristic speeds, from the curve of {_power(record)}", style="bold"))
     for name, found in record["characteristic_speeds"].items():
         console.print(f"  {_LABELS[name]}: {_told(found)}")
     if record["warnings"]:

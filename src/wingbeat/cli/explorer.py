@@ -18,14 +18,14 @@ _LONGEST_HOST = 253  # of a name in the domain name system
 
 def app(
     *,
-    host: Annotated[str, Parameter(help="Address to listen at; there are no passwords.")] = "127.0.0.1",
-    port: Annotated[Whole, Parameter(help="Port to listen at; 0 takes any free one.")] = 8080,
+    host: Annotated[str, Parameter(help="Address to listen on; the explorer has no passwords.")] = "127.0.0.1",
+    port: Annotated[Whole, Parameter(help="Port to listen on; 0 takes any free one.")] = 8080,
     processes: Annotated[
         Whole | None, Parameter(help="Solver processes; default: as many as cores, at most 4.")
     ] = None,
     open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
 ) -> int:
-    """Open the explorer in a browser: choose a problem, move sliders, and see it fly. Ctrl-C ends it.
+    """Open the explorer in a browser: choose a problem, move sliders, and see it fly. Ctrl-C ends the explorer.
 
     It needs the extra app: uv run --extra app wingbeat app.
 

@@ -1,4 +1,4 @@
-"""What ``orbit`` and ``simulate`` say of a filmed wingbeat."""
+"""What ``orbit`` and ``simulate`` report about a filmed wingbeat."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _POWERS = ("mean_power", "mean_positive_power", "peak_power")
 
 
 def film_record(beat: FilmedBeat) -> dict[str, Any]:
-    """Return what the film gave, fit for JSON."""
+    """Return the spline fits of a film, fit for JSON."""
     laws = {
         name: {"frames": law.frames, "residual_sd": law.residual_sd, "degrees_of_freedom": law.degrees}
         for name, law in beat.laws.items()
@@ -38,7 +38,7 @@ def film_record(beat: FilmedBeat) -> dict[str, Any]:
 
 
 def film_lines(beat: FilmedBeat) -> list[str]:
-    """Return what the film gave in words, a line for each column."""
+    """Describe the spline fits of a film, with a line for each column, and its notes."""
     lines = []
     for name, law in beat.laws.items():
         unit = f"of the {WHOLE[name]}" if name in WHOLE else "deg"
@@ -56,7 +56,7 @@ def spread_record(spread: Spread) -> dict[str, Any]:
 
 
 def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
-    """Return powers and trims of an orbit with their standard errors, a line each."""
+    """Return lines with the powers and trims of an orbit and their standard errors."""
     record, lines = orbit.record(), []
     for name in _POWERS:
         shown, unit = plus_minus(record[name], spread.standard_error(name)), plain_unit(name)
@@ -69,9 +69,10 @@ def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
         factor, unit = for_people(NOMENCLATURE[name].unit)
         shown = plus_minus(factor * value, None if error is None else factor * error)
         lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
-    edge = "; the others do not: the wingbeat is close to the limit of what flies, and errors may be larger"
+    edge = "; the others have none: the wingbeat is close to the limit of flight, and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
-    return [*lines, f"one standard error; {spread.certified} of {spread.asked} samples of the film fly{ending}"]
+    flown = f"{spread.certified} of {spread.asked} samples of the film have an orbit"
+    return [*lines, f"one standard error; {flown}{ending}"]
 
 
 def plus_minus(value: float, error: float | None) -> str:

@@ -27,7 +27,8 @@ def fit(
     name: Annotated[str, Parameter(help="Name of the model; default: the name of the output file.")] = "",
     citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
     aspect_ratio: Annotated[
-        float | None, Parameter(help="Of the measured wing; inf for a section. Kept in the model file.")
+        float | None,
+        Parameter(help="Aspect ratio of the measured wing; inf for a section. Kept in the model file."),
     ] = None,
     alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
     alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,
@@ -35,7 +36,8 @@ def fit(
 ) -> None:
     """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
 
-    The form cambered is for a wing whose two sides differ, measured on both; the other forms mirror one side.
+    Use the form cambered for a wing whose upper and lower sides differ, with data at positive and negative
+    angles. The other forms mirror one side.
     The model file works wherever a coefficient model is named: `polar mymodel.toml`, `orbit --aero mymodel.toml`.
     Compare forms by AICc, the lower the better, on the same table.
 

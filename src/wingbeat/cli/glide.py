@@ -1,4 +1,4 @@
-"""``wingbeat glide``: the steady glides of wings held still."""
+"""``wingbeat glide``: the steady glides with the wings held still."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def glide(
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
         str,
-        Parameter(help="What turns to trim the pitching moment: body-pitch, flap or tail (nothing without one)."),
+        Parameter(help="What turns to trim the pitching moment: body-pitch, flap or (if there is one) tail."),
     ] = "body-pitch",
     model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,

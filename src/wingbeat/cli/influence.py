@@ -1,4 +1,4 @@
-"""What an orbit depends on, on a terminal: error bars, ranked sensitivities, prices of bounds."""
+"""Text for the terminal: what an orbit depends on, with error bars, ranked sensitivities and prices of bounds."""
 
 from __future__ import annotations
 
@@ -53,15 +53,15 @@ def ranked_in_words(bar: ErrorBar) -> str:
     """Return what a quantity depends on most, without an error bar."""
     unit = "" if bar.unit == "1" else f" {bar.unit}"
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
-    due = f"depends most on {parts} of the variance" if parts else "no plausible ranges are known"
-    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g}{unit}: {due}"
+    due = f"largest shares of the variance: {parts}" if parts else "no plausible ranges are known"
+    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g}{unit}; {due}"
 
 
 def in_words(bar: ErrorBar) -> str:
     """Return an error bar as a line: value, standard deviation, and its main causes."""
     parts = ", ".join(f"{name} {deviation:.2g}" for name, deviation in list(bar.due_to.items())[:_NAMED])
     unit = "" if bar.unit == "1" else f" {bar.unit}"
-    due = f", of which {parts}" if parts else ": no plausible ranges are known"
+    due = f"; largest contributions: {parts}" if parts else ": no plausible ranges are known"
     return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g} +- {bar.deviation:.2g}{unit}{due}"
 
 

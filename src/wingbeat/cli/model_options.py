@@ -1,4 +1,4 @@
-"""The options that say what a species is flown with: the model, and the air loads that replace its own."""
+"""The options for the model of a flight, and for air loads that replace the model's own."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ _OF_COEFFICIENTS = ("aero", "extension", "blend_width_deg", "hand")
 @Parameter(name="*")
 @dataclass(frozen=True)
 class ModelOptions:
-    """The options of model and air loads, which all commands share that fly an animal.
+    """The options of model and air loads, shared by all commands that fly an animal.
 
-    An option that is not given is as the model says.
+    If an option is not given, the model's own choice applies.
     """
 
     model: Annotated[
         str,
         Parameter(
-            help="What the species is flown with: paper (as Su et al. 2023), or animal (wing, tail, body drag, "
-            "terms and muscle of its kind). Other options replace parts of it; their defaults are those of paper."
+            help="Model of the flight: paper (as in Su et al. 2023), or animal (coefficients, tail, body drag, "
+            "air-load terms and muscle of its kind). Other options replace parts; they list paper's defaults."
         ),
     ] = "paper"
     aero: Annotated[
@@ -54,7 +54,8 @@ class ModelOptions:
     airspeed: Annotated[
         str | None,
         Parameter(
-            help="Airspeed that determines a strip's loads: planar (default, across the span) or full (also along)."
+            help="Airspeed that determines a strip's loads: planar (default; only across the span) or full "
+            "(also along it)."
         ),
     ] = None
     strips: Annotated[Whole | None, Parameter(help="Number of strips of one wing; default 10.")] = None
@@ -72,7 +73,8 @@ class ModelOptions:
     hand: Annotated[
         str | None,
         Parameter(
-            help="Coefficients of the hand, as for --aero, which are then the arm's; none (default) for one model."
+            help="Coefficients of the hand, named as for --aero, which then applies to the arm; none (default): "
+            "--aero applies to the whole wing."
         ),
     ] = None
     hand_from: Annotated[
@@ -83,7 +85,7 @@ class ModelOptions:
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
-        """Return a species as the model flies it, with the numbers of ``--set`` and a payload, and the model.
+        """Return (species, model); the species has the model's parts, the numbers of ``--set`` and a payload.
 
         Raises
         ------
@@ -96,7 +98,7 @@ class ModelOptions:
     def problem(
         self, name: str, speed: float, settings: list[str] | None, payload: float = 0.0, **asked: Any
     ) -> OrbitProblem:
-        """Return the problem of a species by its name or file; of `asked`, None stands for the model's own choice.
+        """Return the problem for a species given by name or file; a None in `asked` means the model's own choice.
 
         Raises
         ------
@@ -123,7 +125,7 @@ class ModelOptions:
         return dataclasses.replace(whole, aero=loads)
 
     def given(self) -> dict[str, Any]:
-        """Return the options of the air loads that were given."""
+        """Return the options of air loads that the user gave."""
         values = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "model"}
         return {name: value for name, value in values.items() if value is not None}
 
@@ -132,7 +134,7 @@ class ModelOptions:
         return read_model(self.aero) if self.aero is not None and self.aero.lower().endswith(".toml") else None
 
     def _coefficients(self, own: BladeElement) -> dict[str, Any]:
-        """Return the coefficient models of arm and hand; a new extension makes those of the model anew."""
+        """Return the given coefficients of arm and hand; a given extension also applies to the model's own ones."""
         reach = self.extension or "mirrored", 1.0 if self.blend_width_deg is None else self.blend_width_deg
         found: dict[str, Any] = {}
         if self.aero is not None or self.extension is not None or self.blend_width_deg is not None:

@@ -1,4 +1,4 @@
-"""What several commands share: how their options turn into a species and its air loads."""
+"""Options that several commands share, and the checks of the files that they name."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Settings = Annotated[
         name="--set",
         consume_multiple=True,
         negative=(),
-        help="Numbers to change, PATH=VALUE with the paths of the record: wing.mass=0.02 air.density=1.0 ...",
+        help="Numbers to change, PATH=VALUE: wing.mass=0.02 ... `wingbeat species NAME` lists the paths.",
     ),
 ]
 Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
@@ -52,7 +52,7 @@ WingsMayCross = Annotated[
 
 
 def with_settings(species: Species, settings: list[str] | None, payload: float = 0.0) -> Species:
-    """Return a species with the numbers of ``--set`` and a payload; all its faults are reported at once."""
+    """Return a species with the numbers of ``--set`` and a payload; all faults are reported at once."""
     values, faults = {}, FaultList()
     if settings is not None and not settings:
         faults.add("--set", "", "must be PATH=VALUE", "for example wing.mass=0.02")
@@ -83,7 +83,7 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
 
 @contextmanager
 def unpacking(path: Path) -> Iterator[None]:
-    """Turn any error in setting up the orbit of the file at `path` into a `FileError`."""
+    """Turn any error that occurs while the orbit of the file at `path` is set up into a `FileError`."""
     try:
         yield
     except NotInFileError as error:
@@ -114,7 +114,7 @@ def check_result(faults: FaultList, output: Path | None) -> None:
 
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
-    """Note figure names that do not end as a figure's, and files that two options name."""
+    """Note figure names without a figure's suffix, and files that two options name."""
     from wingbeat.plots import check_figure_name
 
     taken = {} if output is None else {_real(output): "--output"}

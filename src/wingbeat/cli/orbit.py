@@ -95,7 +95,9 @@ def orbit(
     ] = None,
     power: Annotated[
         bool,
-        Parameter(negative="", help="Print the parts of the power, the cost of braking, and what a spring saves."),
+        Parameter(
+            negative="", help="Print the parts of the power, the cost of negative work, and what a spring saves."
+        ),
     ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
     output: Output = None,
@@ -109,7 +111,8 @@ def orbit(
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
-    With --kinematics, filmed motions are kept and the others are found, with errors due to the noise of the film.
+    With --kinematics, the filmed motions are kept and the others are solved for; the errors printed are due to the
+    noise of the film.
     Exit code 0: certified. 3: nothing certified; the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;

@@ -24,7 +24,7 @@ def plot(
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 
-    Of a curve: power and frequency along speed.
+    For a curve, draw power and frequency against speed.
 
     Examples: wingbeat plot pigeon.nc -o pigeon.pdf; wingbeat plot pigeon.nc --power -o power.png
     """

@@ -45,9 +45,9 @@ def polar(
     The columns are alpha_deg, c_l, c_d, c_n, c_m (nose-up positive) and x_cp (in chords from the leading
     edge); the last two are empty where the model has no centre of pressure.
 
-    Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl; of animal wings, for which --extension has
-    no effect: feathered, feathered-revolving, feathered-flapping, membrane. A table has the columns alpha_deg,
-    c_l, c_d and, if known, x_cp; a fitted model is what `wingbeat fit` wrote.
+    Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. Models of animal wings: feathered,
+    feathered-revolving, feathered-flapping, membrane; --extension has no effect on these. A table has the columns
+    alpha_deg, c_l, c_d and, if known, x_cp; a fitted model is what `wingbeat fit` wrote.
     """
     faults = FaultList()
     if csv and json:

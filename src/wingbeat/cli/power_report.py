@@ -1,4 +1,4 @@
-"""What the power of an orbit is made of, as rows of a table."""
+"""The parts of an orbit's power as rows of a table."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
     else:
         saved = 1.0 - spring["mean_positive_power"] / account["mean_positive_power"]
         springs = [
-            ("best stiffness, both together", f"{spring['stiffness']:.4g} N m/rad"),
-            ("rest at a flap angle of", f"{math.degrees(spring['rest_angle']):.4g} deg"),
+            ("best stiffness, both hinges together", f"{spring['stiffness']:.4g} N m/rad"),
+            ("flap angle at rest", f"{math.degrees(spring['rest_angle']):.4g} deg"),
             ("remaining mean positive power", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
         ]
     return {
-        "mean power, by the use of negative work": [("braked", _watts(account["braking"])), *costs],
+        "mean power, by what becomes of negative work": [("negative work", _watts(account["braking"])), *costs],
         "parts of the hinge power: mean, minimum, maximum": _spreads(account["shares"]),
         "what the power of all actuators is spent on: mean, minimum, maximum": _spreads(account["spent"]),
         "springs at the flap hinges": springs,

@@ -1,4 +1,4 @@
-"""Progress of long work (on a terminal only), the notice that it stops, and its exit code."""
+"""Progress of long work (on a terminal only); the message and the exit code of a study that stops early."""
 
 from __future__ import annotations
 

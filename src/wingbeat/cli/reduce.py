@@ -20,14 +20,14 @@ def reduce(
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
-    last: Annotated[float, Parameter(help="Steady seconds at the end of each record.")] = 20.0,
+    last: Annotated[float, Parameter(help="Steady time at the end of each record, which is averaged [s].")] = 20.0,
 ) -> None:
     """Turn load-cell records into coefficients with errors; repeated runs of one point are pooled.
 
     A record has the columns time [s], normal_force [N], tangential_force [N], moment [N m] (about mid-chord,
     nose-up positive) and alpha_deg. Lines above them, such as "# speed = ...", give speed, density, viscosity
-    (kinematic), chord and span in SI units. Optional are thickness, channel_width and the readings in still fluid,
-    "# tare_normal_force = before, after" and so on; the zero drifts linearly between the two readings.
+    (kinematic), chord and span in SI units. Thickness and channel_width are optional. So are the readings in still
+    fluid, "# tare_normal_force = before, after" and so on; a linear drift of the zero between them is subtracted.
 
     Example: wingbeat reduce run*.csv -o coefficients.csv --last 20
     """

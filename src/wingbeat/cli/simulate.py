@@ -1,4 +1,4 @@
-"""``wingbeat simulate``: fly an initial state for some beats with prescribed wings."""
+"""``wingbeat simulate``: fly from an initial state for some beats, with prescribed wing motion."""
 
 from __future__ import annotations
 
@@ -64,14 +64,13 @@ def simulate(
     json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
     output: Output = None,
 ) -> int:
-    """Fly an initial state for some wingbeats with the wings prescribed.
+    """Fly from an initial state for some wingbeats, with prescribed wing motion.
 
     The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from an orbit (--from), or
-    from a film (--kinematics; the species gives the motions that were not filmed). If the film shows the
-    path of the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the missing force is
-    reported. To disturb an orbit, give --u,
-    --w, --body-pitch-deg or --pitch-rate; each replaces this number in the orbit's initial state. With a film,
-    power is printed with the error due to the noise of the film.
+    from a film (--kinematics; the species gives the motions that were not filmed). If the film shows the path of
+    the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the missing force is reported. To
+    disturb an orbit, give --u, --w, --body-pitch-deg or --pitch-rate; each replaces that number in the orbit's
+    initial state. With a film, power is printed with the error due to the noise of the film.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)

@@ -74,7 +74,7 @@ def new(
     *,
     kind: Annotated[
         Literal["bird", "bat", "robot"] | None,
-        Parameter(help="Derive it by scaling laws from --mass, --wing-span and --wing-area."),
+        Parameter(help="Derive the species by scaling laws from --mass, --wing-span and --wing-area."),
     ] = None,
     mass: Annotated[float | None, Parameter(help="Mass of the whole animal [kg].")] = None,
     wing_span: Annotated[float | None, Parameter(help="Wing span, tip to tip [m].")] = None,
@@ -172,7 +172,7 @@ def _table(title: str, *columns: str) -> Table:
 
 
 def _print_list(everyone: list[Species]) -> None:
-    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "fitted at [m/s]>r"
+    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "su-fan fit [m/s]>r"
     table = _table("", "name", "animal", *columns)
     outside = []
     for animal in everyone:
@@ -187,7 +187,7 @@ def _print_list(everyone: list[Species]) -> None:
     console.print(table)
     if outside:
         names = ", ".join(outside)
-        line = f"warning: at {_SPEED:g} m/s these leave the Reynolds numbers of Su et al., 2e4 to 5e4: {names}"
+        line = f"warning: at {_SPEED:g} m/s these are outside Su et al.'s Reynolds numbers, 2e4 to 5e4: {names}"
         console.print(line, style="yellow")
     console.print(
         "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."

@@ -1,4 +1,4 @@
-"""Standard output and error of the process: failing to write to the first is an error, to the second it is not."""
+"""The standard streams: a failed write to standard output is an error, one to standard error is ignored."""
 
 from __future__ import annotations
 

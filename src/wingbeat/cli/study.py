@@ -1,4 +1,4 @@
-"""``wingbeat study``: run a study, look at it, take its table and its figure."""
+"""``wingbeat study``: run a study, print its status, export its table, draw its figure."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def run(
 ) -> int:
     """Solve all points without a result, and keep every result in the store beside the file.
 
-    Ctrl-C waits one second for points that end, saves them and stops; run the study again to resume.
+    Ctrl-C waits one second, saves the points that finish in that time, and stops; run the study again to resume.
     Exit codes: 0 all points certified, 2 bad input, 3 some points not certified, 130 interrupted, 143 terminated.
     Then: wingbeat study status FILE; study export FILE -o table.csv; study plot FILE -o figure.png
 

@@ -52,10 +52,10 @@ def terms(
     json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
 ) -> int:
-    """Find the best wingbeats as a term of the air loads grows from none to all, and where their family changes.
+    """Find the best wingbeats, and changes of family, while the share of a term of the air loads rises from 0 to 1.
 
-    Name the terms with --unsteady and --inflow; if both are named, they grow together. --model animal names both.
-    Exit code 3: no share has a certified orbit.
+    Name the terms with --unsteady and --inflow; if both are named, their shares rise together. --model animal names
+    both. Exit code 3: no share has a certified orbit.
 
     Examples: wingbeat terms pigeon --speed 8 --unsteady thin-aerofoil;
     wingbeat terms bat --speed 6 --inflow momentum --plot inflow.png
@@ -103,7 +103,7 @@ def _print(record: dict[str, Any]) -> None:
     console.print("power: mean of all actuators; the columns beside it show what it is spent on")
     for mark in record["marks"]:
         console.print(f"share {mark['lower']:g} to {mark['upper']:g}: {mark['what']}")
-    told = "one family of wingbeats leads" if record["same_family"] else "no single family of wingbeats leads"
+    told = "one family of wingbeats is best" if record["same_family"] else "no single family of wingbeats is best"
     console.print(f"{told} from share {record['points'][0]['share']:g} to {record['points'][-1]['share']:g}")
 
 

@@ -1,4 +1,4 @@
-"""``wingbeat uncertainty``: error bars of an orbit, to first order and by solving it for drawn parameters."""
+"""``wingbeat uncertainty``: error bars of an orbit, to first order and from orbits with random parameters."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def uncertainty(
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
-    """Compute the uncertainty of an orbit's frequency and power, and whether to trust its first-order estimate.
+    """Compute the uncertainty of an orbit's frequency and power, and check its first-order estimate.
 
     Every number of the species file is drawn uniformly from its plausible range. If `--aero` names a fit, its
-    coefficients are drawn from their covariance. Draws stay in the orbit's family.
+    coefficients are drawn from their covariance. The orbit of every draw belongs to the same family.
 
-    Exit code 0: certified. 3: there is no orbit to begin with.
+    Exit code 0: certified. 3: there is no certified orbit to vary.
 
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
@@ -88,9 +88,12 @@ def _print(one: Comparison, console: Console) -> None:
         line = ((f"{name}, first order is a ranking only", ranking),)
     rows = (
         *line,
-        (f"{name}, {one.certified} of {one.drawn} samples fly", f"{one.mean:.4g} +- {one.deviation:.2g}{unit}"),
+        (
+            f"{name}, {one.certified} of {one.drawn} certified",
+            f"{one.mean:.4g} +- {one.deviation:.2g}{unit}",
+        ),
         ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
-        ("  variance predicted to first order", f"{max(one.explained, 0.0):.1%}"),
+        ("  variance that first order explains", f"{max(one.explained, 0.0):.1%}"),
     )
     for label, value in rows:
         console.print(f"{label:48s}{value}", markup=False, highlight=False, soft_wrap=True)

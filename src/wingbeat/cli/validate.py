@@ -57,12 +57,12 @@ def validate(
     unsteady: Annotated[
         str | None,
         Parameter(
-            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake; rows "
-            "with each if left out."
+            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake. A row "
+            "for each if left out."
         ),
     ] = None,
     inflow: Annotated[
-        str | None, Parameter(help="Induced flow: none or momentum; rows with both if left out.")
+        str | None, Parameter(help="Induced flow: none or momentum. A row for each if left out.")
     ] = None,
     induced_factor: Annotated[
         float | None, Parameter(help="Induced power of the inflow over that of an ideal disc; default 1.2.")
@@ -85,13 +85,13 @@ def validate(
 
     With a strip-motion case, or none, it computes the loads of every coefficient model.
 
-    Each row adds one step of the ladder: no terms, rotation and added mass, the lag of the wake, each with and
-    without momentum inflow. One row is recommended, by a rule that never sees the measured force. A case is a
-    TOML file with tables of strips and forces (.csv) beside it. With `--json`, several cases are a list under
-    `cases`.
+    The rows of a coefficient model add terms step by step: no terms, then rotation and added mass, then the lag of
+    the wake, each with and without momentum inflow. One row is recommended, by a rule that never sees the measured
+    force. A case is a TOML file with tables of strips and forces (.csv) beside it. With `--json`, several cases are
+    a list under `cases`.
 
-    With an animal, it predicts the flights at the measured speeds by a model, and nothing is fitted. Exit code 3:
-    none of them is certified.
+    With an animal, the command predicts its flights at the measured speeds by a model; nothing is fitted. Exit
+    code 3: none of these flights is certified.
 
     Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md;
     wingbeat validate pigeon --draws 100 -o pigeon.md

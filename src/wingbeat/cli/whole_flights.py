@@ -80,7 +80,7 @@ def _print(found: Prediction) -> None:
     from rich.text import Text
 
     console = plain_console()
-    about = f"{found.flights.species}: model {found.model}, least {found.objective.replace('_', ' ')}"
+    about = f"{found.flights.species}: model {found.model}, minimum {found.objective.replace('_', ' ')}"
     console.print(Text(about, style="bold"))
     names = list(next((one.values for one in found.flown if one.values), {}))
     flown = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))

@@ -229,12 +229,12 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
         parts.append("the chosen rows do not offer these terms")
     if aero.coefficients.aspect_ratio is None:
-        parts.append("no momentum inflow (the polar includes the induced flow)")
+        parts.append("no momentum inflow (the polar includes induced flow)")
     elif aero.inflow != "none":
         parts.append("momentum inflow" + (" (slow flight)" if regime.slowness < _SLOW else ""))
     else:
         fast = regime.slowness >= _SLOW
-        parts.append("no momentum inflow" + (" (fast flight: the polar includes the induced flow)" if fast else ""))
+        parts.append("no momentum inflow" + (" (fast flight: the polar includes induced flow)" if fast else ""))
     return "; ".join(parts)
 
 

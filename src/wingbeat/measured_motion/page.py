@@ -9,67 +9,72 @@ from wingbeat.measured_motion.scores import Score
 
 _HEAD = """# Air loads on measured motions
 
-`uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It moves
-strips of a wing as they were measured, and compares the computed forces with the measured ones. For a case
-of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` and the docstring of
-`wb.read_strip_case` describe its files.
+`uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It takes
+measured motions of wings, computes the air loads on the wings' strips, and compares the computed forces with the
+measured ones. For a case of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` and the
+docstring of `wb.read_strip_case` describe its files.
 
 ## What is compared
 
 - **Rows.** Each row is a coefficient model with a choice of terms. `thin-aerofoil` is rotation, added mass and
-  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each goes with or without momentum inflow.
-  Inflow and lag need a model that states its aspect ratio.
-- **Recommended.** A written rule chooses one row, from the Reynolds number, the reduced frequency, the kind of
-  wing and the speed. It never sees the measured force, so the recommended row is not always the closest.
-- **Mean** is the computed mean force over the measured one, **peak** the computed largest force over the measured
-  one. **rms** is the root mean square of the difference between the two forces, over the weight. For **rms about
-  mean**, each force is taken about its own mean: it is the rms of the difference over the rms of the measured
-  force. **lag** is the share of a beat by which the computed force comes late.
-- **Power** is the mean power that the wings give to the air.
-- **Best sine** is a mean and a sine at the beat's frequency, fitted to the measured force itself. A model of the
-  air that is farther from the measurement than this has explained little.
+  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each choice has a row without momentum inflow and
+  one with it. Rows with inflow or lag need a model that states its aspect ratio.
+- **Recommended.** The rule below chooses one row from the Reynolds number, the reduced frequency, the kind of wing
+  and the motion. It never sees the measured force, so the recommended row is not always the closest.
+- **mean** is the computed mean force divided by the measured mean force, and **peak** the computed largest force
+  divided by the measured largest force.
+- **rms** is the root mean square of the difference between the two forces, divided by the weight. For **rms about
+  mean**, we first subtract from each force its own mean, and then divide the rms of the difference by the rms of
+  the measurement.
+- **lag** is the delay of the computed force behind the measured one, as a fraction of the beat.
+- **power** is the mean power that the wings give to the air.
+- The **best sine** is a mean and a sine at the beat's frequency, fitted to the measured force itself. A row that is
+  farther from the measurement than the best sine explains little.
 
 ## The rule
 
 1. The case names the kind of wing. If it does not, a flyer below 2.5 g at a Reynolds number below 7000 counts as
-   an insect with rigid wings, any other as a bird with feathered ones.
-2. Below a Reynolds number of 10 000 the vortex on the leading edge of a wing that turns about its root stays
-   attached, on wings of insects and hummingbirds alike ([Usherwood and Ellington
-   2002](https://doi.org/10.1242/jeb.205.11.1565)). The rule takes the polar of a revolving wing, `dickinson`,
-   which includes the induced flow.
-3. Above it, the rule takes the model named after the kind of wing if there is one, or else the plate, `su-fan`. In
-   slow flight, below twice the induced speed of hover, a model of revolving wings of this kind comes first.
-4. Above a reduced frequency of 0.1 it adds rotation and added mass (Leishman 2006, Principles of Helicopter
+   an insect with rigid wings, and any other flyer as a bird with feathered wings.
+2. Below a Reynolds number of 10 000 the leading-edge vortex of a revolving wing stays attached, on wings of
+   insects and hummingbirds alike ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)). The
+   rule chooses `dickinson`, a polar of revolving wings. It already includes induced flow.
+3. Above this Reynolds number, the rule chooses the model named after the kind of wing if there is one, and
+   otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model of
+   revolving wings of this kind.
+4. Above a reduced frequency of 0.1 the rule adds rotation and added mass (Leishman 2006, Principles of Helicopter
    Aerodynamics, draws the line between 0.05 and 0.2).
-5. It also adds the lag of the wake if the assumption of the theory holds: a straight wake that stays behind the
-   flyer (Theodorsen 1935, NACA Report 496). So the model must state an aspect ratio, as models measured in straight
-   flow do. The speed must be at least twice the induced speed of hover. And for nine tenths of the beat, weighted
-   by area, the angle of attack of the motion must be below that of the polar's largest lift.
-6. In slow flight it adds momentum inflow if the model states its aspect ratio, because the polar of a finite wing
-   does not include the right induced flow there.
+5. Above the same reduced frequency it also adds the lag of the wake if the theory applies. The theory assumes a
+   straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions must therefore be
+   met: the polar was measured in straight flow and states an aspect ratio; the speed is at least twice the induced
+   speed of hover; and the flow is attached for at least 90 % of beat and wing area. Flow counts as attached if the
+   angle of attack, computed from the motion alone, is below that of the polar's largest lift.
+6. In slow flight the polar of a finite wing does not include the right induced flow. The rule then adds momentum
+   inflow if the model states its aspect ratio.
 
 """
 
 _TAIL = """## Derivatives of measured data
 
-Added mass needs accelerations, and measured positions contain noise. Rates of change are the slopes of a cubic
-smoothing spline whose stiffness generalised cross-validation chooses ([Craven and Wahba
-1979](https://doi.org/10.1007/BF01404567)), one stiffness for all strips. Exact data pass unchanged, and the
-first four harmonics of the beat are never smoothed away. A motion that repeats is continued on both sides. In
-others, the first and last frames are less certain: leave them out with `from` and `to`.
+Added mass needs accelerations, and measured positions are noisy. Rates of change are therefore the slopes of a
+cubic smoothing spline. Generalised cross-validation ([Craven and Wahba 1979](https://doi.org/10.1007/BF01404567))
+chooses its stiffness, one value for all strips. Exact data pass unchanged, and the first four harmonics of the beat
+are never smoothed away. If a motion repeats, the spline also uses frames of the beats before and after. If not,
+rates at the first and last frames are less certain: exclude these frames with `from` and `to` in the case.
 
-Velocities in a case are those of points fixed in the wing, through still air. If a case has none, its positions
-are differentiated. If these positions do not advance with the animal, as in a wind tunnel, the speed is added.
+Velocities in a case are those of the wing's material through still air. If a case has none, wingbeat differentiates
+the positions. If the positions do not advance with the animal, wingbeat takes them as measured in a wind tunnel and
+adds the flight speed.
 
 ## The lag of the wake
 
-When the lift of a wing changes, the wing sheds vorticity, and this slows the change. Each strip has the two states
-of Jones's form of Wagner's function (Jones 1940, NACA Report 681), driven by the downwash at three quarters of the
-chord. Past the angle of the polar's largest lift, the polar's lift drives them instead. The polar is read at the
-angle of attack in the air that the wake moves. With lift `2 pi sin(alpha)` this is Theodorsen's lift with his C(k).
-In a motion that repeats, the states repeat too; in any other, the wake starts as in steady flight.
+When the lift of a wing changes, the wing sheds vorticity, and this wake slows the change. Each strip has the two
+states of Jones's form of Wagner's function (Jones 1940, NACA Report 681). The downwash at three quarters of the
+chord drives these states; past the angle of largest lift, the polar's lift drives them instead. The wake moves the
+air at the strip, and the angle of attack in this moving air gives the coefficients. With lift `2 pi sin(alpha)`,
+the result is Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too. In any other motion,
+the wake starts as in steady flight.
 
-The lag is that of a section, as rotation and added mass are. A whole wing lags less than its sections: [air
+The lag is that of a wing section, like rotation and added mass. A whole wing lags less than its sections: [air
 loads](air_loads.md) says what that means for the robot.
 
 ## Whole flights
@@ -77,10 +82,10 @@ loads](air_loads.md) says what that means for the robot.
 `wingbeat validate pigeon` predicts flights instead of computing loads on a given motion: see
 [whole flights](whole_flights.md).
 
-## What no row includes
+## What all rows leave out
 
-No row includes stall that comes late in fast pitching. Strips do not influence each other, and neither do fore wing
-and hind wing.
+No row includes the delay of stall in fast pitching. In the computation, strips do not influence each other, and
+neither do fore wing and hind wing.
 """
 
 
@@ -121,7 +126,7 @@ def _section(found: Validation, figure: str) -> str:
         if sine["rms"] is not None:
             text = f"The best sine differs from the measured {force} force by an rms of {sine['rms']:.2f} weights"
             about = sine["rms_about_mean"]
-            text += "." if about is None else f"; without both means, by {about:.2f} of the measured rms."
+            text += "." if about is None else f"; its rms about mean is {about:.2f}."
             text += "" if noise is None else f" The measurement's own standard error is {noise:.2f} weights."
             lines += [text, ""]
     lines += [f"Note: {note}." for note in found.notes]

@@ -29,7 +29,7 @@ BEAT = (
         short="largest activation",
     ),
     Term("muscle_power_per_mass", "W kg-1", "mean positive power of the flap hinges' muscles over their mass"),
-    Term("muscle_work_per_mass", "J kg-1", "positive work of a beat of the flap hinges' muscles over their mass"),
+    Term("muscle_work_per_mass", "J kg-1", "positive work per beat of the flap hinges' muscles over their mass"),
     Term("muscle_efficiency", "1", "mean positive power of the muscles over their metabolic power"),
     Term(
         "electrical_power",
@@ -90,7 +90,7 @@ ANSWER = (
     Term("active_bounds", "", "bounds that the orbit is at"),
     Term("failed_balance", "", "balances that fail, and by how much"),
     Term("relaxations", "", "smallest single changes that give an orbit"),
-    Term("plausibility", "", "judged numbers with their plausible ranges"),
+    Term("plausibility", "", "numbers of the orbit that have plausible ranges, with these ranges"),
     Term("floquet_multipliers", "1", "Floquet multipliers of the orbit"),
     Term("largest_multiplier", "1", "largest modulus of the Floquet multipliers"),
     Term("stable", "1", "whether every Floquet multiplier lies within the unit circle"),
@@ -102,7 +102,7 @@ ANSWER = (
     Term(
         "continued",
         "",
-        "continuation steps to this optimum from an optimum of the previous speed, 0 if none leads here",
+        "continuation steps between an optimum and one at the next speed, 0 if continuation does not link them",
     ),
 )
 STUDY = (
@@ -110,7 +110,7 @@ STUDY = (
     Term(
         "certificate",
         "1",
-        "largest residual of the certifier's flight among lengths, angles and velocities, in SI units",
+        "largest residual of the re-flown orbit, among lengths, angles and velocities in SI units",
     ),
     Term("error", "", "why the point has no result"),
     Term("run_seconds", "s", "time to solve the point"),

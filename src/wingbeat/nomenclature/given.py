@@ -49,7 +49,13 @@ GIVEN = (
         "share of the power that the gear transmits, in either direction",
     ),
     Term("crank", "1", "whether the motor turns a crank", "", "1: at constant speed; 0: reversing with the wings"),
-    Term("springs.stiffness", "N m rad-1", "stiffness of the springs beside the actuators", "k", "both sides"),
+    Term(
+        "springs.stiffness",
+        "N m rad-1",
+        "stiffness of the springs in parallel with the actuators",
+        "k",
+        "both sides",
+    ),
     Term("springs.rest_angle", "rad", "flap angle at which the springs exert no torque"),
     Term("series_compliance", "rad N-1 m-1", "compliance of the springs in series", "", "both sides; 0 is rigid"),
     Term("semi_span", "m", "semi-span of the wing", "L₀", "shoulder to tip at mid-downstroke"),
@@ -190,11 +196,11 @@ AERO = (
     Term("decay_rate", "deg-1", "rate of a coefficient formula's decay"),
     Term("power_amplitude", "1", "amplitude of a coefficient formula's power law"),
     Term("exponent", "1", "exponent of a coefficient formula's power law"),
-    Term("zero_lift_deg", "deg", "angle of attack at which a cambered wing's line of lift is zero"),
+    Term("zero_lift_deg", "deg", "angle of attack at which the linear lift of a cambered wing is zero"),
     Term("wing.lift_slope", "rad-1", "lift slope of a cambered wing in attached flow"),
     Term("lift_lowest", "1", "lift coefficient of a cambered wing beyond the stall at negative lift"),
     Term("lift_highest", "1", "lift coefficient of a cambered wing beyond the stall at positive lift"),
-    Term("lift_rounding", "1", "width of the rounding where a cambered wing's line of lift meets a stall"),
+    Term("lift_rounding", "1", "width of the rounding where the linear lift of a cambered wing meets a stall"),
     Term("drag_least", "1", "drag coefficient of a cambered wing without lift or separated flow"),
     Term(
         "drag_induced", "1", "induced drag coefficient of a cambered wing over the square of its lift coefficient"

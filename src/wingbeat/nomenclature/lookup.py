@@ -1,6 +1,6 @@
 """The table of names, and how to look up a dotted name in it, as in records, studies and ``--set``.
 
-Where the last part of a name means several things, the table's name includes the part before it: ``wing.mass``.
+If the last part of a name has several meanings, the table's name includes the part before it: ``wing.mass``.
 """
 
 from __future__ import annotations

@@ -61,9 +61,13 @@ SERIES = (
 # Series that most flights do not have: laws that are off, and what a body takes that moves as filmed.
 SERIES_WHERE_ON = (
     Term("chord_ratio", "1", "chord that meets the air over full chord", "c/c₀"),
-    Term("missing_force_x", "N", "forward force missing to the prescribed motion of the body"),
-    Term("missing_force_z", "N", "upward force missing to the prescribed motion of the body"),
-    Term("missing_moment", "N m", "moment missing to the prescribed motion of the body, nose up positive"),
+    Term("missing_force_x", "N", "forward force that the model lacks for the prescribed motion of the body"),
+    Term("missing_force_z", "N", "upward force that the model lacks for the prescribed motion of the body"),
+    Term(
+        "missing_moment",
+        "N m",
+        "moment that the model lacks for the prescribed motion of the body, nose up positive",
+    ),
     Term("tip_twist", "rad", "angle that the twist law adds to the pitch at the tip"),
 )
 GLIDE = (

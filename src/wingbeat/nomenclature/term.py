@@ -1,4 +1,4 @@
-"""What is known of one name."""
+"""An entry of the table of names."""
 
 from __future__ import annotations
 

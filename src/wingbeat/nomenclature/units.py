@@ -1,4 +1,4 @@
-"""One unit in three spellings: as data sets write it, as plain text does, and as people like to read it."""
+"""A unit in three spellings: for data sets, for plain text, and for readers."""
 
 from __future__ import annotations
 

@@ -32,9 +32,9 @@ _ALWAYS = ("positive_power_per_mass", "frequency", "flap_amplitude_deg")
 def flights_page(prediction: Prediction) -> Figure:
     """Return a figure of an animal's predicted flights and its measured ones.
 
-    The line with points is the prediction, and the band around it holds 80 per cent of the certified draws of the
-    animal's numbers. Boxes and bars are measured values: their height is a standard deviation either side of the
-    mean, or the range that the source gives. A vertical stripe marks the measured speed of minimum power.
+    The line with points is the prediction, and the band around it contains 80 % of the certified draws, in which
+    the animal's numbers vary. Boxes and bars are measured values: their height is a standard deviation either side
+    of the mean, or the range that the source gives. A vertical stripe marks the measured speed of minimum power.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The glide polar as a figure: sink and glide ratio against speed, and what trims or holds the wings."""
+"""The glide polar as a figure: sink, glide ratio, angles, and the torques that hold the wings, against speed."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def glide_page(dataset: xr.Dataset) -> Figure:
     """
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "glide":
-        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give that of glide_polar")
+        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give that of a GlidePolar")
     faults.raise_if_any()
     speed = dataset["speed"].values
     with drawing():

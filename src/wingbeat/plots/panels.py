@@ -54,7 +54,7 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
 
 
 def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
-    """Draw velocity against place for the three degrees of freedom, marked where the strokes begin."""
+    """Draw velocity against position for the three degrees of freedom, marked where the strokes begin."""
     from matplotlib.legend_handler import HandlerTuple
 
     (x, x_unit), (z, z_unit) = _length(dataset["x"].values), _length(dataset["z"].values)
@@ -109,7 +109,7 @@ def _portrait(
 
 
 def _ends_at_the_top(phase: np.ndarray, strokes: Sequence[tuple[float, float]]) -> bool:
-    """Say whether the last sample is a whole number of beats after the begin of a downstroke."""
+    """Say whether the last sample is a whole number of beats after the start of a downstroke."""
     beats = phase[-1] - np.array([first for first, _ in strokes])
     return bool(np.any(np.abs(beats - np.round(beats)) < 1e-9))
 

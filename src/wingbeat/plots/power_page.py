@@ -1,4 +1,4 @@
-"""What the hinge power of an orbit is made of: its shares, what a spring takes over, what braking costs."""
+"""The hinge power of an orbit: its parts, the part that a spring takes over, and the cost of negative work."""
 
 from __future__ import annotations
 

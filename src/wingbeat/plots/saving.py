@@ -23,7 +23,7 @@ def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) 
 
     Parameters
     ----------
-    faults : takes the fault.
+    faults : receives the fault.
     where : the name of the option or argument.
     path : of the figure.
     """

@@ -1,4 +1,4 @@
-"""Lift and thrust over the beat by our loads and by a vortex lattice on the same motion."""
+"""Lift and thrust over the beat, from our loads and from a vortex lattice on the same motion."""
 
 from __future__ import annotations
 

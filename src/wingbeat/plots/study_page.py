@@ -39,7 +39,7 @@ def study_page(
     Parameters
     ----------
     frame : the table of the study, `Study.to_dataframe`.
-    varied : columns that were varied with numbers.
+    varied : the numeric columns that the study varies.
     quantity : column to draw.
     label : its label, with the unit.
     units : of the varied parameters.

@@ -1,4 +1,4 @@
-"""What terms of the air loads do to the best wingbeat, drawn along their share."""
+"""What terms of the air loads do to the best wingbeat, drawn against their share."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _SPENT = {"profile": FIRST, "induced": SECOND, "unsteady": THIRD}
 
 
 def terms_page(record: dict[str, Any]) -> Figure:
-    """Draw frequency, flap amplitude and power of the best orbits along the share of the terms.
+    """Draw frequency, flap amplitude and power of the best orbits against the share of the terms.
 
     Lines end where the best orbit changes branch. The last panel shows what the mean power is spent on.
 

@@ -22,7 +22,7 @@ def tornado_page(found: Sensitivities) -> Figure:
 
     Parameters
     ----------
-    found : of `wingbeat.sensitivities`.
+    found : from `wingbeat.sensitivities`.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")

@@ -1,4 +1,4 @@
-"""The page that shows a measured motion: forces, what the models give, what is left, and angles of attack."""
+"""The page of a measured motion: measured and computed forces, residuals, and angles of attack."""
 
 from __future__ import annotations
 

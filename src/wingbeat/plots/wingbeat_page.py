@@ -1,4 +1,4 @@
-"""One page of a wingbeat or a flight: nine panels, what flies above them, how to read them below."""
+"""One page of a wingbeat or a flight: nine panels, a title above them, and how to read them below."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
     """Draw one page, 183 mm wide, of an orbit's or a flight's time series; downstrokes are shaded.
 
     a: wing kinematics; b: body pitch; c: power; d to f: phase portraits; g: effective angle of attack; h and i:
-    horizontal and vertical force on one strip of both wings at 1/4 and 3/4 of the span, divided by the weight. Two
-    statements at the top say how well the orbit closes and whether it is plausible. They are green if both are
-    true; a false one is red.
+    horizontal and vertical force on the strips at 1/4 and 3/4 of the span, both wings together, over the weight.
+    Two statements at the top say how well the orbit closes and whether it is plausible. They are green if both
+    are true; a false one is red.
 
     Parameters
     ----------

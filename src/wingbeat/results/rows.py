@@ -153,7 +153,7 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     if record.get("optimality") is not None:
         rows.append(("optimality (largest KKT residual)", f"{record['optimality']:.1e}"))
     if "starts" in record:
-        rows.append(("starts, those that ended here", f"{record['starts']}, {record.get('starts_at_best')}"))
+        rows.append(("starts, reached this optimum", f"{record['starts']}, {record.get('starts_at_best')}"))
         rows.append(("distinct optima found", str(record.get("distinct_optima"))))
     rows.append(("at the bound of", ", ".join(record.get("active_bounds") or []) or "nothing"))
     return rows
@@ -172,8 +172,8 @@ def stability_rows(record: dict[str, Any]) -> Rows:
     growth = math.log(max(sizes)) if max(sizes) > 0 else -math.inf
     if growth:
         time = math.log(2.0) / abs(growth)
-        what = "double" if growth > 0 else "halve"
-        rows.append((f"a disturbance takes to {what}", f"{time:.3g} beats"))
+        what = "doubles" if growth > 0 else "halves"
+        rows.append((f"a disturbance {what} in", f"{time:.3g} beats"))
     return rows
 
 

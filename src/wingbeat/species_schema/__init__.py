@@ -1,4 +1,4 @@
-"""Species files: what they may hold, faults in words, and the numbers read from them. No physics."""
+"""Species files: which keys they may have, messages about their faults, and their numbers. No physics."""
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken

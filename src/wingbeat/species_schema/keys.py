@@ -1,4 +1,4 @@
-"""The numbers of a species: their paths and shapes, with what the table of names says of them."""
+"""The numbers of a species: their paths and shapes, with units and meanings from the table of names."""
 
 from __future__ import annotations
 

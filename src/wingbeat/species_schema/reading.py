@@ -1,4 +1,4 @@
-"""From the text of a species file to numbers in SI units, every fault of the file noted on the way."""
+"""Read the text of a species file into numbers in SI units, and note every fault of the file."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Numbers(dict[str, Number]):
         self.written[key.path] = (path, value)
 
     def quote(self, fault: Fault) -> Fault:
-        """Return a constructor's fault with the path, value and unit that the file uses."""
+        """Return a fault that a constructor found, with the path, value and unit that the file uses."""
         where = fault.where if fault.where.startswith(("wingbeat.", "air.")) else f"vehicle.{fault.where}"
         for canonical, (path, value) in self.written.items():
             rest = where[len(canonical) :]
@@ -97,7 +97,7 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
 
     Raises
     ------
-    FileError : empty, not TOML, or nested beyond reason.
+    FileError : empty, not TOML, or nested too deeply.
     """
     raw = toml_tables(text, label)
     if not raw:

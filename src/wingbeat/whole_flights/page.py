@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from wingbeat.nomenclature import label_of
 from wingbeat.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
@@ -17,19 +16,34 @@ _FIT = (
 
 _SUMMARY = """## What the comparisons say
 
-- **Power comes out best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
-  54 to 85 W/kg from 7 to 11 m/s, where 40 to 120 W/kg were measured over all speeds; at 3 and at 14 m/s it needs
-  too much. Curves of power are U-shaped. Their minimum is at 9 m/s for the cockatiel, where 10 m/s was measured,
-  and at 12 m/s for the pigeon, where 8 to 9 m/s were estimated.
-- **Frequency comes out worst.** In slow flight it is about twice that of live animals. At medium speed, pigeon and
-  zebra finch beat at a little more than half of it. No single number of the muscle explains that
-  ([what sets the frequency](frequency_trials.md)).
-- **Alcids beat twice as fast as measured**, with amplitudes near the measured ones. Their wings are small: at
-  16 m/s the murre and the puffins need a mean lift coefficient of 1.0 to 1.25 without flapping, and our gliding
-  wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that their authors assume. We have not
-  tested that.
-- **Muscle is too efficient**: 0.5, where 0.06 to 0.11 was measured. Measured metabolic power includes the rest of
-  the body and the recovery of the muscle, and ours does not."""
+- **Power agrees best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
+  54 to 85 W/kg from 7 to 11 m/s, within the 40 to 120 W/kg that were measured over all speeds. At 3 and 14 m/s the
+  predicted power is too high. Curves of power are U-shaped. The predicted minimum is at 9 m/s for the cockatiel
+  (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
+- **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
+  speed, the predictions for pigeon and zebra finch are a little more than half of the live animals' frequency. No
+  single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
+- **The predicted alcids beat twice as fast as measured**, with amplitudes near the measured ones. Alcids have small
+  wings. To carry the weight at 16 m/s without flapping, the murre and the puffins need a mean lift coefficient of
+  1.0 to 1.25, and our gliding wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that the
+  authors of the measurements assume. We have not tested that.
+- **The predicted muscle is too efficient**: its efficiency is 0.5, and the measured or estimated one 0.06 to 0.11.
+  Measured metabolic power includes the rest of the body and the recovery of the muscle, and ours does not."""
+
+
+_RATIO = " *Ratio* is the prediction divided by the middle of the measured range."
+# The quantities that are compared by a factor, in few words.
+_IN_SHORT = {
+    "frequency": "frequency",
+    "flap_amplitude_deg": "flap amplitude",
+    "positive_power_per_mass": "hinge power",
+    "muscle_power_per_mass": "muscle power",
+    "muscle_efficiency": "muscle efficiency",
+}
+_ABOUT_DRAWS = (
+    "A draw takes all numbers of the animal at random from their ranges; it flies if its orbit is certified. In "
+    "brackets: the range of the middle 80 % of the draws that fly."
+)
 
 
 def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
@@ -42,19 +56,19 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     common_name : of the animal, for the heading.
     """
     flights, drawn = prediction.flights, max(one.drawn for one in prediction.flown)
-    asked, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
+    option, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
     parts = [
         f"# Whole flights: {common_name}",
-        f"`uv run wingbeat validate {flights.species}{asked} -o PAGE.md` writes this page. It flies the animal at "
+        f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It flies the animal at "
         f"each speed by the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
         f"![Power, frequency and flap amplitude against speed, with measured values]({figure})",
         "## Compared with measurements",
         _score_table(compared(prediction)),
-        _how_to_read(),
+        _how_to_read() + _RATIO,
         "## The flights",
         _flown_table(prediction.flown),
-        "`activation` is the largest share of its muscle fibres that the beat uses; above 1, the muscle that we "
-        "gave the animal is too weak. In brackets: the values between which 80 % of the certified draws lie.",
+        "`activation` is the largest share of the flight muscle's fibres that the beat uses; above 1, the model's "
+        "muscle is too weak. " + (_ABOUT_DRAWS if drawn else "This page has no draws (option `--draws`)."),
     ]
     if any(one.due_to for one in prediction.flown):
         parts += ["## What the bands follow", _due_text(prediction.flown)]
@@ -92,15 +106,16 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
 
 
 def _how_to_read() -> str:
-    factors = ", ".join(
-        f"{label_of(name)} {factor:g}" for name, factor in AGREES.items() if name != "minimum_power_speed"
-    )
+    by_factor: dict[float, list[str]] = {}
+    for name, words in _IN_SHORT.items():
+        by_factor.setdefault(AGREES[name], []).append(words)
+    factors = "; ".join(f"{factor:g} for {', '.join(names)}" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]
     return (
-        "A prediction agrees if it lies, at every speed, within a factor of the measured values: "
-        f"{factors}. If the measured values begin at 0, the larger one is a limit without a factor. The speed of "
-        f"minimum power agrees within {near:g} m/s. *Measured* numbers are those of the animal, *estimated* ones "
-        "hold somebody's model, and a *law* is of other animals."
+        "A prediction agrees if, at every speed, it is within the measured range or outside it by at most a factor "
+        f"({factors}). If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
+        f"minimum power agrees if it is at most {near:g} m/s outside the range. *Basis*: a *measured* number comes "
+        "from the animal, an *estimated* one also from somebody's model, and a *law* was fitted to other animals."
     )
 
 
@@ -110,10 +125,10 @@ def _score_table(scores: Iterable[Score]) -> str:
         "| --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for one in scores:
-        told = one.measurement
+        known = one.measurement
         lines.append(
-            f"| {name_of(told.quantity)} | {told.basis} | {ends_of(told.values)} | {_speeds(one)} | "
-            f"{ends_of(one.predicted)} | {ends_of(one.ratio)} | {words_of(one)} | {told.what} ({told.source}) |"
+            f"| {name_of(known.quantity)} | {known.basis} | {ends_of(known.values)} | {_speeds(one)} | "
+            f"{ends_of(one.predicted)} | {ends_of(one.ratio)} | {words_of(one)} | {known.what} ({known.source}) |"
         )
     return "\n".join(lines)
 
@@ -140,9 +155,9 @@ def _band(one: Flown, name: str) -> str:
 
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
-        "All numbers of the animal are drawn at once from their ranges. The table names those that a quantity "
-        "follows most over the draws, with the square of the rank correlation. A better measurement of the first "
-        "would narrow the band most.",
+        "The table names the numbers of the animal with which a quantity changes most over the draws, and the "
+        "square of the rank correlation of each. A better measurement of the first number would narrow the band "
+        "most.",
         "",
         "| speed [m/s] | quantity | follows |",
         "| --- | --- | --- |",

@@ -54,7 +54,7 @@ class Change:
     Parameters
     ----------
     name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass`` (the
-        vehicle's mass; the change is taken off the body), ``speed``, ``climb`` or ``shoulder`` (its distance ahead
+        vehicle's mass; only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (its distance ahead
         of the body's centre of mass).
     sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for a fixed number.
     old : its value, SI and radians.
@@ -147,7 +147,7 @@ def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 
     text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
     text += f" {shown}" if shown else ""
     if change.name == "mass":
-        text += f" ({100 * (new / change.old - 1):.2g} %, off the body)"
+        text += f" ({100 * (new / change.old - 1):.2g} %, by a lighter body)"
     return Relaxation(change.name, change.sign, change.old, new, unit, text)
 
 

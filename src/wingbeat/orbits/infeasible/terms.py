@@ -84,9 +84,9 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
     closes = f"this flight closes at {frequency:.3g} Hz"
     if name == INFLOW:
         ratio = problem.aero.coefficients.aspect_ratio
-        why = f"the coefficients, of a wing of aspect ratio {ratio:g}, then hold that wing's induced flow"
+        why = f"the coefficients, measured on a wing of aspect ratio {ratio:g}, then include its induced flow"
         if math.isinf(ratio):
-            why = "coefficients that were measured on a finite wing already hold its induced flow"
+            why = "coefficients that were measured on a finite wing already include its induced flow"
         return f"without momentum inflow {closes}: {why}"
     if name == UNSTEADY:
         return f"without the unsteady terms {closes}: rotation, added mass and couples make the difference"

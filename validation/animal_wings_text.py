@@ -107,7 +107,7 @@ GUESSES = (
     J. Exp. Biol. 214:1867). It states no aspect ratio, because coefficients of a revolving wing already
     include its induced flow. For its C_D beyond stall, the sources differ by a factor of three: 0.49 follows
     from the lift-to-drag ratio of 3.33 that Crandell and Tobalske give at 46 degrees, and 1.53 from a force
-    normal to the wing, as on revolving plates. The model uses the middle of the two. Use this model for hover
+    normal to the wing, as on revolving plates. The model uses their geometric mean. Use this model for hover
     and slow flight.""",
     """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so it
     holds for slow and fast flight. That the two join in this way is a guess. It is not meant for glides, in which

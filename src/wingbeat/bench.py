@@ -32,7 +32,7 @@ _SPEEDS = np.linspace(8.0, 14.0, 20)
 
 
 def median_seconds(run: Callable[[], Any], repeats: int) -> float:
-    """Return the median time of a call [s]; a first call is not counted."""
+    """Return the median time of a call [s]; a call before these, which compiles, is not counted."""
     run()
     times = []
     for _ in range(repeats):
@@ -43,7 +43,7 @@ def median_seconds(run: Callable[[], Any], repeats: int) -> float:
 
 
 def right_hand_side(lanes: int = LANES) -> float:
-    """Return the time of one right-hand side when many flights are integrated together [s]."""
+    """Return the time to evaluate the equations of motion once when many flights are integrated together [s]."""
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     random = np.random.default_rng(0)
     motion = motion_table(problem.model, problem.species.wingbeat, random.uniform(0.0, 1.0, lanes))
@@ -60,7 +60,7 @@ def right_hand_side(lanes: int = LANES) -> float:
 
 
 def jacobian() -> float:
-    """Return the time of one flight as the search needs it, with derivatives [s]."""
+    """Return the time of one flight with its derivatives, as the search computes it [s]."""
     problem = OrbitProblem(load_species("pigeon"), speed=10.0)
     point = start_point(problem, 0, 0)
     fly = flier(problem.model, problem.species.wingbeat, problem.free)
@@ -68,7 +68,7 @@ def jacobian() -> float:
 
 
 def orbits(animal: str) -> list[Solution]:
-    """Return the orbits of an animal at 20 shuffled speeds, one start each; a first orbit is not counted."""
+    """Return the orbits of an animal at 20 shuffled speeds, one start each, after one that is not counted."""
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
@@ -76,7 +76,10 @@ def orbits(animal: str) -> list[Solution]:
 
 
 def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
-    """Yield problems of both animals and coefficient models at any speed, masses and lengths within 10 percent."""
+    """Yield random problems: one of two animals, one of two coefficient models, and a speed from 4 to 16 m/s.
+
+    Masses and the wing's length are within 10 percent of the animal's.
+    """
     random = np.random.default_rng(seed)
     species = {name: load_species(name) for name in ANIMALS}
     for i in range(count):
@@ -107,7 +110,7 @@ def machine() -> dict[str, Any]:
 
 
 def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, Any]:
-    """Measure this machine, one search at a time and, where the system allows it, on one core.
+    """Measure this machine, on one core if the system allows it.
 
     Parameters
     ----------
@@ -116,10 +119,11 @@ def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, An
 
     Returns
     -------
-    Times, versions and device. ``rhs_ns``: a right-hand side when many are evaluated together. ``jacobian_ms``: a
-    flight with derivatives. ``pigeon_ms`` and ``bat_ms``: a warm orbit with its certificate (medians over 20
-    speeds); of these, ``solve_ms`` goes into search and correction and ``certify_ms`` into the certificate.
-    ``batch_ms``: an orbit in a batch; ``batch_certified``: the number of its certified orbits.
+    Times, versions and device. ``rhs_ns``: one evaluation of the equations of motion, of many that run together.
+    ``jacobian_ms``: a flight with derivatives. ``pigeon_ms`` and ``bat_ms``: an orbit with its certificate, without
+    compilation (medians over 20 speeds). ``solve_ms`` and ``certify_ms``: the parts of these times that the search
+    with its correction and the certificate take. ``batch_ms``: an orbit in a batch. ``batch_certified``: the number
+    of certified orbits in the batch.
     """
     with _one_core():
         return _measure(batch, progress)
@@ -127,7 +131,7 @@ def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, An
 
 @contextlib.contextmanager
 def _one_core() -> Iterator[None]:
-    """Keep this process to one core: JAX then uses one thread, unless it has computed before."""
+    """Restrict this process to one core. JAX then uses one thread, unless it has already computed something."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return

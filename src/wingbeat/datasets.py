@@ -1,4 +1,4 @@
-"""What every reader of a wingbeat data set needs to know of it."""
+"""Names in wingbeat's data sets, and functions that the readers of data sets share."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[tuple[float, f
 
     Parameters
     ----------
-    phase, flap_rate : of the samples, shape (K,) [1, rad/s].
+    phase, flap_rate : phase and flap rate of the samples, shape (K,) [1, rad/s].
 
     >>> downstrokes(np.array([0.0, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, -1.0, 0.0, 1.0, 0.0]))
     [(0.0, 0.5)]

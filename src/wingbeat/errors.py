@@ -1,4 +1,4 @@
-"""What wingbeat raises, and the checks at its doors that collect every fault before they speak."""
+"""The errors that wingbeat raises, and checks of inputs that collect all faults before they raise one error."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ class ClusterError(WingbeatError):
 
 
 class ForkError(WingbeatError, RuntimeError):
-    """A forked process cannot run JAX, since its parent has; the message says how to start one that can."""
+    """A forked process cannot run JAX if its parent has used JAX; the message says how to start one that can."""
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or has died twice over the same work; the message says how it ended."""
+    """A worker process cannot be started, or two have died on the same work; the message says how."""
 
 
 def install_extra(extra: str) -> str:

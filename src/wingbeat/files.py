@@ -1,4 +1,4 @@
-"""Files read with their size and kind checked, and written whole or not at all."""
+"""Reads files after checking their kind and size, and writes files completely or not at all."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
 
     Raises
     ------
-    FileError : not TOML, nested beyond reason, or a line of more than 4096 characters.
+    FileError : not TOML, nested too deeply, or a line of more than 4096 characters.
 
     >>> toml_tables("[wing]\nspan = 0.3", "a text")
     {'wing': {'span': 0.3}}

@@ -1,7 +1,7 @@
 """How the wings beat: the record of a wingbeat and its laws as functions of phase.
 
-Phase runs from 0 at the top of the stroke to 1; the downstroke is its first half, or `downstroke_fraction` of it.
-Every law beyond the paper's is off by default, and one that is off is no part of any compiled program.
+Phase runs from 0 at the top of the stroke to 1. The downstroke lasts from 0 to 1/2, or to `downstroke_fraction`.
+All laws beyond those of Su et al. 2023 are off by default; a law that is off is left out of the compiled programs.
 """
 
 from __future__ import annotations
@@ -45,16 +45,17 @@ class Wingbeat:
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
     pitch_phase : phase lead of pitch over flap [rad].
-    downstroke_fraction : share of the wingbeat taken by the downstroke; all laws are stretched equally.
+    downstroke_fraction : share of the wingbeat that the downstroke takes; all laws are stretched equally.
     sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
-        without phase it is largest at mid-downstroke (protraction).
+        with `sweep_phase` 0 it is largest at mid-downstroke (protraction).
     stroke_plane_tilt : added to the wing's stroke-plane angle [rad].
     tail_tilt : added to the tail's incidence [rad]; without a tail it has no effect.
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
-    chord_retraction : share of the chord lost at mid-upstroke, 0 to below 1. Only what meets the air shrinks: the
-        wing's mass stays where the full chord puts it, and quarter chords stay on their line.
-    twist_mean : angle that adds to the pitch in proportion to the span fraction, full at the tip [rad].
+    chord_retraction : share of the chord lost at mid-upstroke, 0 to below 1. Only the chord that meets the air
+        shrinks; the wing's mass stays distributed over the full chord, and the quarter-chord line does not move.
+    twist_mean : angle at the tip that is added to the pitch there, and elsewhere in proportion to the span
+        fraction [rad].
     sweep_harmonics : cosine and sine of order 2, of order 3 and so on [rad].
     chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord over the full chord.
     twist_harmonics : cosine and sine of order 1, 2 and so on, of the angle whose mean is `twist_mean` [rad].
@@ -126,7 +127,7 @@ class Wingbeat:
             faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "in rad")
 
     def _check_harmonics(self, faults: FaultList) -> bool:
-        """Note lists that are none of pairs; say whether all hold numbers."""
+        """Note harmonics that are not lists of pairs; return whether all are lists of numbers."""
         sound = True
         for law, first in FIRST_ORDER.items():
             where, given = f"wingbeat.{law}_harmonics", getattr(self, f"{law}_harmonics")
@@ -142,7 +143,7 @@ class Wingbeat:
         return sound
 
     def _check_extremes(self, faults: FaultList) -> None:
-        """Note a span or a chord that vanishes somewhere in the beat, and a sweep of a right angle."""
+        """Note a span or a chord that vanishes somewhere in the beat, and a sweep that reaches a right angle."""
         turn = np.linspace(0.0, 2 * math.pi, 721)
         for law, retraction in (("span", self.span_retraction), ("chord", self.chord_retraction)):
             harmonics = getattr(self, f"{law}_harmonics")
@@ -171,10 +172,11 @@ ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.st
 
 
 def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the phase as it were if down- and upstroke took as long: 0 at the top, 1/2 at the bottom.
+    """Return the phase of a wingbeat with equal down- and upstroke: 0 at the top, 1/2 at the bottom.
 
-    A Moebius map of the circle, smooth and rising for every fraction d of the downstroke: seen from mid-downstroke
-    ``tan(theta/2) = cot(pi d/2) tan(alpha/2)``, so d goes to 1/2 and 1 to 1.
+    If phases are angles from mid-downstroke, an angle alpha becomes theta with ``tan(theta/2) = cot(pi d/2)
+    tan(alpha/2)``, d the downstroke fraction. Phase d becomes 1/2, and 1 stays 1. This Moebius map of the circle is
+    smooth and increasing for every d.
     """
     if at_default(wingbeat, "downstroke_fraction"):
         return phase
@@ -242,7 +244,7 @@ def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
 
 def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
-    """Return the chord that meets the air over the full chord, None where it stays the full chord."""
+    """Return the chord that meets the air over the full chord, None if it is always the full chord."""
     if at_default(wingbeat, "chord_retraction") and not wingbeat.chord_harmonics:
         return None
     at = stroke_phase(wingbeat, phase)
@@ -251,10 +253,10 @@ def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
 
 def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
-    """Return the angle that the twist law adds to the pitch at the tip [rad], None where it is off.
+    """Return the angle that the twist law adds to the pitch at the tip [rad], None if the law is off.
 
-    At the tip, ``twist_ratio`` times the pitch of the root comes on top. At a span fraction s/L, the law adds s/L
-    of its angle at the tip.
+    The whole pitch at the tip is this angle plus ``twist_ratio`` times the pitch at the root. At a span fraction
+    s/L, the law adds s/L of the angle.
     """
     if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
         return None
@@ -264,7 +266,7 @@ def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
 
 def in_use(wingbeat: Wingbeat, name: str) -> bool:
-    """Say whether a number is part of the wingbeat's laws: a harmonic that is there, a law that is not off."""
+    """Return whether a parameter is in use: a harmonic that is given, or a parameter of a law that is on."""
     harmonic = harmonic_place(name)
     if harmonic is not None:
         return harmonic[1] < len(getattr(wingbeat, harmonic[0]))
@@ -272,7 +274,7 @@ def in_use(wingbeat: Wingbeat, name: str) -> bool:
 
 
 def parameter(wingbeat: Wingbeat, name: str) -> Scalar:
-    """Return one number of a wingbeat by its name; a harmonic that is not there is 0.
+    """Return one number of a wingbeat by its name; a harmonic that is not given is 0.
 
     >>> parameter(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3, flap_harmonics=(0.0, 0.05)), "flap_sin_2")
     0.05
@@ -301,11 +303,11 @@ def _fields(wingbeat: Wingbeat, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
-    """Return the wingbeat with some of its numbers changed, checked as always.
+    """Return the wingbeat with some of its numbers changed.
 
     Raises
     ------
-    InvalidInputError : a wingbeat that cannot be.
+    InvalidInputError : numbers that `Wingbeat` refuses.
 
     >>> with_parameters(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), {"pitch_cos_2": 0.1}).pitch_harmonics
     (0.1, 0.0)

@@ -1,8 +1,8 @@
-"""What a species is flown with: the choices of the paper, or those that suit a live animal of its kind.
+"""Models of a flight: the choices of Su et al. 2023, or those that suit a live animal or a robot.
 
-The model of a flight is many choices: coefficients, terms of the air loads, parts of the vehicle, free parameters
-and the objective. `paper` makes those of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), `animal` those of a bird,
-a bat or a robot. Choices depend on what the flyer is. None is fitted to a measured flight.
+A model chooses coefficients, terms of the air loads, parts of the vehicle, free parameters and the objective.
+`paper` makes the choices of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), `animal` those for a bird, a bat or a
+robot. The choices depend on the kind of flyer. None is fitted to a measured flight.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ _FREE = {
 
 @dataclass(frozen=True)
 class Model:
-    """All choices of a flight but species and speed; made by `paper` and `animal`.
+    """All choices for a flight except species and speed; `paper` and `animal` return models.
 
     Attributes
     ----------
     name : ``"paper"`` or ``"animal"``.
-    kind : kind of flyer that it is for; empty for any.
+    kind : kind of flyer that the model is for; empty if it is for any.
     aero : the air loads.
 
     >>> import wingbeat as wb
@@ -83,18 +83,18 @@ class Model:
 
     @property
     def gliding(self) -> BladeElement:
-        """The air loads of a glide: a feathered wing that is held still stalls as early as gliding wings do."""
+        """The air loads of a glide: a feathered wing that does not flap stalls as early as gliding wings do."""
         if self.aero.coefficients.name != "feathered-flapping":
             return self.aero
         width = self.aero.coefficients.blend_width_deg
         return dataclasses.replace(self.aero, coefficients=Feathered(blend_width_deg=width))
 
     def objective(self, species: Species) -> str:
-        """Return the name of the quantity that it minimises.
+        """Return the name of the quantity that the model minimises.
 
         Parameters
         ----------
-        species : as flown, from `Model.species`.
+        species : the species with the model's additions, from `Model.species`.
         """
         if self.name == "paper":
             return "frequency"
@@ -106,8 +106,9 @@ class Model:
     def species(self, species: Species) -> Species:
         """Return the species with what the model adds to it: body drag, tail, muscle, free parameters.
 
-        What the species file gives stays, but a body drag of 0 counts as not given unless it was set by hand. Laws
-        take the whole mass, so add a payload afterwards: ``model.species(pigeon).with_payload(0.03)``.
+        Values that the species file gives are kept, but a body drag of 0 counts as not given unless it was set by
+        hand. The scaling laws use the whole mass, so add a payload afterwards:
+        ``model.species(pigeon).with_payload(0.03)``.
 
         Parameters
         ----------
@@ -130,7 +131,7 @@ class Model:
         return _freed(flown)
 
     def _changed(self, flown: Species, changes: Mapping[str, Any]) -> Iterator[str]:
-        """Yield the names of what the user chose otherwise than the model."""
+        """Yield the names of the choices in which the user departs from the model."""
         own = _air_loads(self.name, self.kind)
         for place in dataclasses.fields(BladeElement):
             if getattr(self.aero, place.name) != getattr(own, place.name):
@@ -177,7 +178,7 @@ class Model:
 
 
 def paper() -> Model:
-    """Return the model of Su et al. 2023: a flat plate in quasi-steady air, least frequency.
+    """Return the model of Su et al. 2023: a flat-plate wing, quasi-steady air loads, least frequency.
 
     >>> paper().aero.coefficients.name
     'su-fan'
@@ -188,10 +189,10 @@ def paper() -> Model:
 def animal(species: Species) -> Model:
     """Return the model that suits a live animal, or a robot, of the species' kind.
 
-    The wing is that of the kind. Air loads include rotation, added mass and induced flow; body, tail and muscle are
-    those of the species file or, where it gives none, of published laws. The tail's tilt and the length of the
-    downstroke are free. The objective is the metabolic power; for a robot, the electrical power of its motor, or
-    the positive power if no motor is known.
+    The kind determines the coefficients of the wing. Air loads include rotation, added mass and induced flow. Body
+    drag, tail and muscle come from the species file or, if it gives none, from published laws. The tail's tilt and
+    the downstroke fraction are free. The objective is the metabolic power; for a robot, the electrical power of its
+    motor, or the mean positive power if no motor is known.
 
     Parameters
     ----------
@@ -210,7 +211,7 @@ def animal(species: Species) -> Model:
 
 
 def model_of(name: str, species: Species) -> Model:
-    """Return the model of a name for a species.
+    """Return the model with a given name for a species.
 
     Parameters
     ----------
@@ -242,7 +243,7 @@ def _check_kind(species: Species, kind: str) -> None:
     faults = FaultList()
     if species.kind not in _WINGS:
         fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
-        faults.add("kind", species.kind, "the model animal needs to know whether it is bird, bat or robot", fix)
+        faults.add("kind", species.kind, "the model animal is only for a bird, a bat or a robot", fix)
     elif species.kind != kind:
         faults.add(
             "species", species.name, f"is a {species.kind}, not a {kind}", "use wb.models.animal of this species"
@@ -251,14 +252,14 @@ def _check_kind(species: Species, kind: str) -> None:
 
 
 def _with_body_drag(species: Species) -> Species:
-    """Return the species with the body drag of its own alternative, or else of the law of birds."""
+    """Return the species with the body drag of its alternative `body-drag`, or else of the law for birds."""
     if "body-drag" in species.alternatives:
         return species.with_alternative("body-drag")
     return species.with_derived({"vehicle.body.drag_area": BODY_DRAG_AREA.number(species.vehicle.mass)})
 
 
 def _freed(species: Species) -> Species:
-    """Return the species with the tail's tilt and the downstroke's share free."""
+    """Return the species with the tail's tilt, if it has a tail, and the downstroke fraction free."""
     added = [name for name in _FREE if name not in species.free]
     if species.vehicle.tail is None and "tail_tilt" in added:
         added.remove("tail_tilt")

@@ -1,4 +1,4 @@
-"""How every figure looks: colours, lines and sizes, and what panels of all pages share."""
+"""The style of all figures: colours, lines, sizes, and functions that all panels share."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def drawing(font: float = FONT) -> Iterator[None]:
 
     Parameters
     ----------
-    font : size of the letters [points].
+    font : font size [points].
     """
     from matplotlib import rc_context
 
@@ -79,7 +79,7 @@ def shade_downstrokes(
     ----------
     axes : the panel.
     first, last : phases.
-    strokes : phases between which the wing goes down; the first half of every beat if left out.
+    strokes : first and last phase of each downstroke; if left out, the first half of every beat.
     """
     from matplotlib.collections import PolyCollection
 

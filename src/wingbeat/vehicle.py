@@ -1,4 +1,4 @@
-"""What flies: body, wing and the air around them, as checked records in SI units."""
+"""Records of body, wing, tail, vehicle and air, in SI units; each checks its numbers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Body:
 
     Raises
     ------
-    InvalidInputError : a mass or inertia that is not positive, a negative drag area, not a finite number.
+    InvalidInputError : a mass or inertia that is not positive, a negative drag area, a number that is not finite.
     """
 
     mass: float
@@ -55,7 +55,8 @@ class Wing:
 
     Raises
     ------
-    InvalidInputError : lengths or mass not positive, a negative exponent, a wrong shape, not finite.
+    InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
+        chord, a shoulder that is not three numbers, a number that is not finite.
     """
 
     semi_span: float
@@ -115,13 +116,14 @@ class Tail:
         a surface ahead of it.
     lift_slope : slope of its lift coefficient [1/rad].
     drag_coefficient : drag coefficient at zero lift.
-    height : of its aerodynamic centre above the body axis through the centre of mass [m].
+    height : height of its aerodynamic centre above the body axis through the centre of mass [m].
     incidence : angle of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` is
         added to it.
 
     Raises
     ------
-    InvalidInputError : an area or slope that is not positive, a negative drag coefficient, not a finite number.
+    InvalidInputError : an area or slope that is not positive, a negative drag coefficient, a number that is not
+        finite.
     """
 
     area: float
@@ -180,7 +182,7 @@ class Vehicle:
 
     @property
     def passive(self) -> Vehicle:
-        """The vehicle without what drives its wings: all that a flight depends on."""
+        """The vehicle without muscle, motor and springs: the parts that determine a flight."""
         return Vehicle(self.body, self.wing, self.tail)
 
 
@@ -218,6 +220,6 @@ class Air:
         Parameters
         ----------
         speed : [m/s], any shape.
-        chord : [m], of a shape that broadcasts with it.
+        chord : [m], of a shape that broadcasts with `speed`.
         """
         return speed * chord / self.viscosity

@@ -106,7 +106,7 @@ def test_the_unit_of_force_falls_out():
 def test_partial_beats_and_broken_periods_are_said():
     assert MOTION.notes == ()
     part = dataclasses.replace(MOTION, end=float(MOTION.times[60]))
-    assert "0.38 beats are judged" in part.notes[0]
+    assert "0.38 beats are compared" in part.notes[0]
     stretched = dataclasses.replace(MOTION, frequency=0.7 * MOTION.frequency)
     assert stretched.period is None
     assert "not a whole number" in stretched.notes[0]

@@ -104,5 +104,5 @@ def test_what_cannot_be_traced_is_refused(asked, said, capsys):
 
 
 def test_a_share_of_no_term_is_refused():
-    with pytest.raises(wb.InvalidInputError, match="is a share of no term"):
+    with pytest.raises(wb.InvalidInputError, match="has no effect without unsteady terms or inflow"):
         wb.aero.BladeElement("su-fan", share=0.5)

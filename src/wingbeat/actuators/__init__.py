@@ -1,4 +1,4 @@
-"""What drives the flap hinges: muscles or motors, and the springs beside them."""
+"""Actuators of the flap hinges: muscles or motors, and the springs at the hinges."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ __all__ = ["Drive", "Motor", "Muscle", "Springs"]
 
 
 class Drive(NamedTuple):
-    """What drives the flap hinges of a vehicle; None where it has none.
+    """What drives the flap hinges of a vehicle; None for a part that it lacks.
 
     Attributes
     ----------
-    muscle, motor, springs : as of the vehicle.
+    muscle, motor, springs : those of the vehicle.
     """
 
     muscle: Muscle | None = None

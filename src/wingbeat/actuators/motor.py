@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class Motor:
     """A motor with brushes, or a brushless one with its controller, that flaps both wings; it does not pitch them.
 
-    For two motors, one a wing, give twice the rotor inertia and the no-load current, the same torque constant, and
-    half of the resistance. Torques and currents are then sums of both motors.
+    For two motors, one for each wing, give twice the rotor inertia and the no-load current, the same torque
+    constant, and half of the resistance. Torques and currents are then sums of both motors.
 
     Parameters
     ----------
@@ -33,7 +33,8 @@ class Motor:
 
     Raises
     ------
-    InvalidInputError : a constant that is not positive, an efficiency outside 0 to 1, not finite.
+    InvalidInputError : a constant that is not positive, a negative inertia or current, an efficiency outside 0 to
+        1, a crank other than 0 or 1, a number that is not finite.
 
     >>> Motor(torque_constant=2.1e-3, resistance=0.45, gear_ratio=10.0).crank
     0.0
@@ -62,7 +63,7 @@ class Motor:
 
 
 class MotorState(NamedTuple):
-    """What a motor does along one beat, each of shape (K,).
+    """Speed, torque and electrical quantities of a motor along one beat, each of shape (K,).
 
     Attributes
     ----------
@@ -81,10 +82,10 @@ class MotorState(NamedTuple):
 
 
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
-    """Return what the motor does to give the flap hinges a torque at a rate.
+    """Return the state of the motor while it gives the flap hinges a torque at a flap rate.
 
-    Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load where the
-    motor drives and taken off it where the wings drive the motor, ``i = torque/kt + sign(omega) i0``,
+    Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load while
+    the motor drives, and subtracted from it while the wings drive the motor, ``i = torque/kt + sign(omega) i0``,
     ``v = R i + kt omega``, ``P = v i``. Behind a crank, the speed is ``N 2 pi f``, the load is the
     flap hinges' power over the crank's speed, and the rotor's inertia has no effect.
 

@@ -1,7 +1,7 @@
 """Flight muscle: the force it can give at a speed of shortening, and what that force costs.
 
 A muscle's fibres shorten in proportion to the flap angle. Its force falls with its speed of shortening, and a force
-costs metabolic power even where it does no work: this is what a fast beat of small amplitude has to pay.
+costs metabolic power even if it does no work. So a fast beat of small amplitude has a cost too.
 """
 
 from __future__ import annotations
@@ -125,8 +125,8 @@ def metabolic_rate(shortening: Series) -> Series:
 def isometric_share(shortening: Series, curvature: Any) -> Series:
     """Return the isometric force of the fibres that must be active, over the force that they exert.
 
-    Up to 0.95 of the largest speed it is one over `force_at`. Beyond, where no muscle can follow, it goes on along
-    its tangent, so that a search can come back.
+    Up to 0.95 of the largest speed it is one over `force_at`. Beyond, it continues along its tangent, so that the
+    solver can return from speeds that no muscle reaches.
 
     Parameters
     ----------
@@ -160,7 +160,7 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
 
 
 def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
-    """Return the shares of their fibres that elevators and depressors must use; above 1, they are too weak.
+    """Return the shares of their fibres that elevators and depressors must use; above 1, a muscle is too weak.
 
     The share of the muscle that rests is negative.
 

@@ -29,7 +29,8 @@ class Springs:
 
     Raises
     ------
-    InvalidInputError : a negative stiffness or compliance, a rest angle beyond half a turn, not finite.
+    InvalidInputError : a negative stiffness or compliance, a rest angle beyond half a turn, a number that is not
+        finite.
 
     >>> Springs(stiffness=0.5).series_compliance
     0.0
@@ -90,10 +91,10 @@ def spring_torque(stiffness: Any, flap: Series, rest_angle: Any) -> Series:
 
 
 def actuated(springs: Springs, flap: Series, rate: Series, torque: Series, period: Any) -> Driven:
-    """Return what springs leave to the actuators of the flap hinges.
+    """Return what the actuators of the flap hinges must do with these springs.
 
-    Equations: the actuators give the torque that the springs beside them do not; all of it passes the springs in
-    series, which let the actuators lead by ``compliance * torque``.
+    Equations: the actuators give the torque that the springs beside them do not. All of it passes through the
+    springs in series, so that the actuators' angle is ahead of the flap angle by ``compliance * torque``.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Coefficient models of the wings of animals, each number with its interval and with what it rests on.
+"""Coefficient models of animals' wings; each number has an interval and a basis, a measurement or a guess.
 
-``validation/animal_wings.py`` makes the numbers of `Feathered` from the measurements, which are not part of this
-project, and its page shows how well they hold.
+``validation/animal_wings.py`` computes the numbers of `Feathered` from measurements that are not part of this
+project. It writes ``docs/animal_wings.md``, which shows how well the model agrees with measured wings.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from wingbeat.errors import FaultList
 
 
 class Estimate(NamedTuple):
-    """A term of a coefficient model, with its interval.
+    """A term of a coefficient model, with its interval and basis.
 
     Attributes
     ----------
-    value : in degrees if its name ends in _deg [deg], else without unit [-].
-    low, high : ends of its interval, in the unit of the value [-].
-    basis : the measurement behind it, or the word guess.
+    value : in degrees if the term's name ends in _deg; otherwise a pure number, slopes and rises per radian.
+    low, high : ends of its interval, in the unit of the value.
+    basis : the measurement that the value comes from, or the word guess.
     """
 
     value: float
@@ -48,9 +48,9 @@ _FEATHERED = {
     "onset_rounding_deg": Estimate(2.0, 1.0, 4.0, _ASSUMED),
 }
 _REVOLVING = _FEATHERED | {
-    "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of the only other revolving wing here, dickinson"),
+    "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of dickinson, the only other revolving wing here"),
     "lift_highest": Estimate(
-        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from that study's card wing to a fly's wing"
+        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from the study's card wing to a fly's wing"
     ),
     "lift_rounding": Estimate(0.25, 0.15, 0.5, "guess"),
     "drag_least": Estimate(
@@ -61,7 +61,8 @@ _REVOLVING = _FEATHERED | {
         1.36,
         0.4,
         3.0,
-        "C_D of 0.87 at 43 degrees, midway between 0.49 (ratio of 3.33) and 1.53 (force normal to wing)",
+        "C_D of 0.87 at 43 degrees, geometric mean of 0.49 (lift-to-drag ratio 3.33) and 1.53 (force normal to "
+        "wing)",
     ),
 }
 _BEYOND_STALL = "C_D of 0.87 at 43 degrees, as feathered-revolving"
@@ -73,11 +74,15 @@ _FLAPPING = _FEATHERED | {
 _MEMBRANE = (
     _FEATHERED
     | {
-        "zero_lift_deg": Estimate(-8.9, -10.3, -7.4, "bats' camber, 6.5 to 9 %; thin arc: zero lift at -2 camber"),
-        "lift_slope": Estimate(4.1, 3.7, 4.7, "thin plate of aspect ratio 2, by lifting line; high end: theory"),
+        "zero_lift_deg": Estimate(
+            -8.9, -10.3, -7.4, "bats' camber, 6.5 to 9 %; a thin arc has zero lift at -2 camber rad"
+        ),
+        "lift_slope": Estimate(
+            4.1, 3.7, 4.7, "thin plate of aspect ratio 2, converted by lifting line; high end: theory"
+        ),
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
-        "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, raised by camber times slope"),
-        "drag_least": Estimate(0.039, 0.015, 0.10, "guess: midway between a thin plate and the plate of su-fan"),
+        "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, plus 0.64 that camber adds"),
+        "drag_least": Estimate(0.039, 0.015, 0.10, "guess: geometric mean of a thin plate and the plate of su-fan"),
         "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 times an ideal wing's at aspect ratio 6"),
     }
     | {
@@ -111,10 +116,9 @@ def Feathered(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Camb
     """Return a bird's wing of aspect ratio 6: the shape of nine printed gull wings, the drag of a gliding jackdaw.
 
     Zero lift, slope, both stalls and the drag of separated flow are medians of nine half wings of a gull (wind
-    tunnel, -20 to 25 degrees), brought to aspect ratio 6 by Prandtl's lifting line. The least drag and the induced
-    drag are those of a live jackdaw's wings. From 25 to 45 and from -20 to -45 degrees, where nothing was measured,
-    the
-    curves run into those of a plate.
+    tunnel, -20 to 25 degrees), converted to aspect ratio 6 by Prandtl's lifting line. The least drag and the
+    induced drag are those of a live jackdaw's wings. From 25 to 45 and from -20 to -45 degrees, where nothing was
+    measured, the curves pass into those of a plate.
 
     Printed wings: wind-tunnel data of github.com/charvey23/UMWTStaticStability. Jackdaw: KleinHeerenbrink,
     Warfvinge and Hedenstrom 2016, J. Exp. Biol. 219:1572, doi 10.1242/jeb.132480.
@@ -150,9 +154,9 @@ def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0
     """Return a bird's wing with the delayed stall of revolving pigeon wings, for slow flight and hover.
 
     Measured: the largest C_L, 1.64 at 43 degrees, and the largest lift-to-drag ratio, 6.3. The drag beyond stall is
-    midway between two sources that disagree by a factor of three. The angle of zero lift and the lower side are
-    taken from `Feathered`; the rest is a guess. The coefficients of a revolving wing already contain its induced
-    flow, so the model states no aspect ratio.
+    the geometric mean of two sources that disagree by a factor of three. The angle of zero lift and the lower side
+    are taken from `Feathered`; the rest is a guess. The coefficients of a revolving wing already contain its
+    induced flow, so the model states no aspect ratio.
 
     Usherwood 2009 (PMC3380271) and Crandell and Tobalske 2011 (J. Exp. Biol. 214:1867) for dried pigeon wings;
     Usherwood and Ellington 2002 for the direction of the force on a revolving plate.
@@ -187,12 +191,13 @@ def FeatheredFlapping(extension: str = "mirrored", blend_width_deg: float = 1.0)
 
     A wing that flaps or revolves keeps its lift to larger angles of attack than one that glides. This model has the
     zero lift, slope and drag of `Feathered` up to its onset of drag, and the largest C_L of revolving pigeon wings,
-    1.64 at 43 degrees. So it holds for slow and fast flight. It is a guess that the two join as they do here, and
-    that the late stall needs no turning of the wing: in a glide, use `Feathered`. Coefficients of revolving wings
-    contain induced flow like those of a finite wing; the model states the aspect ratio of `Feathered`, 6.
+    1.64 at 43 degrees. It is meant for slow and fast flight. Two things are guesses: that the two parts join as
+    they do here, and that a wing which does not turn stalls as late. In a glide, use `Feathered`. Coefficients of
+    revolving wings contain induced flow, as those of a finite wing do; the model states the aspect ratio of
+    `Feathered`, 6.
 
-    Sources as of `Feathered` and `FeatheredRevolving`: KleinHeerenbrink et al. 2016, doi 10.1242/jeb.132480;
-    Usherwood 2009 (PMC3380271).
+    The sources are those of `Feathered` and `FeatheredRevolving`: KleinHeerenbrink et al. 2016, doi
+    10.1242/jeb.132480; Usherwood 2009 (PMC3380271).
 
     Parameters
     ----------
@@ -227,7 +232,7 @@ def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Cambe
 
     We found no readable polar of a bat's wing. Two things are measured: the camber of 12 species, 6.5 to 9 % of the
     chord, which gives the angle of zero lift, and the lift slope of thin plates. `WING_ESTIMATES` marks every other
-    number as a guess, with a wide interval. The model leaves out that a compliant wing stalls later.
+    number as a guess, with a wide interval. The model ignores that a compliant wing stalls later.
 
     Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J. Aircraft
     37:825, read off a figure.

@@ -33,7 +33,7 @@ class SpanPart(NamedTuple):
     ----------
     name : "wing" for the whole of it, "arm" or "hand".
     coefficients : its coefficient model.
-    strips : which strips it has.
+    strips : the strips that belong to it.
     """
 
     name: str
@@ -76,9 +76,9 @@ class BladeElement:
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
-        negative induced factor, a share outside 0 to 1 or of no term, a centre of pressure with a model that has
-        none, inflow with a model without an aspect ratio, a hand that begins outside 0 to 1 or is given only where
-        it begins, an upstroke factor outside 0 to 1; inputs that `coefficients_of` refuses.
+        negative induced factor, a share outside 0 to 1 or one that no term uses, a centre of pressure with a model
+        that has none, inflow with a model without an aspect ratio, a `hand_from` outside 0 to 1 or without a hand,
+        an upstroke factor outside 0 to 1; inputs that `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -116,7 +116,8 @@ class BladeElement:
         faults.number("aero.induced_factor", self.induced_factor, at_least=0, fix="1 is an ideal disc")
         faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 is all of each term")
         if self.share != 1 and self.unsteady == self.inflow == "none":
-            faults.add("aero.share", self.share, "is a share of no term", "set unsteady or inflow, or leave it out")
+            rule, fix = "has no effect without unsteady terms or inflow", "set unsteady or inflow, or leave it out"
+            faults.add("aero.share", self.share, rule, fix)
         faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
             faults.add(

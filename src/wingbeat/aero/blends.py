@@ -1,4 +1,4 @@
-"""Polynomials that join two curves in value, slope and curvature, held as an even and an odd part."""
+"""Polynomials that join two curves in value, slope and curvature, stored as an even and an odd part."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return these coefficients of the odd polynomial that has `jet` at `width`, after division by the distance."""
+    """Return the same for the odd polynomial that has `jet` at `width`, after it is divided by the distance."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
         (15 * f - 7 * s + k) / (8 * width),
@@ -59,7 +59,7 @@ def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
 
 
 class Blend(NamedTuple):
-    """The even and the odd part of a quintic blend between two pieces that need no symmetry."""
+    """The even and the odd part of a quintic blend between any two pieces."""
 
     even: tuple[Scalar, ...]
     odd: tuple[Scalar, ...]

@@ -90,8 +90,8 @@ class CamberedTerms:
 
     Raises
     ------
-    InvalidInputError : not finite numbers, a negative rise, induced part or least drag, a rounding or slope that is
-        not positive, limits of lift of the wrong sign, onsets in the wrong order.
+    InvalidInputError : numbers that are not finite, a negative rise or induced part, a least drag, rounding or
+        slope that is not positive, limits of lift of the wrong sign, onsets in the wrong order.
     """
 
     zero_lift_deg: float
@@ -165,7 +165,7 @@ class CamberedTerms:
 
 
 class Join(NamedTuple):
-    """The blends of C_L and C_D between the curves of a wing and those of a plate, in either direction."""
+    """The blends of C_L and C_D between the curves of a wing and those of a plate, on either side."""
 
     centre: Scalar
     width: Scalar

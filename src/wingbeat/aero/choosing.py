@@ -1,4 +1,4 @@
-"""What may be given for coefficients: a model, its name, the path of its file, or a function."""
+"""Coefficient models from what a user may give: a model, its name, the path of its file, or a function."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ def coefficients_of(given: Any) -> CoefficientModel:
 def load_coefficients(
     name_or_path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
 ) -> CoefficientModel:
-    """Return a coefficient model by its name in `LIBRARY`, or from a file: a table .csv, a fit .toml.
+    """Return a coefficient model by its name in `LIBRARY`, or from a file: a table (.csv) or a fit (.toml).
 
     Parameters
     ----------
     name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv) or of a fitted model (.toml).
-    extension : how the coefficients reach every angle, one of `EXTENSIONS`.
+    extension : how the coefficients are extended to all angles, one of `EXTENSIONS`.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises

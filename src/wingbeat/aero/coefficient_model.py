@@ -48,7 +48,7 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
 
     Raises
     ------
-    InvalidInputError : not numbers.
+    InvalidInputError : angles that are not numbers.
 
     >>> wrapped([0.5, 1.0 + 2 * math.pi, -math.pi]).tolist()
     [0.5, 1.0, -3.141592653589793]
@@ -64,9 +64,9 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
 
 
 def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
-    """Evaluate a compiled function of numbers and angles at angles of any shape; return NumPy arrays.
+    """Return a compiled function of `numbers` and angles at angles of any shape, as NumPy arrays.
 
-    A scalar gives a scalar, as in NumPy.
+    A scalar angle gives scalars, as in NumPy.
     """
     # Padded to a power of two: XLA compiles anew for each length it has not met.
     padded = np.zeros(1 << max(angles.size - 1, 0).bit_length())
@@ -76,7 +76,7 @@ def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
 
 
 def kernel_lift(kernel: Kernel, alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return C_L of a kernel at `alpha` [rad], any shape.
+    """Return C_L of a kernel at angles of attack.
 
     Parameters
     ----------
@@ -90,14 +90,14 @@ class CoefficientModel:
     """Lift, drag and centre of pressure of a wing strip as functions of the angle of attack alone.
 
     Angles are in radians, of any shape and any size; values come back as float64 of that shape. Inside JAX use
-    `kernel`, a pytree whose ``lift_drag(alpha)`` and ``centre_of_pressure(alpha)`` take [-pi, pi] and whose leaves
-    are the model's numbers.
+    `kernel`, a pytree whose ``lift_drag(alpha)`` and ``centre_of_pressure(alpha)`` take angles in
+    [-pi, pi] and whose leaves are the model's numbers.
 
     Attributes
     ----------
     name : name of the model.
     citation : its source.
-    extension : how it reaches every angle, one of `EXTENSIONS`.
+    extension : how it is extended to all angles, one of `EXTENSIONS`.
     blend_width_deg : half width of the blends where pieces meet [deg].
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     alpha_range_deg : lowest and highest angle of the measurements [deg].
@@ -132,7 +132,7 @@ class CoefficientModel:
 
         Raises
         ------
-        InvalidInputError : no numbers.
+        InvalidInputError : angles that are not numbers.
         """
         return kernel_lift(self.kernel(), alpha)
 
@@ -145,7 +145,7 @@ class CoefficientModel:
 
         Raises
         ------
-        InvalidInputError : no numbers.
+        InvalidInputError : angles that are not numbers.
         """
         return at_angles(_lift_drag, self.kernel(), wrapped(alpha))[1]
 
@@ -158,7 +158,7 @@ class CoefficientModel:
 
         Raises
         ------
-        InvalidInputError : no numbers.
+        InvalidInputError : angles that are not numbers.
         """
         angles = wrapped(alpha)
         lift, drag = at_angles(_lift_drag, self.kernel(), angles)
@@ -173,7 +173,7 @@ class CoefficientModel:
 
         Raises
         ------
-        InvalidInputError : no numbers, or a model without a centre of pressure.
+        InvalidInputError : angles that are not numbers, or a model without a centre of pressure.
         """
         if not self.has_centre_of_pressure:
             fix = "use su-fan, or a table with the column x_cp"
@@ -190,6 +190,6 @@ class CoefficientModel:
 
         Raises
         ------
-        InvalidInputError : no numbers, or a model without a centre of pressure.
+        InvalidInputError : angles that are not numbers, or a model without a centre of pressure.
         """
         return self.normal(alpha) * (about - self.centre_of_pressure(alpha))

@@ -1,22 +1,23 @@
-"""From coefficients known on one side to every angle of attack, blended where two pieces meet.
+"""Extend coefficients that are known for one side of a plate to every angle of attack.
 
 Formulas and tables give the coefficients of a plate for 0 to 90 degrees; a flapping wing sees every angle.
 Angles are in (-180, 180]; the extension is chosen by name:
 
 mirrored
     the plate seen from behind and from below: C_L odd and C_D even in alpha, ``C_L(180-a) = -C_L(a)``,
-    ``C_D(180-a) = C_D(a)``, x_cp even, ``x_cp(180-a) = 1 - x_cp(a)``. The physical one, and the default.
+    ``C_D(180-a) = C_D(a)``, x_cp even, ``x_cp(180-a) = 1 - x_cp(a)``. This is the physical extension, and the
+    default.
 signed-drag
     as mirrored, but C_D is the formula at the signed angle for -90 < a < 0.
 signed
-    as signed-drag, and likewise C_L (and x_cp of a table); only where the formula stays finite: without an
-    exponential term.
+    as signed-drag, and C_L (and x_cp of a table) likewise, unless its formula has an exponential term, which
+    diverges at negative angles.
 clipped-drag
     as mirrored, but C_D is the formula's value at 0 for every a < 0.
 
-Where two pieces meet (at 0, +-90 or 180) the coefficient is, nearer than the blend width and only there, the
-quintic Hermite polynomial that agrees with both pieces in value, slope and curvature at join +- width. It is
-held as an even and an odd part in the distance, so a mirrored coefficient is exactly even or odd.
+Two pieces meet in a join at 0, +-90 or 180 degrees. Nearer to a join than the blend width, the coefficient is the
+quintic Hermite polynomial that agrees with both pieces in value, slope and curvature at join +- width. Its even and
+its odd part in the distance are stored apart, so that a mirrored coefficient is exactly even or odd.
 """
 
 from __future__ import annotations
@@ -97,7 +98,7 @@ class ClippedPatch(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """The blends of one mirrored coefficient at 0 and 90 degrees, and its patch for a < 0, or None."""
+    """The blends of one mirrored coefficient at 0 and 90 degrees, and its patch for a < 0 (None without one)."""
 
     at_zero: tuple[Any, ...]
     at_right: tuple[Any, ...]

@@ -1,4 +1,4 @@
-"""Coefficients that were fitted to measurements: their terms, with the covariance of these."""
+"""Coefficients that were fitted to measurements: their terms and the covariance of the terms."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FittedModel(NamedTuple):
 
     @property
     def curves(self) -> dict[str, FittedCurve]:
-        """The fitted curves by the name of their terms in the coefficient model."""
+        """The fitted curves, by the names that their terms have in the coefficient model."""
         curves = {"lift_terms": self.lift, "drag_terms": self.drag}
         return curves if self.centre is None else curves | {"centre_terms": self.centre}
 
@@ -77,7 +77,7 @@ class FittedWing(NamedTuple):
 
     @property
     def curves(self) -> dict[str, FittedCurve]:
-        """The fitted terms by their name in the coefficient model."""
+        """The fitted terms, by the name that they have in the coefficient model."""
         return {"terms": self.wing}
 
     def coefficients(

@@ -78,11 +78,12 @@ class FormulaTerms:
     constant, amplitude : [-].
     rate : degrees of the sine's argument per degree of angle [-].
     phase_deg : [deg].
-    decay_amplitude, decay_rate : the exponential term [-] and [1/deg]; both None, or amplitude 0, for none.
+    decay_amplitude, decay_rate : of the exponential term [-, 1/deg]; without this term both are None, or the
+        amplitude is 0.
 
     Raises
     ------
-    InvalidInputError : not finite numbers, a negative decay rate, or only one of the decay terms.
+    InvalidInputError : numbers that are not finite, a negative decay rate, or only one of the decay terms.
     """
 
     constant: float
@@ -154,7 +155,7 @@ class CentreTerms:
 
     Raises
     ------
-    InvalidInputError : not finite numbers, an exponent that is not positive, a negative decay rate.
+    InvalidInputError : numbers that are not finite, an exponent that is not positive, a negative decay rate.
     """
 
     constant: float
@@ -215,7 +216,7 @@ class FormulaCoefficients(CoefficientModel):
     grade : "A" if read in the source's own words, "B" if cited second-hand, "C" if in part a guess.
     reynolds_range : chord Reynolds numbers of the fit, or None.
     alpha_range_deg : lowest and highest angle of the fit [deg].
-    extension : how the formulas reach every angle (`wingbeat.aero.extension`).
+    extension : how the formulas are extended to all angles (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
     aspect_ratio : of the wing that was fitted [-], infinite for a section, None if not stated.
 

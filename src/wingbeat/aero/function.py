@@ -30,7 +30,7 @@ _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
 class Program:
     """A function's program, as JAX traced it. Two programs are equal if their compiled code is the same.
 
-    Its `repr` names the traced program on disk, so two functions of one name have different programs.
+    Traced programs on disk are named by its `repr`, so two functions of one name are kept apart.
     """
 
     def __init__(self, function: Callable[[Any], Any], name: str, traced: Any) -> None:
@@ -63,7 +63,7 @@ class Program:
         try:
             pickle.dumps(self.function)
         except Exception:  # each kind of function has its own way to refuse
-            rule = "is a function that cannot be pickled, nor sent to other processes"
+            rule = "is a function that cannot be pickled and sent to other processes"
             fix = "define it with def at the top level of a module"
             raise InvalidInputError([Fault(_WHERE, self.name, rule, fix)]) from None
         return _unpickled, (self.function, self.name, self.digest)
@@ -100,8 +100,8 @@ class FunctionKernel:
 class FunctionCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a function of the angle of attack.
 
-    JAX traces the function once, in the constructor. Later changes of variables that it reads have no effect. It is
-    used as it is at every angle from -pi to pi, without extension or blend.
+    JAX traces the function once, in the constructor. Later changes of variables that it reads have no effect. The
+    function is used as it is at every angle from -pi to pi, without extension or blend.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""Induced flow by momentum: the even stream of air through the disc of the wings that holds the weight.
+"""Induced flow by momentum theory: a uniform stream of air through the wings' disc, which carries the weight.
 
 Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
 ``2 rho A v |V + v n| = k T``, with T the mean force of the wings, n its direction, V the velocity of the animal, A
-the disc over the span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 by Pennycuick 2008,
-Modelling the Flying Bird). The air at the wings moves with ``-v n``.
+the disc over the span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 in Pennycuick 2008,
+Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def induced_flow(
     factor : k, which multiplies the induced momentum of an ideal disc; 0 means no induced flow.
     force : mean force of both wings, forward and up [N].
     velocity : mean velocity of the animal, forward and up [m/s].
-    xp : array module of the numbers.
+    xp : the array module that computes, numpy or jax.numpy.
 
     >>> forward, up = induced_flow(1.225, disc_area(0.279), 1.0, (0.0, 0.316 * 9.81), (0.0, 0.0))
     >>> round(float(-up), 3)
@@ -78,7 +78,7 @@ def check_descent(
 
     Parameters
     ----------
-    faults : takes the fault.
+    faults : the list to which the fault is added.
     density : of the air [kg/m3].
     area : of the disc [m2].
     factor : k, as in `induced_flow`.

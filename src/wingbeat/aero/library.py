@@ -1,4 +1,4 @@
-"""The coefficient models that have a name."""
+"""The coefficient models that a user can choose by name."""
 
 from __future__ import annotations
 

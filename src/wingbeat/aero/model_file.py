@@ -1,4 +1,4 @@
-"""A model file: coefficients fitted to measurements, as TOML with their covariance, for people and for programs."""
+"""Model files: TOML files with coefficients that were fitted to measurements, and their covariance."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def read_model(path: str | Path) -> Fitted:
     Raises
     ------
     FileError : the file is missing, cannot be read or is not TOML.
-    InvalidInputError : every wrong, missing or unknown key at once.
+    InvalidInputError : wrong, missing or unknown keys, all at once.
     """
     path = Path(path)
     file, faults = path.name, FaultList()
@@ -87,8 +87,8 @@ def load_model(
     Parameters
     ----------
     path : the TOML file; angles in degrees.
-    extension, blend_width_deg : as in `FormulaCoefficients`; a cambered wing needs no extension, which then has no
-        effect.
+    extension, blend_width_deg : as in `FormulaCoefficients`; a cambered wing covers all angles, so an extension
+        has no effect on it.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def load_model(
 def _known(faults: FaultList, where: str, table: dict[str, Any], keys: Iterable[str]) -> None:
     for key in table:
         if key not in keys:
-            faults.add(f"{where}: {key!r}", "", "is not a known key", f"known are {', '.join(keys)}")
+            faults.add(f"{where}: {key!r}", "", "is not a known key", f"the keys are {', '.join(keys)}")
 
 
 def _text(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> str:
@@ -190,5 +190,5 @@ def _covariance(
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
     invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
     if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):
-        faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy the fit's own")
+        faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy that of the fit")
     return tuple(free), matrix

@@ -1,4 +1,4 @@
-"""Published coefficient models, and the lines of theory to set them against.
+"""Published coefficient models, and theoretical lines to compare them with.
 
 Angles a are in degrees as published. Grade B models are cited second-hand: their constants come from other
 people's code and papers, not from the source.
@@ -34,7 +34,7 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises
@@ -68,7 +68,7 @@ def Dickinson(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Form
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises
@@ -99,7 +99,7 @@ def Wang2004(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Formu
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises
@@ -129,7 +129,7 @@ def WhitneyWood(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Fo
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises
@@ -158,7 +158,7 @@ def ParslewCrowther(extension: str = "mirrored", blend_width_deg: float = 1.0) -
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises
@@ -186,7 +186,7 @@ def Byl(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaCoe
 
     Parameters
     ----------
-    extension : how the formulas reach every angle: mirrored, signed-drag, signed or clipped-drag.
+    extension : how the formulas are extended to all angles: mirrored, signed-drag, signed or clipped-drag.
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises

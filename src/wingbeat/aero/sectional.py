@@ -1,8 +1,8 @@
-"""Sectional coefficients from those of a finite wing: its own induced flow is taken out.
+"""Sectional coefficients from those of a finite wing, by removing the wing's own induced flow.
 
-Prandtl's lifting line: a wing of aspect ratio A meets the air at ``alpha`` less ``eps = C_L / (pi A)``, and the
-force on its sections is normal to that air. So the section at ``alpha - eps`` has
-``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
+Prandtl's lifting line: if a wing of aspect ratio A has the angle of attack ``alpha``, its sections meet the air at
+``alpha - eps`` with ``eps = C_L / (pi A)``, and their lift is normal to that air. So the section at ``alpha - eps``
+has ``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
 """
 
 from __future__ import annotations
@@ -53,12 +53,12 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
 
     Parameters
     ----------
-    model : coefficients at any aspect ratio; those of an infinite wing are returned unchanged.
+    model : coefficients of a wing of any aspect ratio; those of an infinite wing are returned unchanged.
 
     Raises
     ------
-    InvalidInputError : a model without an aspect ratio, or with one so small that two angles of the wing lead to
-        the same angle of its sections.
+    InvalidInputError : a model without an aspect ratio, or with one so small that two angles of the wing give
+        its sections the same angle.
     """
     if model.aspect_ratio is None:
         rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"

@@ -1,6 +1,6 @@
 """Coefficients that differ between arm and hand, and loads that a wing sheds on the upstroke.
 
-Both are made of the kernels of coefficient models. Strips are the first axis of every angle that they are given.
+Both kernels are made of the kernels of coefficient models. The first axis of every array of angles is the strips.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ def count_arm_strips(strips: int, hand_from: float) -> int:
 @register_record(static=("arm_strips",))
 @dataclass(frozen=True)
 class ArmHandKernel:
-    """The kernel of a wing whose inner strips have other coefficients than the outer ones; a JAX pytree.
+    """The kernel of a wing whose inner and outer strips have different coefficients; a JAX pytree.
 
     Parameters
     ----------
-    arm, hand : kernels of both parts.
+    arm, hand : kernels of the two parts.
     arm_strips : number of strips that belong to the arm.
     """
 
@@ -59,7 +59,7 @@ class UpstrokeKernel(NamedTuple):
     """The kernel of a wing that lets air through, or folds away, where air meets it from above; a JAX pytree.
 
     Lift and drag are those of `kernel` times `factor` where ``sin(alpha) < 0``. Within 5 degrees of an angle of
-    attack of 0 or 180 degrees, this factor changes from 1 to `factor`, smoothly to the second derivative.
+    attack of 0 or 180 degrees the multiplier changes from 1 to `factor`, with continuous second derivative.
     """
 
     kernel: Kernel

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class TablePieces(NamedTuple):
-    """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cube."""
+    """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cubic term."""
 
     knots: Knots
     lift_spline: Spline
@@ -75,7 +75,7 @@ class TableCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a table.
 
     A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended like
-    a formula; its rows beyond 90 only shape the spline. A table with rows down to -90 degrees or below needs the
+    a formula; rows beyond 90 only shape the spline. A table with rows down to -90 degrees or below needs the
     extension `signed`. A table from -180 to 180 is periodic and used without extension; its `extension` is
     `signed`.
 
@@ -87,7 +87,7 @@ class TableCoefficients(CoefficientModel):
     x_cp : centre of pressure in chords from the leading edge, shape (n,), or None.
     citation : source of the table.
     reynolds_range : chord Reynolds numbers of the measurements, or None.
-    extension : how the table reaches every angle (`wingbeat.aero.extension`).
+    extension : how the table is extended to all angles (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
     aspect_ratio : of the wing that was measured [-], infinite for a section, None if not stated.
 

@@ -3,9 +3,9 @@
 ``C_L = a sin(alpha) cos(alpha)``, ``C_D = C_D0 + a sin^2(alpha) cos^2(alpha) + C_B sin^4(alpha)``. At small angles
 the lift grows with the slope a, which for a slender tail is ``pi/2`` times the aspect ratio. There is no suction at
 the leading edge, so that the lift tilts back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361,
-doi 10.1098/rstb.1993.0079). Measured tails lift less than that where they are widely spread or above 20 degrees
-(Maybury et al. 2001, doi 10.1098/rspb.2001.1666; Evans 2003, doi 10.1098/rspb.2003.2373). The sines bound the lift
-at 45 degrees and turn the surface into a plate across the flow; that part of the formula is ours.
+doi 10.1098/rstb.1993.0079). Measured tails have less lift than this if they are widely spread or above 20 degrees
+(Maybury et al. 2001, doi 10.1098/rspb.2001.1666; Evans 2003, doi 10.1098/rspb.2003.2373). The sines and cosines are
+ours: with them the lift is largest at 45 degrees, and at 90 degrees the surface is a plate across the flow.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def tail_force(
     drag_coefficient : C_D0, at zero lift.
     normal : n, unit vector to the upper side.
     velocity : v, of the tail's aerodynamic centre through the air [m/s].
-    xp : array module of the numbers.
+    xp : the array module that computes, numpy or jax.numpy.
 
     >>> forward, up = tail_force(1.225, 0.004, 3.0, 0.02, (0.0, 1.0), (10.0, 0.0))
     >>> round(float(forward), 6), abs(float(up))

@@ -17,7 +17,7 @@ UNSTEADY = ("none", "thin-aerofoil")
 
 
 def rotation_lift(density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip) -> PerStrip:
-    """Return the force of a turning strip across its velocity, by its speed [N s/m]: ``rho pi/2 c^2 omega dr``.
+    """Return the force of a turning strip across its velocity, over its speed [N s/m]: ``rho pi/2 c^2 omega dr``.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def rotation_force(
     """Return the force of a turning strip at its quarter chord [N], along chord and normal.
 
     ``(F_c, F_n) = rho G dr (-v_n, v_c)`` with the circulation ``G = pi/2 c^2 omega``. It does no work at the
-    quarter chord. It turns with the axes, so they may be those that the strip has without pitch.
+    quarter chord. The formula holds in any axes in the plane of chord and normal, such as the unpitched strip's.
 
     Parameters
     ----------
@@ -93,6 +93,6 @@ def damping_couple(
     density : rho [kg/m3].
     chord, width : c and dr [m].
     turning : omega [rad/s].
-    speed : |V|, of the quarter chord through the air, by the rule of airspeed of the loads [m/s].
+    speed : |V|, the airspeed of the quarter chord that determines the loads, planar or full [m/s].
     """
     return -math.pi / 16 * density * chord * chord * chord * width * speed * turning

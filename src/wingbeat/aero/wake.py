@@ -1,18 +1,18 @@
-"""The lag of the wake: what the vorticity that a strip has shed takes from the downwash of its chord.
+"""The lag of the wake: how the vorticity that a strip has shed reduces the downwash at its chord.
 
-When the circulation of a strip changes, the opposite circulation leaves at the trailing edge, floats away with
+When the circulation of a strip changes, the opposite circulation leaves at the trailing edge, drifts away with
 the air and slows the change. On a thin aerofoil the lift after a step of the downwash w at three quarters of the
 chord is that of ``w phi(s)``, s in semi-chords travelled, with Wagner's function in the form of Jones 1940 (NACA
 Report 681): ``phi = 1 - 0.165 exp(-0.0455 s) - 0.335 exp(-0.3 s)``. A history of steps adds up (Duhamel; Leishman
 2006, Principles of Helicopter Aerodynamics, chapter 8): the lift is that of ``w - X``, and the wake's own
-downwash is ``X = sum A_i (w - z_i)``, where z_i follows w with ``dz_i/ds = b_i (w - z_i)``. For a sine it is
+downwash is ``X = sum A_i (w - z_i)``, where z_i follows w with ``dz_i/ds = b_i (w - z_i)``. For a sine this is
 Theodorsen's ``C(k) = 1 - sum A_i i k / (b_i + i k)`` (1935, NACA Report 496), within 0.02 of his Bessel
 functions.
 
-The wake moves the air across the chord, so the strip meets it as it meets any other wind: its polar, attached or
-stalled, is read at the angle of the air with the wake's part, and its forces turn with that air. With ``C_L = 2
+The wake moves the air across the chord, and the strip meets this air as any other wind: its polar, attached or
+stalled, is read at the angle of attack in the moved air, and its forces turn with that air. With ``C_L = 2
 pi sin(alpha)`` in plunge this is Theodorsen's lift and Garrick's thrust (1936, NACA Report 567). The model of
-dynamic stall of Leishman and Beddoes 1989 (doi 10.4050/JAHS.34.3.3) takes the same step before any other.
+dynamic stall of Leishman and Beddoes 1989 (doi 10.4050/JAHS.34.3.3) starts with the same step.
 
 The lag is that of a section, as rotation and added mass (`wingbeat.aero.unsteady`) are. A whole wing of a small
 aspect ratio lags less (Jones 1940).
@@ -44,7 +44,7 @@ def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
 
     Parameters
     ----------
-    kernel : of the polar.
+    kernel : the kernel of the polar.
     """
     angles = np.linspace(0.0, 0.5 * math.pi, _ANGLES)
     below, above = kernel_lift(kernel, -angles), kernel_lift(kernel, angles)
@@ -52,15 +52,15 @@ def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
 
 
 def shed_downwash(kernel: Kernel, chord: Array, chord_speed: Array, normal_speed: Array, turning: Array) -> Array:
-    """Return the downwash whose circulation a strip sheds as it changes [m/s], of the arrays' shape.
+    """Return the downwash that determines a strip's circulation [m/s], of the arrays' shape.
 
-    It is that of three quarters of the chord, ``-v_n + c omega/2``. Past the angle a_s of largest lift, circulation
-    follows lift and not the angle: there the first part is ``V sin(a_s) C_L(alpha)/C_L(a_s)``, which vanishes with
-    the lift of a plate that meets the air broadside.
+    When it changes, the strip sheds circulation. It is the downwash at three quarters of the chord, ``-v_n + c
+    omega/2``. Past the angle a_s of largest lift, circulation follows lift and not the angle: there ``V sin(a_s)
+    C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. It vanishes, like the lift, for a plate broadside to the air.
 
     Parameters
     ----------
-    kernel : of the polar.
+    kernel : the kernel of the polar.
     chord : c [m].
     chord_speed, normal_speed : of the quarter chord through the air, v_c and v_n [m/s].
     turning : omega, leading edge up [rad/s].
@@ -80,7 +80,7 @@ def is_stalled(kernel: Kernel, alpha: Array) -> NDArray[np.bool_]:
 
     Parameters
     ----------
-    kernel : of the polar.
+    kernel : the kernel of the polar.
     alpha : from -pi to pi [rad], any shape.
     """
     below, above = _beyond(kernel, alpha)
@@ -93,10 +93,10 @@ def _beyond(kernel: Kernel, alpha: Array) -> tuple[NDArray[np.bool_], NDArray[np
 
 
 def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
-    """Return the downwash of the shed wake X [m/s], shape (n, strips); ``w - X`` is what the polar meets.
+    """Return the downwash X of the shed wake [m/s], shape (n, strips); ``w - X`` remains for the polar.
 
-    Between two samples w is a straight line in s, along which the states are exact. A motion that repeats has the
-    states that repeat with it; any other starts with the wake of steady flight, X = 0.
+    Between two samples w is taken as linear in s, and the states are integrated exactly. In a motion that repeats,
+    the states repeat too; any other motion starts with the wake of steady flight, X = 0.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
 
 
 def _step_weights(way: Array) -> tuple[Array, Array, Array]:
-    """Return how much of a state, of w at the end and of w at the start of a step its end holds; they sum to 1."""
+    """Return the weights of the old state, of w at the end and of w at the start in the state after a step."""
     fading, few = np.exp(-way), np.minimum(way, _SHORT)
     short = way < _SHORT
     mean = np.where(short, 1 - few / 2 + few * few / 6, -np.expm1(-way) / np.maximum(way, _SHORT))
@@ -133,7 +133,7 @@ def _step_weights(way: Array) -> tuple[Array, Array, Array]:
 
 
 def _repeating(fading: Array, pushes: Array, at_rest: Array) -> Array:
-    """Return the states at the first time that a whole beat brings back; `at_rest` where no beat moves them."""
+    """Return the states at the first time that recur after a beat; `at_rest` for strips that do not travel."""
     held, gained = np.ones_like(at_rest), np.zeros_like(at_rest)
     for fade, push in zip(fading, pushes, strict=True):
         held, gained = fade * held, fade * gained + push

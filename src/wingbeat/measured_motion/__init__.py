@@ -1,4 +1,4 @@
-"""Measured motions of wings: read strip by strip, and held against the air loads of every model and term."""
+"""Measured motions of wings, strip by strip: the loads of every model and term, compared with measured forces."""
 
 from wingbeat.measured_motion.choice import Regime
 from wingbeat.measured_motion.comparison import Validation, ValidationRow, validate

@@ -2,24 +2,27 @@
 
 The rule never sees a measured force. It follows from what is known of the flow, not from scores:
 
-1. The kind of wing is what the case says. If it says nothing, a flyer below 2.5 g whose wings work at Reynolds
-   numbers below 7000 is taken for an insect, with rigid wings; any other for a bird, with feathered ones.
-2. Below a Reynolds number of 10 000 the vortex on the leading edge stays attached while a wing turns about its
-   root, on wings of insects and hummingbirds alike (Usherwood and Ellington 2002, doi 10.1242/jeb.205.11.1565): the
-   polar of a revolving wing, `dickinson`. It holds its own induced flow.
-3. Above, feathered and membrane wings have models of their names; a rigid wing has the plate, `su-fan`. In slow
-   flight, below twice the induced speed of hover, a wing moves as a revolving one, and a model named so for its
-   kind (`feathered-revolving`) comes first: a revolving wing stalls later and holds its own induced flow.
+1. The case names the kind of wing. If it does not, a flyer below 2.5 g whose wings work at Reynolds numbers below
+   7000 counts as an insect with rigid wings, any other as a bird with feathered wings.
+2. Below a Reynolds number of 10 000 the vortex on the leading edge of a wing that turns about its root stays
+   attached, on wings of insects and hummingbirds alike (Usherwood and Ellington 2002, doi
+   10.1242/jeb.205.11.1565). The rule takes the polar of a revolving wing, `dickinson`, which includes the induced
+   flow.
+3. Above it, the rule takes the model named after the kind of wing (`feathered`, `membrane`), and the plate,
+   `su-fan`, for a rigid wing. In slow flight, below twice the induced speed of hover, a wing moves like a revolving
+   one. A model of revolving wings of this kind (`feathered-revolving`) then comes first, because a revolving wing
+   stalls later and its polar includes the induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
-   section 8.2, draws the line between 0.05 and 0.2): rotation and added mass.
-5. There too the wake that the changes of lift leave behind is near enough to slow them (Theodorsen 1935, NACA
-   Report 496: it takes 15 % of the lift at 0.1, 38 % at 0.5). His wake is a straight sheet that the flight
-   carries off, shed by a wing whose lift rises with its angle. So the lag needs a model with an aspect ratio,
-   measured in straight flow; a speed of twice the induced speed of hover at least; and angles of attack of the
-   motion below that of the polar's largest lift for nine tenths of the beat, by area. The theory has no upper
-   limit of the reduced frequency.
-6. The polar of a finite wing holds an induced flow of W/(2 rho A U). That is what momentum gives in fast flight. In
-   slow flight it is not: momentum inflow, where a model states its aspect ratio.
+   section 8.2, draws the line between 0.05 and 0.2). The rule adds rotation and added mass.
+5. Above 0.1, the wake that changes of lift leave behind is also near enough to reduce them (Theodorsen 1935, NACA
+   Report 496: by 15 % at a reduced frequency of 0.1, by 38 % at 0.5). He assumes a straight wake that stays behind
+   the flyer, and a wing whose lift rises with its angle of attack. So the rule adds the lag of the wake on three
+   conditions: the model states an aspect ratio, as models measured in straight flow do; the speed is at least
+   twice the induced speed of hover; and for nine tenths of the beat, weighted by area, the angle of attack of the
+   motion is below that of the polar's largest lift. The theory has no upper limit of the reduced frequency.
+6. The polar of a finite wing includes an induced flow of W/(2 rho A U), which is that of momentum theory in fast
+   flight. In slow flight momentum theory gives another induced flow, so the rule adds momentum inflow if the model
+   states its aspect ratio.
 """
 
 from __future__ import annotations
@@ -48,14 +51,14 @@ _REVOLVING, _PLATE = "dickinson", "su-fan"
 
 @dataclass(frozen=True)
 class Regime:
-    """What decides which loads suit a motion.
+    """The numbers and the kind of wing that decide which loads suit a motion.
 
     Attributes
     ----------
     wing : "feathered", "membrane" or "rigid".
     guessed : whether the kind of wing was guessed.
-    speed : mean speed of the quarter chords through the air across the span, by area [m/s].
-    chord : mean chord, by area [m].
+    speed : mean speed of the quarter chords through the air across the span, weighted by area [m/s].
+    chord : mean chord, weighted by area [m].
     reynolds : Reynolds number of that chord at that speed.
     reduced_frequency : ``pi f c / U`` with the same chord and speed.
     slowness : speed of flight over the induced speed of an ideal disc in hover, a ratio.
@@ -71,12 +74,12 @@ class Regime:
 
 
 def regime_of(case: StripCase, motion: StripMotion) -> Regime:
-    """Return what decides which loads suit a motion.
+    """Return the numbers and the kind of wing that decide which loads suit a motion.
 
     Parameters
     ----------
     case : the measured motion.
-    motion : the same through still air, from `strip_motion`.
+    motion : of its strips through still air, from `strip_motion`.
     """
     areas = case.area / case.area.sum(axis=1, keepdims=True)
     speed = float(case.mean((areas * np.hypot(motion.chord_speed, motion.normal_speed)).sum(axis=1)))
@@ -101,7 +104,7 @@ def wanted_model(regime: Regime, names: list[str]) -> str:
 
     Parameters
     ----------
-    regime : what decides.
+    regime : from `regime_of`.
     names : of the models in the library.
     """
     if regime.reynolds < _VORTEX_STAYS_BELOW:
@@ -111,15 +114,16 @@ def wanted_model(regime: Regime, names: list[str]) -> str:
 
 
 def attached_share(case: StripCase, motion: StripMotion, model: CoefficientModel) -> float:
-    """Return for which share of the judged time, by area, the angle of attack is below that of largest lift.
+    """Return the share of the compared time in which the angle of attack is below that of largest lift.
 
-    The angle is that of the motion through still air; the force has no part in it.
+    The share is weighted by the strips' areas. The angle is that of the motion through still air; the measured
+    force is not used.
 
     Parameters
     ----------
     case : the measured motion.
-    motion : the same through still air, from `strip_motion`.
-    model : whose polar says where lift is largest, above and below.
+    motion : of its strips through still air, from `strip_motion`.
+    model : its polar determines the angles of largest lift, above and below zero.
     """
     alpha = np.arctan2(-motion.normal_speed, motion.chord_speed)
     areas = case.area / case.area.sum(axis=1, keepdims=True)
@@ -129,12 +133,12 @@ def attached_share(case: StripCase, motion: StripMotion, model: CoefficientModel
 def model_distance(regime: Regime, model: CoefficientModel, wanted: str) -> tuple[float, float]:
     """Return how far a coefficient model is from the wanted one: by name, then by Reynolds number.
 
-    Models that are not the wanted one follow by the distance of their Reynolds numbers, in powers of ten; those
-    that state none come last.
+    The first number is 0 for the wanted model and 1 for any other. The second says how many powers of ten the
+    Reynolds number lies outside the model's range; it is infinite for a model that states no range.
 
     Parameters
     ----------
-    regime : what decides.
+    regime : from `regime_of`.
     model : the coefficient model.
     wanted : name of the coefficient model that suits best.
     """
@@ -146,7 +150,7 @@ def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) ->
 
     Parameters
     ----------
-    regime : what decides.
+    regime : from `regime_of`.
     model : the coefficient model.
     attached : share of the beat with attached flow, from `attached_share`.
     """
@@ -163,7 +167,7 @@ def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tupl
 
     Parameters
     ----------
-    regime : what decides.
+    regime : from `regime_of`.
     rung : the coefficient model and its terms.
     wanted : name of the coefficient model that suits best.
     attached : share of the beat with attached flow, from `attached_share`.
@@ -200,11 +204,11 @@ def _distance(model: CoefficientModel, reynolds: float) -> float:
 
 
 def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
-    """Return in a sentence or two why air loads are the recommended ones.
+    """Return in a sentence or two why these air loads are recommended.
 
     Parameters
     ----------
-    regime : what decides.
+    regime : from `regime_of`.
     rung : the recommended coefficient model and terms.
     wanted : name of the coefficient model that suits best.
     attached : share of the beat with attached flow, from `attached_share`.
@@ -223,7 +227,7 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
         parts.append(f"this model is not among the rows; {aero.coefficients.name} is the nearest one")
     parts.append(_unsteady_reason(regime, aero.coefficients, attached))
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
-        parts.append("which the chosen rows do not offer")
+        parts.append("the chosen rows do not offer these terms")
     if aero.coefficients.aspect_ratio is None:
         parts.append("no momentum inflow (the polar includes induced flow)")
     elif aero.inflow != "none":

@@ -1,4 +1,4 @@
-"""A measured motion against every coefficient model and every step of the ladder of further terms."""
+"""A measured motion compared with the air loads of every coefficient model and every choice of terms."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from wingbeat.measured_motion.strip_motion import StripMotion, strip_motion
 
 @dataclass(frozen=True)
 class ValidationRow:
-    """One coefficient model with a choice of terms, held against a measured motion.
+    """One coefficient model with a choice of terms, compared with a measured motion.
 
     Attributes
     ----------
     aero : the air loads, without the lag of the wake.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
-    recommended : whether the rule of `wingbeat.measured_motion.choice` recommends this row, one of all.
+    recommended : whether the rule of `wingbeat.measured_motion.choice` recommends this row; it recommends one row.
     fx, fz : how close the computed forward and upward forces are to the measured ones.
     aerodynamic_power : mean power that the wings give to the air [W].
     loads : the loads through time.
@@ -50,7 +50,7 @@ class ValidationRow:
     loads: StripLoads
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the row as JSON's types."""
+        """Return the row as JSON types."""
         return {
             "aero": self.aero.coefficients.name,
             "extension": self.aero.coefficients.extension,
@@ -70,10 +70,10 @@ class Validation:
     Attributes
     ----------
     case : the measured motion and its forces.
-    motion : the same through still air.
+    motion : of its strips through still air.
     regime : Reynolds number, reduced frequency and kind of wing, which decide the recommendation.
     rows : one for each model and choice of terms.
-    reason : why this row is recommended.
+    reason : why the recommended row is recommended.
     """
 
     case: StripCase
@@ -96,7 +96,7 @@ class Validation:
         return (*self.case.notes, *self.motion.notes, *start)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the whole as JSON's types; None where nothing was measured or a number has no meaning."""
+        """Return the comparison as JSON types; None where nothing was measured or a number has no meaning."""
         regime = self.regime
         return {
             "case": self.case.name,
@@ -122,31 +122,32 @@ def validate(
 ) -> Validation:
     """Evaluate the air loads of coefficient models and terms on a measured motion, and compare the forces.
 
-    The rows are every model with every step of the ladder: no unsteady terms, those of a thin aerofoil, the same
-    with the lag of the wake, each with and without momentum inflow. Inflow and lag need a model with an aspect
-    ratio; rows of others are left out unless they are asked for.
-    Exactly one row is recommended, by a rule of Reynolds number, reduced frequency, kind of wing and speed that
-    never sees the measured force (`wingbeat.measured_motion.choice`). If the rows hold no such loads, the nearest
-    are recommended: first by the model, then by the unsteady terms, then by the inflow.
+    Each model has a row for each choice of terms: no unsteady terms, those of a thin aerofoil, or these with the
+    lag of the wake; and each of them with and without momentum inflow. Inflow and lag need a model with an aspect
+    ratio. For other models these rows are left out, but if both the models and the term are given, they are
+    refused.
 
-    The power that the wings give to the air is minus the work of the loads along the velocities of the wing through
-    still air, and of the couples along its turning. In steady flight without drag of the body it is the power of
-    the hinges.
+    Exactly one row is recommended, by a rule of Reynolds number, reduced frequency, kind of wing and speed that
+    never sees the measured force (`wingbeat.measured_motion.choice`). If no row has the loads that the rule wants,
+    it recommends the nearest row: nearest in the model first, then in the unsteady terms, then in the inflow.
+
+    The power that the wings give to the air is minus the power of loads and couples on the wing's motion through
+    still air. In steady flight without body drag it equals the hinge power.
 
     Parameters
     ----------
     case : a measured motion, or the path of its case.toml.
     aero : coefficient models, their names or files; all of the library if not given.
-    unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake" keeps these rows alone.
-    inflow : "none" or "momentum" keeps these rows alone.
+    unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake" keeps only these rows.
+    inflow : "none" or "momentum" keeps only these rows.
     induced_factor : induced power of the inflow over that of an ideal disc.
-    extension : how the library's models and those of files reach every angle; that of each model if not given.
+    extension : how models of the library and of files are extended to all angles; each model's own if not given.
 
     Raises
     ------
     FileError : a file is missing or cannot be read.
-    InvalidInputError : inputs that `read_strip_case` and `BladeElement` refuse; a model without an aspect ratio
-        although inflow or the lag of the wake is requested.
+    InvalidInputError : inputs that `read_strip_case` and `BladeElement` refuse; a given model without an aspect
+        ratio if inflow or the lag of the wake is given too.
 
     >>> from wingbeat.measured_motion import shipped_cases
     >>> found = validate(shipped_cases()[0], aero=["dickinson"])

@@ -1,4 +1,4 @@
-"""The table of forces measured beside a motion: one row for each time of the strips."""
+"""The table of forces that were measured with a motion: one row for each time of the strips."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SAME_TIME = 0.1
 def read_forces(
     faults: FaultList, sheet: Sheet, times: Array | None, window: tuple[Any, Any]
 ) -> tuple[dict[str, Array], dict[str, Array]] | None:
-    """Return forces and their standard errors at the times of the strips, or None where a fault was noted."""
+    """Return forces and their standard errors at the times of the strips, or None if a fault was noted."""
     known = ["time_s", *_FORCES, *(name for name in _ERRORS if name.endswith("_n_se"))]
     if not check_columns(faults, sheet, ["time_s"], [*known, *(set(_ERRORS) - set(known))]):
         return None
@@ -41,7 +41,7 @@ def read_forces(
         rows = np.flatnonzero((name in _ERRORS and _ERRORS[name] + "_n" in by_name) & (column < 0))
         for i in rows[:LISTED]:
             where = f"{sheet.file} row {sheet.rows[i][0]}, column {name}"
-            faults.add(where, float(column[i]), "must be >= 0: it is a standard error", "give its size")
+            faults.add(where, float(column[i]), "must be >= 0: it is a standard error", "give its absolute value")
     if place is None or len(faults.faults) > before:
         return None
 
@@ -58,7 +58,7 @@ def read_forces(
 def _matched(
     faults: FaultList, sheet: Sheet, given: Array, times: Array, window: tuple[Any, Any]
 ) -> NDArray[np.int64] | None:
-    """Return the row of forces for each time of the strips, -1 where there is none outside of the window."""
+    """Return the row of forces for each time of the strips; -1 for a time outside the window that has no row."""
     before = len(faults.faults)
     falls = np.flatnonzero(np.diff(given) <= 0) + 1
     for i in falls[:LISTED]:

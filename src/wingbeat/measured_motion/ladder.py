@@ -1,4 +1,4 @@
-"""The rows of a comparison: every coefficient model with every step of the ladder of further terms."""
+"""The rows of a comparison: every coefficient model with every choice of terms."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def ladder(
     induced_factor: float,
     extension: str | None,
 ) -> list[Rung]:
-    """Return the rows that were asked for.
+    """Return the rows of a comparison.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ def ladder(
     unsteady : one of `UNSTEADY_STEPS`; all if not given.
     inflow : one of `INFLOWS`; all if not given.
     induced_factor : induced power of the inflow over that of an ideal disc.
-    extension : how the library's models and those of files reach every angle; that of each model if not given.
+    extension : how models of the library and of files are extended to all angles; each model's own if not given.
 
     Raises
     ------
-    InvalidInputError : all faults of what was asked together.
+    InvalidInputError : all faults of these arguments together.
     FileError : the file of a model is missing or cannot be read.
     """
     faults = FaultList()

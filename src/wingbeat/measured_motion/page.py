@@ -1,4 +1,4 @@
-"""The page on measured motions, in Markdown: what the loads of every model and term come to."""
+"""The page on measured motions, in Markdown: the scores of every model and choice of terms."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def validation_text(found: Sequence[Validation], figures: Sequence[str]) -> str:
     Parameters
     ----------
     found : one result for each case.
-    figures : the file name of the figure of each.
+    figures : the file name of the figure of each case.
     """
     summary = ["## Recommended rows", "", *_table(_SUMMARY, [_summary(one) for one in found]), ""]
     parts = [_section(one, figure) for one, figure in zip(found, figures, strict=True)]

@@ -29,13 +29,16 @@ _WINDOW = {"start": "from", "end": "to"}
 def read_strip_case(path: str | Path) -> StripCase:
     """Read a strip-motion case: a TOML file, a CSV file of strips and, if there is one, a CSV file of forces.
 
-    ``case.toml`` holds name, mass [kg], density [kg/m3], gravity [m/s2], frequency [Hz], speed [m/s], mirrored,
-    periodic, strips and one of forces (file names beside it) and mean_force ([fx, fz] in N); optionally from and to
-    [s], and wing ("feathered", "membrane" or "rigid"). The strips have one row for each time and strip: ``time_s,
-    strip``, quarter chord ``x_m, y_m, z_m``, chord from trailing to leading edge ``chord_x_m, chord_y_m,
-    chord_z_m``, ``area_m2``; optionally velocities through still air at the quarter chord ``vx_m_s, vy_m_s,
-    vz_m_s`` and at the three-quarter chord ``v3x_m_s, v3y_m_s, v3z_m_s``. Strips of a wing are numbered along
-    it. The forces have ``time_s``, the times of the strips, and any of ``fx_n, fz_n, fx_n_se, fz_n_se``.
+    ``case.toml`` states name, mass [kg], density [kg/m3], gravity [m/s2], frequency [Hz], speed [m/s], mirrored,
+    periodic and strips, the name of the file of strips beside it. It also states either forces, the name of the
+    file of forces, or mean_force ([fx, fz] in N). Optional are from and to [s], and wing ("feathered", "membrane"
+    or "rigid"). `StripCase` explains these values.
+
+    The file of strips has one row for each time and strip, with the columns ``time_s, strip``, quarter chord
+    ``x_m, y_m, z_m``, chord from trailing to leading edge ``chord_x_m, chord_y_m, chord_z_m``, and ``area_m2``.
+    Optional are velocities through still air at the quarter chord ``vx_m_s, vy_m_s, vz_m_s`` and at the
+    three-quarter chord ``v3x_m_s, v3y_m_s, v3z_m_s``. The strips of a wing are numbered along it. The file of
+    forces has ``time_s``, the same times as the strips, and any of ``fx_n, fz_n, fx_n_se, fz_n_se``.
 
     Parameters
     ----------
@@ -44,8 +47,9 @@ def read_strip_case(path: str | Path) -> StripCase:
     Raises
     ------
     FileError : a file is missing or cannot be read.
-    InvalidInputError : missing or unknown keys and columns, numbers beyond reason, times that do not rise, strips
-        that vanish, forces of another length, each fault with its file and row.
+    InvalidInputError : missing or unknown keys and columns, numbers out of range, times that do not rise, strips
+        that lack a row at some time, times of forces that differ from those of strips, each fault with its file and
+        row.
 
     >>> read_strip_case(shipped_cases()[-1]).name
     'flapper-yeo2011'
@@ -86,7 +90,7 @@ def read_strip_case(path: str | Path) -> StripCase:
 
 
 def _frequency(given: dict[str, Any]) -> float:
-    """Return the frequency that a case states, or one that no step of time is judged by."""
+    """Return the frequency that a case states; if it is invalid, one so low that no step of time counts as wide."""
     frequency, limits = given.get("frequency"), SCALAR_LIMITS["frequency"]
     if is_number(frequency) and limits.least <= frequency <= limits.most:
         return float(frequency)
@@ -94,7 +98,7 @@ def _frequency(given: dict[str, Any]) -> float:
 
 
 def shipped_cases() -> list[Path]:
-    """Return the paths of the cases that the package holds, sorted by name.
+    """Return the paths of the cases that the package contains, sorted by name.
 
     >>> len(shipped_cases())
     5
@@ -125,7 +129,7 @@ def _check_keys(faults: FaultList, given: dict[str, Any], file: str) -> None:
 
 
 def _table(faults: FaultList, given: dict[str, Any], key: str, path: Path, read: Any) -> Any:
-    """Return what `read` makes of the table that a key names, or None where it is at fault."""
+    """Return what `read` returns for the table that a key names, or None if the table has a fault."""
     name = given.get(key)
     if not isinstance(name, str) or not name.strip():
         return None
@@ -134,5 +138,5 @@ def _table(faults: FaultList, given: dict[str, Any], key: str, path: Path, read:
     except InvalidInputError as error:
         faults.faults.extend(error.faults)
     except FileError as error:
-        faults.add(f"{path.name}, {key}", name, str(error), "the file lies beside it")
+        faults.add(f"{path.name}, {key}", name, str(error), "the file must lie beside it")
     return None

@@ -29,9 +29,9 @@ class Score:
     mean_ratio : computed mean over the measured mean.
     peak_ratio : computed largest force over the measured one, in the direction of the measured one.
     rms : root mean square of the difference over the weight.
-    correlation : coefficient of Pearson.
+    correlation : Pearson's correlation coefficient.
     lag : share of a beat by which the computed force comes later, where the two agree best.
-    rms_about_mean : root mean square of the difference over that of the measurement, both less their means.
+    rms_about_mean : root mean square of the difference over that of the measured force, each force about its mean.
     """
 
     mean_ratio: float | None = None
@@ -83,9 +83,9 @@ def score(case: StripCase, axis: str, force: Array) -> Score:
 
 
 def sine_score(case: StripCase, axis: str) -> dict[str, float | None]:
-    """Return how close a mean and a sine at the beat's frequency come, fitted to the measured force itself.
+    """Return the scores of a mean and a sine at the beat's frequency, fitted to the measured force itself.
 
-    No computation sees the measurement; this one does, so that it is the mark that a model of the air must pass.
+    Models of the air do not use the measured force; this fit does. A model that scores worse has explained little.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def _finite(value: float) -> float | None:
 
 
 def _lag(case: StripCase, measured: Array, force: Array) -> float | None:
-    """Return by which share of a beat the computed force must come earlier to agree best with the measured one."""
+    """Return the delay of the computed force in beats; without it, the two forces would agree best."""
     step, here = 1.0 / (case.frequency * _STEPS), case.inside
     first, last = case.times[here][0], case.times[here][-1]
     repeats = case.period if case.period is not None and here.all() else None
@@ -166,7 +166,7 @@ def _lag(case: StripCase, measured: Array, force: Array) -> float | None:
 
 
 def _vertex(values: list[float], best: int) -> float:
-    """Return how many steps beside the largest value the parabola through it and its neighbours is highest."""
+    """Return the steps from the largest value to the vertex of the parabola through it and its neighbours."""
     if not 0 < best < len(values) - 1:
         return 0.0
     before, here, after = values[best - 1 : best + 2]

@@ -1,11 +1,11 @@
 """Rates of change of measured series: a cubic smoothing spline whose stiffness cross-validation chooses.
 
-Frames hold noise, and a difference of two frames divides it by the short time between them. The natural cubic
-spline f minimises ``sum (y - f)^2 + stiffness * integral f''^2``; its slopes are the rates. Generalised
+Measured frames contain noise, and a difference of two frames divides it by the short time between them. The natural
+cubic spline f minimises ``sum (y - f)^2 + stiffness * integral f''^2``; its slopes are the rates. Generalised
 cross-validation (Craven and Wahba 1979, doi 10.1007/BF01404567) picks the stiffness that predicts a left-out frame
-best, one for all series of a call, so that all strips are treated alike: exact series keep their values, and of
-noisy ones the noise is taken off. It never smooths the first four harmonics of the beat. Where a motion repeats,
-the series is continued on both sides; else the slopes of the first and last frames are less certain than others,
+best. All series of a call have one stiffness, so that all strips are treated alike. Exact series keep their values;
+noisy ones lose their noise. The first four harmonics of the beat are never smoothed away. If a motion repeats, the
+series is continued on both sides; otherwise the slopes of the first and last frames are less certain than others,
 since nothing is known beyond them.
 """
 
@@ -53,7 +53,7 @@ def smoothed_slopes(times: Array, values: Array, frequency: float, period: float
 
 
 def _continued(times: Array, flat: Array, period: float) -> tuple[Array, Array, int]:
-    """Return the series with frames of the beats before and after, and how many come before."""
+    """Return the series with frames of the beats before and after, and the number of frames before."""
     close = 1e-3 * float(np.diff(times).min())
     # A frame that repeats the first one, a period later, is not taken twice.
     once = times < times[0] + period - close
@@ -91,7 +91,7 @@ def _spline(times: Array, values: Array, kept: float) -> tuple[Array, Array]:
 
 
 def _bent(roughness: Array, product: Array, step: Array, bends: Array, stiffness: float) -> tuple[Array, Array]:
-    """Return the second derivatives at the inner knots and how far the spline stays off the values."""
+    """Return the second derivatives at the inner knots and the distances of the spline from the values."""
     from scipy.linalg import solveh_banded
 
     second = solveh_banded(roughness + stiffness * product, bends, check_finite=False)

@@ -1,4 +1,4 @@
-"""The measured motion of a wing as strips through time, with the forces that were measured beside it."""
+"""The measured motion of a wing as strips through time, with the forces that were measured at the same time."""
 
 from __future__ import annotations
 
@@ -44,19 +44,21 @@ class StripCase:
     gravity : [m/s2].
     frequency : wingbeats per second [Hz].
     speed : forward speed through the air [m/s].
-    mirrored : whether the strips are those of one wing, or pair of wings, and the others are its mirror image.
+    mirrored : whether the strips are those of one side (one wing, or fore and hind wing), and the other side is its
+        mirror image.
     periodic : whether the motion repeats after the last time; the times then cover whole beats.
     times : of the measurement, rising [s], shape (n,).
     position : of the quarter chord of each strip [m], shape (n, strips, 3).
     chord : from the trailing to the leading edge [m], shape (n, strips, 3).
     area : of each strip [m2], shape (n, strips).
-    velocity : of the wing's material at the quarter chord through still air [m/s], shape (n, strips, 3); None takes
-        it from the positions.
-    rear_velocity : the same at the three-quarter chord [m/s]; None takes the turning from the chords.
+    velocity : of the wing's material at the quarter chord through still air [m/s], shape (n, strips, 3); if None,
+        it is computed from the positions.
+    rear_velocity : the same at the three-quarter chord [m/s]; if None, the turning of the chord is computed from
+        `chord`.
     forces : any of "fx" (forward) and "fz" (up), of the whole animal [N], shape (n,); NaN where not measured.
-    errors : the standard errors of these [N], shape (n,).
+    errors : the standard errors of `forces` [N], shape (n,).
     mean_force : mean forward and upward force [N], in place of `forces`.
-    start, end : the part of the times that is judged [s]; None for the first and the last time.
+    start, end : first and last time at which forces are compared [s]; None for those of `times`.
     wing : "feathered", "membrane" or "rigid"; None if unknown.
 
     Attributes
@@ -65,8 +67,8 @@ class StripCase:
 
     Raises
     ------
-    InvalidInputError : numbers that are missing, not finite or beyond reason, arrays of the wrong shape, times that
-        do not rise or leave gaps, chords of no length, both or neither of `forces` and `mean_force`.
+    InvalidInputError : numbers that are missing, not finite or out of range, arrays of the wrong shape, times that
+        do not rise or leave gaps, chords of zero length, both or neither of `forces` and `mean_force`.
     """
 
     name: str
@@ -119,7 +121,7 @@ class StripCase:
 
     @property
     def inside(self) -> NDArray[np.bool_]:
-        """Which of the times are judged, shape (n,)."""
+        """Which of the times are compared, shape (n,)."""
         first = self.times[0] if self.start is None else self.start
         last = self.times[-1] if self.end is None else self.end
         slack = 1e-9 * (self.times[-1] - self.times[0])
@@ -127,7 +129,7 @@ class StripCase:
 
     @property
     def period(self) -> float | None:
-        """Time after which the motion repeats [s]; None where it does not, or does not cover whole beats."""
+        """Time after which the motion repeats [s]; None if it does not, or the times do not cover whole beats."""
         covered = self.times[-1] - self.times[0]
         whole = max(round(covered * self.frequency), 1) / self.frequency
         gap = whole - covered
@@ -135,7 +137,7 @@ class StripCase:
         return whole if self.periodic and -_SLACK / self.frequency <= gap <= widest else None
 
     def weights(self) -> Array:
-        """Return the share of the judged time that each time stands for, shape (n,): the trapezoidal rule."""
+        """Return the weights of the times in a mean over the compared time, shape (n,), by the trapezoidal rule."""
         steps = np.diff(self.times)
         here = self.inside
         if self.period is not None and here.all():
@@ -148,7 +150,7 @@ class StripCase:
         return shares / shares.sum()
 
     def mean(self, values: Array) -> Array:
-        """Return the mean over the judged time of values along the first axis.
+        """Return the mean of values over the compared time, along the first axis.
 
         Parameters
         ----------
@@ -162,10 +164,11 @@ class StripCase:
         covered = float(np.ptp(self.times[self.inside])) * self.frequency
         if self.periodic and self.period is None:
             beats = float(np.ptp(self.times)) * self.frequency
-            notes.append(f"the times cover {beats:.2f} beats, not a whole number: taken as not periodic")
+            rule = "not a whole number: the motion counts as not periodic"
+            notes.append(f"the times cover {beats:.2f} beats, {rule}")
         whole = self.period is not None and bool(self.inside.all())
         if not whole and self.mean_force is not None and abs(covered - round(covered)) > 0.1:
-            notes.append(f"{covered:.2f} beats are judged: their mean is not that of whole beats")
+            notes.append(f"{covered:.2f} beats are compared: their mean is not that of whole beats")
         if self.density > 10:
             notes.append("the fluid is not air, but the Reynolds number is computed with the viscosity of air")
         return notes

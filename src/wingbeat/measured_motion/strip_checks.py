@@ -23,7 +23,7 @@ _LISTED = 5
 
 
 class Limits(NamedTuple):
-    """The range of a number or of a component, with its unit, and how to mend what lies outside."""
+    """The range of a number or of a component, its unit, and the fix for a number outside the range."""
 
     least: float
     most: float
@@ -69,7 +69,7 @@ def check_scalars(faults: FaultList, values: Mapping[str, Any], where: Callable[
 def check_arrays(
     faults: FaultList, arrays: Mapping[str, NDArray[np.float64] | None], frequency: float, where: Where
 ) -> None:
-    """Note arrays of another shape, numbers that are not finite or beyond reason, and chords of no length."""
+    """Note arrays of another shape, numbers that are not finite or out of range, and chords of zero length."""
     times, area = arrays["times"], arrays["area"]
     if times is None or times.ndim != 1 or area is None or area.ndim != 2 or not area.size:
         faults.add(where("area", ()), "", "must have a row for each time and a column for each strip")
@@ -102,7 +102,7 @@ def check_arrays(
 
 
 def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float, where: Where) -> None:
-    """Note times that do not rise, and steps in which a beat could hide."""
+    """Note times that do not rise, and steps that are too wide to resolve a beat or far narrower than others."""
     steps = np.diff(times)
     falls = np.append(False, steps <= 0)
     _list(
@@ -114,20 +114,20 @@ def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float,
     rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
     _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? if so, fill the gap")
     close = np.append(False, steps < _NARROWEST * steps.max())
-    rule = f"comes after less than {_NARROWEST:g} of the widest step [s]"
+    rule = f"comes less than {_NARROWEST:g} of the widest step after the time before it [s]"
     _list(faults, close, times, "times", where, rule, "drop one of the two")
 
 
 def _list(
     faults: FaultList, bad: NDArray[np.bool_], values: Any, name: str, where: Where, rule: str, fix: str
 ) -> None:
-    """Note the first few of what is bad one by one, and how many there are in all."""
+    """Note the first few bad values one by one, and then their total number."""
     places = np.argwhere(bad)
     for place in places[:_LISTED]:
         index = tuple(int(i) for i in place)
         faults.add(where(name, index), float(values[index]), rule, fix)
     if len(places) > _LISTED:
-        faults.add(where(name, ()), f"{len(places)} values", "have this fault in all", fix)
+        faults.add(where(name, ()), f"{len(places)} values", "have this fault in total", fix)
 
 
 def check_window(
@@ -137,7 +137,7 @@ def check_window(
     end: float | None,
     where: Callable[[str], str],
 ) -> None:
-    """Note a window that is no pair of rising numbers or holds too few of the times."""
+    """Note a window that is not a pair of rising numbers or contains too few times."""
     first, last = float(times[0]), float(times[-1])
     given = {"start": first if start is None else start, "end": last if end is None else end}
     if not all([faults.number(where(name), value, unit="s") for name, value in given.items()]):
@@ -147,15 +147,15 @@ def check_window(
         return
     held = int(((times >= given["start"]) & (times <= given["end"])).sum())
     if held < FEWEST:
-        rule = f"the window holds {held} of the times, and needs {FEWEST}"
+        rule = f"the window contains {held} times and needs {FEWEST}"
         faults.add(where("start"), given["start"], rule, f"the times run from {first:g} to {last:g} s")
 
 
 def check_measured(faults: FaultList, case: Any) -> None:
-    """Note forces of another length, forces that were not measured in the window, and both or neither kind."""
+    """Note forces of the wrong length, forces not measured in the window, and both or neither kind of force."""
     if bool(case.forces) == (case.mean_force is not None):
         fix = "give the forces through time, or their mean"
-        faults.add("forces", sorted(case.forces), "must be given in one of forces and mean_force", fix)
+        faults.add("forces", sorted(case.forces), "exactly one of forces and mean_force must be given", fix)
     if case.mean_force is not None:
         check_mean_force(faults, "mean_force", case.mean_force)
     for kind in ("forces", "errors"):
@@ -166,13 +166,13 @@ def check_measured(faults: FaultList, case: Any) -> None:
             elif np.shape(values) != case.times.shape:
                 faults.add(place, np.shape(values), f"must have the shape {case.times.shape}, as times")
             elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():
-                faults.add(place, "not finite or beyond 1e7 N", "must be numbers [N] at all times that are judged")
+                faults.add(place, "not finite or beyond 1e7 N", "must be numbers [N] from start to end")
             elif kind == "errors" and (values[case.inside] < 0).any():
-                faults.add(place, "below 0", "must be standard errors", "give their size")
+                faults.add(place, "below 0", "must be standard errors", "give their absolute values")
 
 
 def check_mean_force(faults: FaultList, where: str, given: Any) -> None:
-    """Note a mean force that is no pair of numbers."""
+    """Note a mean force that is not a pair of numbers."""
     if not isinstance(given, list | tuple) or len(given) != 2:
         faults.add(where, given, "must be two numbers, forward and up [N]", "for example [0.0, 0.0085]")
         return

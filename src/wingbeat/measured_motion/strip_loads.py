@@ -27,9 +27,9 @@ class StripLoads:
     Attributes
     ----------
     fx, fz : forward and upward force of all wings [N], shape (n,).
-    power : what the wings give to the air [W], shape (n,): less the work of the loads along the velocities of the
-        wing through still air, and of the couples.
-    alpha : angle of attack of each strip, of the air with the wake's part [rad], shape (n, strips).
+    power : power that the wings give to the air [W], shape (n,): minus the power of loads and couples on the wing's
+        motion through still air.
+    alpha : angle of attack of each strip in the air that its wake moves [rad], shape (n, strips).
     """
 
     fx: Array
@@ -39,7 +39,7 @@ class StripLoads:
 
 
 def momentum_inflow(case: StripCase, factor: float) -> tuple[float, float]:
-    """Return the velocity of the air that holds the weight at the speed of a case, forward and up [m/s].
+    """Return the velocity of the induced flow for the weight and speed of a case, forward and up [m/s].
 
     Parameters
     ----------
@@ -59,10 +59,10 @@ def strip_loads(
     Parameters
     ----------
     case : the measured motion.
-    motion : the same through still air, from `strip_motion`.
-    moving : the same through the air at the wings; where there is inflow, the motion `in_moving_air`.
-    aero : coefficients and terms; its number of strips and point of force have no part in it.
-    has_wake : whether the loads of the circulation lag.
+    motion : of its strips through still air, from `strip_motion`.
+    moving : of its strips through the air at the wings; with inflow, from `StripMotion.in_moving_air`.
+    aero : coefficients and terms; its number of strips and its force point are not used.
+    has_wake : whether to include the lag of the wake.
     """
     turns, kernel = aero.unsteady != "none", aero.kernel()
     met = _in_wake(case, moving, kernel) if has_wake else moving

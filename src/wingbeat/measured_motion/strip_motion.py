@@ -71,9 +71,9 @@ class _Sections(NamedTuple):
 def strip_motion(case: StripCase) -> StripMotion:
     """Return how the strips of a case move through still air.
 
-    Where the case gives no velocities of the quarter chord they are the rates of change of its positions; positions
-    that do not advance with the animal's speed are those of a wind tunnel, and get the speed. Where it gives none
-    of the three-quarter chord, the chord's turning is the rate of change of its direction.
+    If the case gives no velocities of the quarter chord, they are the rates of change of its positions. If these
+    positions do not advance with the animal, as in a wind tunnel, the speed is added. If the case gives no
+    velocities of the three-quarter chord, the chord's turning is the rate of change of its direction.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def strip_motion(case: StripCase) -> StripMotion:
 
 
 def semi_span(case: StripCase) -> float:
-    """Return how far the wings reach to a side [m]: the farthest strip and half its width.
+    """Return how far the wings reach to one side [m]: to the outer end of the farthest strip.
 
     Parameters
     ----------
@@ -124,14 +124,14 @@ def semi_span(case: StripCase) -> float:
 
 
 def moves_down(case: StripCase, motion: StripMotion) -> NDArray[np.bool_]:
-    """Return at which times the wings are in the downstroke, shape (n,); forward where the stroke is level.
+    """Return at which times the wings are in the downstroke, or in the forward stroke if it is level, shape (n,).
 
     It is the half of the stroke in which the farthest strip moves down along the line of its largest motion.
 
     Parameters
     ----------
     case : the measured motion.
-    motion : the same through still air.
+    motion : of its strips through still air.
     """
     farthest = int(np.abs(case.position[..., 1]).max(axis=0).argmax())
     moving = motion.velocity[:, farthest] - case.mean(motion.velocity[:, farthest])
@@ -145,7 +145,7 @@ def _dot(first: Array, second: Array) -> Array:
 
 
 def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
-    """Return the velocities of the quarter chords through still air [m/s], and what the reader must know."""
+    """Return the velocities of the quarter chords through still air [m/s], and notes for the reader."""
     if case.velocity is not None:
         mean = float(case.mean(case.velocity[..., 0] @ _shares(case)))
         if case.speed > 0 and abs(mean) < abs(mean - case.speed):
@@ -176,7 +176,7 @@ def _sections(case: StripCase, chord: Array, width: Array) -> _Sections:
     """Return the axes of the sections: along the chord, along the span, and across both, to the upper side.
 
     The span is the line of quarter chords less its part along the chord; that of a lone strip points to the side.
-    It runs to the left on both wings, so that the normal is that of the upper side on both.
+    It runs to the left on both wings, so that the normal points to the upper side on both.
     """
     ahead = case.chord / chord[..., None]
     outward = np.zeros_like(ahead)

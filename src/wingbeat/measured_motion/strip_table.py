@@ -29,7 +29,7 @@ _MOST_CELLS = 100
 
 
 class StripTable(NamedTuple):
-    """The table of strips as arrays, and the row of the file in which each time and strip stands."""
+    """The table of strips as arrays, and the row of the file that contains each time and strip."""
 
     arrays: dict[str, Array | None]
     rows: NDArray[np.int64]
@@ -46,7 +46,7 @@ class StripTable(NamedTuple):
 
 
 def check_columns(faults: FaultList, sheet: Sheet, needed: Iterable[str], known: Iterable[str]) -> bool:
-    """Note columns that are missing, unknown or named twice; say whether there are none."""
+    """Note columns that are missing, unknown or named twice; return whether there are none."""
     before = len(faults.faults)
     where = f"{sheet.file} row {sheet.header_row}"
     known = list(known)
@@ -64,7 +64,7 @@ def check_columns(faults: FaultList, sheet: Sheet, needed: Iterable[str], known:
 
 
 def read_strips(faults: FaultList, sheet: Sheet) -> StripTable | None:
-    """Return the strips of a table, or None where a fault was noted."""
+    """Return the strips of a table, or None if a fault was noted."""
     known = ["time_s", "strip", *(column for columns in _COLUMNS.values() for column in columns)]
     wanted = {name: columns for name, columns in _COLUMNS.items() if name not in _OPTIONAL}
     wanted |= {name: _COLUMNS[name] for name in _OPTIONAL if set(_COLUMNS[name]) & set(sheet.header)}
@@ -88,7 +88,7 @@ def read_strips(faults: FaultList, sheet: Sheet) -> StripTable | None:
 
 
 def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray[np.int64] | None:
-    """Return which row holds each time and strip, shape (times, strips); None where some are missing."""
+    """Return the row of each time and strip, shape (times, strips); None if some are missing."""
     if not len(time):
         faults.add(sheet.file, "0 rows", "holds no strips", "one row for each time and strip")
         return None
@@ -103,22 +103,22 @@ def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray
     falls = (np.diff(strip[order]) == 0) & (np.diff(time[order]) <= 0)
     for i in order[1:][falls][:LISTED]:
         where = f"{sheet.file} row {sheet.rows[i][0]}, column time_s"
-        rule = f"does not rise above the time before it of strip {strip[i]:g}"
+        rule = f"does not rise above the previous time of strip {strip[i]:g}"
         faults.add(where, float(time[i]), rule, "sort the rows by time; one row for each time and strip")
     if falls.any():
         return None
     times, at = np.unique(time, return_inverse=True)
     names, which = np.unique(strip, return_inverse=True)
     if len(times) * len(names) > _MOST_CELLS * len(time):  # it could ask for more memory than there is
-        rule = f"cannot hold {len(names)} strips at each of {len(times)} times"
+        rule = f"are too few for {len(names)} strips at each of {len(times)} times"
         faults.add(sheet.file, f"{len(time)} rows", rule, "write all strips at the same times")
         return None
     grid = np.full((len(times), len(names)), -1, dtype=np.int64)
     grid[at, which] = np.arange(len(time))
     missing = np.argwhere(grid < 0)
     for i, k in missing[:LISTED]:
-        rule = f"has no row at {times[i]:g} s; strips must be there at every time"
-        fix = "give the strip a row at each time, or leave it out of all"
+        rule = f"has no row at {times[i]:g} s; a strip needs a row at every time"
+        fix = "give the strip a row at each time, or leave it out at all times"
         faults.add(f"{sheet.file}, strip {names[k]:g}", f"{(grid[:, k] >= 0).sum()} rows", rule, fix)
     if len(missing) > LISTED:
         rule = "are missing in total: the table must have a row for every strip at every time"

@@ -1,6 +1,7 @@
 """Air loads on the five coordinates, from the motion of the wing's points in the world.
 
-It shares the formulas of a strip with `body_dynamics`, but no sum over the strips: each form checks the other.
+This module uses the same formulas for a strip as `body_dynamics`, but its own sums over the strips, so that each
+form checks the other.
 """
 
 from __future__ import annotations
@@ -59,8 +60,8 @@ class AirForces(NamedTuple):
     strips : loads on the strips of the left wing, shape (..., N).
     strip_force : force on each strip in the world [N], shape (..., N, 3).
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
-    added_mass : inertia of the air, minus the derivative of f_aero by q'', shape (..., 5, 5) [kg, kg m, kg m2];
-        zero without unsteady terms.
+    added_mass : inertia of the air, minus the derivative of f_aero with respect to q'', shape (..., 5, 5)
+        [kg, kg m, kg m2]; zero without unsteady terms.
     """
 
     generalised: Coordinates
@@ -73,12 +74,12 @@ class AirForces(NamedTuple):
 
 
 class _AirResistance(NamedTuple):
-    """The motions of each strip of the left wing that the air of a thin aerofoil resists, and the air's inertia.
+    """The motions of each strip of the left wing that the air resists (thin aerofoil), and the air's inertia.
 
     `mass` and `inertia` are the air's added mass and inertia for a strip. `lever` and `turn`, shape (N, 5), are the
-    derivatives by q' of the mid-chord's normal speed and of the chord's turning rate. `normal_bias` and
-    `turning_bias` are the time derivatives of these speeds at ``q'' = 0``. `turning` is the chord's turning rate
-    [rad/s].
+    derivatives with respect to q' of the mid-chord's normal speed and of the chord's turning rate. `normal_bias`
+    and `turning_bias` are the time derivatives of these speeds at ``q'' = 0``. `turning` is the chord's turning
+    rate [rad/s].
     """
 
     mass: PerStrip
@@ -227,9 +228,9 @@ def _unsteady(
     rotation: tuple[PerStrip, PerStrip, PerStrip],
     q_acceleration: Coordinates | None,
 ) -> _Unsteady:
-    """Return the loads of unsteady air.
+    """Return the unsteady loads.
 
-    `rotation` is that of turning strips: force along the chord, along the normal, and couple.
+    `rotation` is the load of turning strips: force along the chord, along the normal, and couple.
     """
     points = motion.position
     turning = rotation[0][:, None] * points.chordwise + rotation[1][:, None] * points.normal

@@ -1,9 +1,9 @@
 """The body's accelerations with the wing motion prescribed: force and moment balance in stroke axes.
 
-The first three rows of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), eq. of motion, summed over mass points:
-``sum m r'' = F + M g`` and ``sum m (dr/dpsi) . (r'' - g) = moment``, with
-``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` in axes that turn with the body, E turning nose-up by a
-right angle.
+These are the first three of the equations of motion of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), summed over
+mass points: ``sum m r'' = F + M g`` and ``sum m (dr/dpsi) . (r'' - g) = moment``, with
+``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` in axes that turn with the body. E turns a vector nose-up
+by a right angle.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ def wing_loads(
     ----------
     kernel, density, motion, velocity, pitch_rate : as in `strip_loads`.
     at_centre_of_pressure : whether loads act at the centre of pressure rather than at the quarter chord.
-    unsteady : share of the unsteady loads, 1 for all; no effect if `motion` has none.
+    unsteady : share of the unsteady loads, 1 for all; it has no effect if `motion` has no unsteady loads.
     """
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
@@ -127,7 +127,7 @@ def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = jnp)
     drag_area : S, drag coefficient times frontal area [m2].
     density : rho [kg/m3].
     velocity : v [m/s].
-    xp : array module of the numbers.
+    xp : the array module that computes, numpy or jax.numpy.
     """
     squared = dot(velocity, velocity)
     moving = squared > 0.0
@@ -169,7 +169,7 @@ def body_air(
     velocity : of the body's centre of mass relative to the undisturbed air, forward and up [m/s].
     pitch_rate : [rad/s].
     axes : nose-up pitch of the velocity's axes relative to body axes [rad].
-    tilt : added to the tail's incidence [rad]; None for nothing.
+    tilt : added to the tail's incidence [rad]; None means 0.
     """
     drag, tail = body_drag(vehicle.body.drag_area, density, velocity), vehicle.tail
     if tail is None:
@@ -186,7 +186,7 @@ def body_air(
 
 
 class _Balance(NamedTuple):
-    """The three rows without the terms of the body's acceleration, and the inertias that multiply these."""
+    """The three equations without the body's accelerations, and the inertias that multiply the accelerations."""
 
     mass: Scalar
     forward: Phases
@@ -225,7 +225,7 @@ def missing_loads(
 ) -> Triple:
     """Return the force in the world [N] and the nose-up moment [N m] that must act to give this acceleration.
 
-    They act besides the air loads and gravity: each is the left side minus the right side of an equation of
+    They act in addition to the air loads and gravity. Each is the left side minus the right side of an equation of
     `accelerations`.
 
     Parameters
@@ -253,9 +253,9 @@ def accelerations(
 ) -> Triple:
     """Return the body's accelerations x'' and z'' in the world [m/s2] and psi'' [rad/s2].
 
-    The three rows are linear in psi'' and the acceleration a in stroke axes: ``M a + psi'' E S = F + M g + psi'^2 S
-    - 2 psi' E S' - S''`` and ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``. S is the wings' first
-    moment, I the pitch inertia of body and wings, K the wings' acceleration moment.
+    The three equations are linear in psi'' and the acceleration a in stroke axes: ``M a + psi'' E S = F + M g +
+    psi'^2 S - 2 psi' E S' - S''`` and ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``. S is the wings'
+    first moment, I the pitch inertia of body and wings, K the wings' acceleration moment.
 
     Parameters
     ----------

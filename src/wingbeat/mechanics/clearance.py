@@ -1,6 +1,6 @@
 """How far a wing is to the side of the plane of symmetry, and how far it flaps: functions of time alone.
 
-The body pitches about the lateral axis, so where a wing is to the side depends on the prescribed wingbeat and
+The body pitches about the lateral axis, so a wing's distance to the side depends on the prescribed wingbeat and
 never on the flight.
 """
 

@@ -3,7 +3,7 @@
 Coordinates q = (x, z, body pitch psi, flap phi, root wing pitch theta); both wings are counted. Span and fold are
 functions of time, so the equations are rheonomic; for rigid wings h vanishes and they are those of Su et al. 2023
 (doi 10.48550/arXiv.2302.09602). Every term is a sum over mass points of partial velocities ``dr/dq``, which are
-exact derivatives of where the wing is (`wing_motion.wing_shape`).
+exact derivatives of the wing's position (`wing_motion.wing_shape`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Everything that can be read off a vehicle flying a prescribed wingbeat, at given phases and states."""
+"""All motions, loads and powers of a vehicle that flies a prescribed wingbeat, at given phases and states."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class State(NamedTuple):
 
     Attributes
     ----------
-    x, z : place, forward and up [m].
+    x, z : position, forward and up [m].
     body_pitch : nose-up positive [rad].
     u, w : velocity, forward and up [m/s].
     pitch_rate : [rad/s].
@@ -73,9 +73,9 @@ class FlightModel:
 
     Attributes
     ----------
-    vehicle : as given, without what drives its wings.
+    vehicle : as given, without muscle, motor and springs.
     air : as given.
-    kernel : of the coefficient model; of sections where there is inflow.
+    kernel : of the coefficient model; with inflow, of the sectional coefficients.
     strips : number of strips of a wing.
     at_centre_of_pressure : whether the force acts at the centre of pressure.
     full_airspeed : whether the force depends on the whole airspeed of a strip.
@@ -85,8 +85,8 @@ class FlightModel:
 
     Raises
     ------
-    InvalidInputError, FileError : another kind of `aero`; inflow without a velocity, or with one at which the wings
-        descend into their own wake.
+    InvalidInputError, FileError : an `aero` that is none of these; inflow without a velocity, or with one at which
+        the wings descend into their own wake.
 
     >>> from wingbeat.species import load_species
     >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
@@ -125,7 +125,7 @@ class FlightModel:
 def _checked_flow(
     vehicle: Vehicle, aero: BladeElement, air: Air, velocity: tuple[float, float] | None
 ) -> tuple[float, float] | None:
-    """Return the induced flow of a flight, None without inflow; refuse a velocity for which the model has none."""
+    """Return the induced flow of a flight, None without inflow; refuse a velocity in the vortex ring."""
     if aero.inflow == "none":
         return None
     faults = FaultList()
@@ -167,7 +167,7 @@ def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any 
     vehicle, air : the vehicle, and the air in which it flies.
     factor : induced power divided by that of an ideal disc, a ratio.
     velocity : mean velocity, forward and up [m/s].
-    xp : array module of the numbers.
+    xp : the array module that computes, numpy or jax.numpy.
     """
     drag = body_drag(vehicle.body.drag_area, air.density, velocity, xp)
     force = -drag[0], vehicle.mass * air.gravity - drag[1]

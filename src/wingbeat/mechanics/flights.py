@@ -65,8 +65,8 @@ def integrate(
 
     Returns
     -------
-    States at `times`, shape (K, n), not-a-number after the integrator gave up; times and states of its own steps,
-    in arrays of the largest length, filled with infinity after the last step.
+    States at `times`, shape (K, n), NaN after the integrator gave up; times and states of its own steps, in arrays
+    of the largest length, filled with infinity after the last step.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
@@ -128,7 +128,7 @@ def fly_through(
 
     Returns
     -------
-    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), not-a-number after the integrator gave up; and the
+    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), NaN after the integrator gave up; and the
     integrator's steps.
     """
     states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)

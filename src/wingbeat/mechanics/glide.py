@@ -1,9 +1,9 @@
-"""Steady glide with the wings held still: the balance of forces and moment, and what holds the wings.
+"""Steady glide with the wings held still: the balance of forces and moment, and the torques that hold the wings.
 
 In steady glide nothing accelerates, so the five-coordinate equations say what must act on each coordinate:
-``tau = g - f_aero``. Its first two rows vanish where the glide is in balance; the third is what a tail would have
-to give; the last two are what the hinges must give to hold the wings. With a plain wing at the body's centre of
-mass the first two rows are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and
+``tau = g - f_aero``. Its first two components vanish if the forces balance; the third is the moment that a tail
+would have to supply; the last two are the torques with which the hinges hold the wings. With a plain wing at the
+body's centre of mass the first two equations are ``C_L cos(gamma) + C_D sin(gamma) = 2 M g / (rho V^2 S)`` and
 ``tan(gamma) = C_D / C_L``.
 """
 
@@ -153,7 +153,7 @@ class GlideSolver:
         self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
 
     def at(self, angle_of_attack: float) -> Glide:
-        """Return the glide at an angle of attack; all its numbers are not-a-number if the forces cannot balance.
+        """Return the glide at an angle of attack; all its numbers are NaN if the forces cannot balance.
 
         If nothing trims the glide, the body stays along the path, and `tail_moment` is the missing moment.
 
@@ -253,7 +253,7 @@ def _with_angle(posture: Posture, column: int, angle: float) -> Posture:
 
 
 def _between(one: tuple[Posture, float], other: tuple[Posture, float]) -> Posture:
-    """Return the posture without moment on the line between two postures whose moments have opposite signs."""
+    """Interpolate linearly between two postures with moments of opposite signs, to where the moment is zero."""
     (first, moment), (last, opposite) = one, other
     share = moment / (moment - opposite) if moment != opposite else 0.0
     return Posture(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))

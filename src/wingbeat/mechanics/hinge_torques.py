@@ -1,8 +1,9 @@
-"""Torques and powers of the hinges, and their shares, from sums over the wing that depend on time alone.
+"""Torques and powers of the hinges, and the parts of the power, from sums over the wing that depend on time alone.
 
-By d'Alembert the effort along a motion of the wing is ``sum m (r'' - g) . v - F . v``, v what that motion does to
-each point: for a hinge torque dr/d(angle), for the power of all actuators dr/dt in body axes. In stroke axes
-``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` with b the place of a point, so that all sums over mass
+By d'Alembert's principle, the generalised force that drives a motion of the wing is
+``sum m (r'' - g) . v - F . v``. Here v is the velocity that the motion gives each point: dr/d(angle) for a hinge
+torque, dr/dt in body axes for the power of all actuators. In stroke axes
+``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` with b the position of a point. So all sums over mass
 points depend on time alone, as in `body_dynamics`.
 """
 

@@ -1,10 +1,10 @@
-"""The loads of unsteady air on a motion of the wing, from sums over the strips that depend on time alone.
+"""The unsteady loads on a motion of the wing, from sums over the strips that depend on time alone.
 
 Rotation, added mass and couples of a thin aerofoil (`wingbeat.aero.unsteady`) are at most products of two speeds.
 With ``xi = (V_x, V_z, psi')`` the motion of the body through the air in stroke axes, each speed of a strip is
 linear in xi, with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C +
-psi' (D . xi + E))``, a the acceleration of the body, with A to E tabulated like the moments of the wing's mass. The
-couple against the turning of the chord alone needs the airspeed of each strip.
+psi' (D . xi + E))``, a the acceleration of the body, with A to E tabulated like the moments of the wing's mass.
+Only the couple against the turning of the chord needs the airspeed of each strip.
 """
 
 from __future__ import annotations
@@ -195,7 +195,7 @@ class UnsteadyLoad(NamedTuple):
         ----------
         density : rho [kg/m3].
         velocity : xi [m/s, m/s, rad/s].
-        acceleration : of the body in stroke axes, and its pitch acceleration [m/s2, m/s2, rad/s2]; None for none.
+        acceleration : of the body in stroke axes, and its pitch acceleration [m/s2, m/s2, rad/s2]; None means 0.
         airspeed : of the strips [m/s].
         """
         spin = velocity[2]
@@ -248,7 +248,7 @@ def _load(
     chord: PerStripBroadcast,
     width: Phases,
 ) -> UnsteadyLoad:
-    """Return the load of a motion from its tables A, B, C, D without the turning of the axes, and E."""
+    """Return the load of a motion from its tables A, B, C, D (without the turning of the axes) and E."""
     by_acceleration, by_velocity, own, by_spin, own_spin = tables
     # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
     turned = jnp.stack([-by_acceleration[1], by_acceleration[0], jnp.zeros_like(by_acceleration[0])])
@@ -265,7 +265,7 @@ def _load(
 def unsteady_load(
     motion: StripMotion, speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases
 ) -> UnsteadyLoad:
-    """Return the load of unsteady air on a motion.
+    """Return the unsteady load on a motion.
 
     Parameters
     ----------

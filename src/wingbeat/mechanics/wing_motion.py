@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class WingMotion(NamedTuple):
-    """What air loads and body motion need of the wing's motion, in stroke axes; any axes of times come last.
+    """The wing's motion in stroke axes, as air loads and body dynamics need it; any axes of times come last.
 
     Speeds are those of the quarter chord. Pitch turns a strip about its quarter chord and does not change these
     speeds. Sums over mass points count both wings.
@@ -53,7 +53,7 @@ class WingMotion(NamedTuple):
     unpitched : components in the plane of symmetry of the unit vector along the unpitched chord; None unless the
         wing sweeps.
     sweeping_speed : speed along that chord [m/s]; None unless the wing sweeps.
-    tilt : of the stroke plane [rad]; None where it is 0.
+    tilt : of the stroke plane [rad]; None if it is 0.
     span : components in the plane of symmetry of the unit vector along the span; None unless loads depend on the
         full airspeed.
     spanwise_speed : speed along the span [m/s]; None unless loads depend on the full airspeed.
@@ -218,8 +218,8 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases
 def mass_points(shape: WingShape, strips: Strips) -> Triple:
     """Return the mass points in stroke axes [m], three components of shape (2, N, ...).
 
-    Each has half the mass of its strip.
-    Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
+    Each has half the mass of its strip. Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform
+    strip.
     """
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
     x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
@@ -258,7 +258,7 @@ def wing_motion(
     along_span: bool = False,
     unsteady: bool = False,
 ) -> WingMotion:
-    """Tabulate, in one pass, what air loads and body motion need of the wing's motion at given phases.
+    """Tabulate the wing's motion at given phases in one pass, as air loads and body dynamics need it.
 
     Parameters
     ----------
@@ -267,7 +267,7 @@ def wing_motion(
     count : number of strips, N.
     vector : pads the strips to a multiple of this number.
     along_span : whether to add the motion along the span.
-    unsteady : whether to add the loads of unsteady air.
+    unsteady : whether to add the unsteady loads.
     """
     phase = jnp.asarray(phase, dtype=float)
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)

@@ -1,7 +1,7 @@
 """The wing's points in the world as functions of the five coordinates and time, and their exact derivatives.
 
 Coordinates q = (x, z, body pitch, flap, root wing pitch); partial velocities are ``dr/dq``, drift is ``dr/dt`` at
-fixed q (what span, fold, sweep and twist move by themselves), bias what ``r''`` is at ``q'' = 0``.
+fixed q (the velocity due to span, fold, sweep and twist), bias is ``r''`` at ``q'' = 0``.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ class PointMotion(NamedTuple):
 def point_motion(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
 ) -> PointMotion:
-    """Return the wing points and all their derivatives that a given motion needs, from one differentiation.
+    """Return the wing points and all their derivatives for a given motion.
 
     Parameters
     ----------

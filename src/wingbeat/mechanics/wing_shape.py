@@ -1,4 +1,4 @@
-"""Where the strips of a wing are: what stays, and what the wingbeat moves."""
+"""The strips of a wing: their constant numbers, and where the wingbeat moves them."""
 
 from __future__ import annotations
 

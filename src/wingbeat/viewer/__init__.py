@@ -1,4 +1,4 @@
-"""Flights in motion: in a browser, in a notebook, in an animated picture."""
+"""Moving pictures of flights: in a browser, in a notebook, or as an animated GIF."""
 
 from wingbeat.viewer.animation import animate
 from wingbeat.viewer.page import bundle_path, write_page

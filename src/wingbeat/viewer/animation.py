@@ -42,8 +42,8 @@ def animate(
 
     Raises
     ------
-    InvalidInputError : no flight or more than two, or one of more samples than the viewer shows.
-    FileError : a dataset that holds no flight, or a file that cannot be written.
+    InvalidInputError : no flight or more than two, or one with more samples than the viewer shows.
+    FileError : a dataset that contains no flight, or a file that cannot be written.
     """
     shown = scene(flights)["flights"]
     flights = [(label, data.isel(phase=flown(data))) for label, data in flights]

@@ -59,8 +59,8 @@ def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[s
 
     Raises
     ------
-    InvalidInputError : no flight or more than two, or one of more samples than a page can hold.
-    FileError : a dataset that holds no flight, or a file that cannot be written.
+    InvalidInputError : no flight or more than two, or one with more samples than a page can hold.
+    FileError : a dataset that contains no flight, or a file that cannot be written.
     """
     # No text of a file can close the HTML element that contains it.
     data = json.dumps(scene(flights), allow_nan=False).replace("<", "\\u003c")

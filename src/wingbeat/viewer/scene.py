@@ -1,4 +1,4 @@
-"""What the viewer draws of one or two flights, as a JSON-able scene: arrays over the samples, and the plots."""
+"""The scene that the viewer draws for one or two flights, ready for JSON: arrays over the samples, and plots."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
 
     Raises
     ------
-    InvalidInputError : no flight or more than two, or one of more samples than a page can hold.
-    FileError : a dataset that holds no flight.
+    InvalidInputError : no flight or more than two, or one with more samples than a page can hold.
+    FileError : a dataset that contains no flight.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -62,20 +62,19 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
     """
     faults = FaultList()
     if len(flights) not in (1, 2):
-        faults.add(
-            "flights", len(flights), "is not a number of flights that can be shown", "give one, or two to compare"
-        )
+        faults.add("flights", len(flights), "must be 1 or 2", "give one, or two to compare")
     for label, dataset in flights:
         if dataset.sizes.get("phase", 0) > MOST_SAMPLES:
-            rule = f"are more samples than the viewer's {MOST_SAMPLES}"
-            faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples a beat")
+            rule = f"are more samples than the {MOST_SAMPLES} that the viewer shows"
+            faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples per beat")
     faults.raise_if_any()
     return {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
 
 
 def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
     if dataset.attrs.get(KIND) not in ("orbit", "flight") or "strip_corner" not in dataset:
-        kind = dataset.attrs.get(KIND, "not from wingbeat")
+        known = dataset.attrs.get(KIND)
+        kind = f"of kind {str(known)!r}" if known else "not from wingbeat"
         way = "give a file of `orbit -o` or `simulate -o` of this version"
         raise FileError(f"cannot show {label!r}: it is {kind}, without the corners of its strips; {way}")
     reached = flown(dataset)

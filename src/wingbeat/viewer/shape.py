@@ -1,4 +1,4 @@
-"""Shapes for drawings, which the model does not contain: the body is an ellipsoid, the tail a triangle."""
+"""Shapes that only the drawings have, not the model: the body is an ellipsoid, the tail a triangle."""
 
 from __future__ import annotations
 

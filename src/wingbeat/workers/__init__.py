@@ -1,1 +1,1 @@
-"""Worker processes: how we communicate with them, which core each uses, what must be cleared when they end."""
+"""Worker processes: how we communicate with them, which core each uses, and what we clear when they end."""

@@ -1,7 +1,7 @@
-"""Worker processes pinned to a core each (CPU affinity), where they take all cores there are.
+"""Pin worker processes to one core each (CPU affinity), if there is a process for every core.
 
 XLA hands a program from the calling thread to another thread, and back. By default, the system puts these threads
-on different cores, and each change finds cold caches: see docs/performance.md.
+on different cores, so each of these changes finds cold caches: see docs/performance.md.
 """
 
 from __future__ import annotations

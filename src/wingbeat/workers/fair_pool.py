@@ -1,4 +1,4 @@
-"""Jobs of several sessions on a few worker processes: fair, limited, and safe if a process dies."""
+"""Jobs of several sessions on a few worker processes: a fair queue with limits that survives a dead process."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ class FairPool:
             return job
 
     def cancel(self, job: Job) -> None:
-        """Cancel a job: remove it from the queue, or stop it at its next step, or end its process if it goes on."""
+        """Cancel a job: remove it from the queue or stop it at its next step; if it goes on, end its process."""
         with self._lock:
             if job.unwanted:
                 return
@@ -192,7 +192,7 @@ class FairPool:
                 job.tell(Event("waiting", place))
 
     def _later(self, seconds: float, desk: _Desk, job: Job, late: bool) -> threading.Timer:
-        """End the process of a job that still runs after so many seconds."""
+        """End the process of a job that still runs after `seconds`."""
 
         def end() -> None:
             with self._lock:

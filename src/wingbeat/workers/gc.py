@@ -1,4 +1,4 @@
-"""How often Python looks for garbage in wingbeat's own processes."""
+"""Rare garbage collection in wingbeat's own processes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What must not be left behind when the process ends at once: half-written files, workers, a hidden cursor."""
+"""Clear what a process must not leave behind when it is ended: half-written files, workers, a hidden cursor."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """What a worker process runs: it reads requests from its pipe, does one after the other, and says how each ended.
 
-When the pipe closes the process ends at once, whatever it is doing: nobody would hear its answer.
+When the pipe closes, the process ends at once, whatever it is doing, because nobody would receive its answer.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class StoppedError(Exception):
 
 
 class Context:
-    """The second argument of work: it reports progress, and says whether the request is still wanted.
+    """The second argument of a work function: it reports progress, and says whether the request is still wanted.
 
     Parameters
     ----------
@@ -110,8 +110,8 @@ class _Speaker:
 
     Parameters
     ----------
-    silence : the process ends after so many seconds without a message while it has work; None for no limit. A
-        timer outside Python does this, even if the process hangs and no Python thread runs.
+    silence : the process ends if it has work and sends no message for this many seconds; None for no limit. A timer
+        outside Python ends it, even if the process hangs and no Python thread runs.
     """
 
     def __init__(self, silence: float | None) -> None:
@@ -177,7 +177,7 @@ def _do(work: Callable[[Any, Context], Any], what: Any, context: Context) -> byt
 
 
 def _pickled_failure(error: Exception) -> bytes:
-    """Return an exception's message with its traceback as a note; as text if the exception cannot be pickled."""
+    """Return the pickled message of a failure: the exception and traceback, or text if it cannot be pickled."""
     error.add_note(f"in a worker process:\n{traceback.format_exc()}")
     try:
         pickled = pickle.dumps(Message("failed", error))

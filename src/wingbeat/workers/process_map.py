@@ -42,7 +42,7 @@ def in_processes(
 
     Raises
     ------
-    WorkerError : processes die over the same item, or cannot be started.
+    WorkerError : two processes die on the same item, or none can be started.
     """
     with process_map(processes, len(items)) as over:
         for done, result in enumerate(over(work, items), start=1):
@@ -109,7 +109,7 @@ class _Callers:
                     if message.kind == "failed":
                         raise message.value
                 ending, caller.process = process.bury(), None
-            raise WorkerError(f"two worker processes died over the same work; the last one ended with {ending}")
+            raise WorkerError(f"two worker processes died on the same work; the last one ended with {ending}")
         finally:
             self._idle.put(caller)
 
@@ -133,7 +133,7 @@ class _Callers:
 
 
 def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) -> Any:
-    """Call a function with an item in a worker process; the request contains both, pickled, and a core."""
+    """Call a function with an item in a worker process; the request contains both pickled, and a core."""
     main, pickled, core = request
     work, item = _Unpickler(main, pickled).load()
     # After the imports: a BLAS that sees one core has one thread, and adds up in another order than in the process

@@ -49,8 +49,9 @@ def print_curve(curve: Curve) -> None:
         f"{certified} of {len(points)} speeds certified"
     )
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "at the bound of"):
-        table.add_column(Text(heading), justify="left" if heading.startswith("on") else "right")
+    for heading in ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima"):
+        table.add_column(Text(heading), justify="right")
+    table.add_column(Text("at the bound of"))
     for point in points:
         table.add_row(*map(Text, _row(point)))
     console.print(table)

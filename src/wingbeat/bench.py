@@ -32,7 +32,7 @@ _SPEEDS = np.linspace(8.0, 14.0, 20)
 
 
 def median_seconds(run: Callable[[], Any], repeats: int) -> float:
-    """Return the median time of a call [s]; a call before these, which compiles, is not counted."""
+    """Return the median time of `repeats` calls [s]; one earlier call compiles and is not timed."""
     run()
     times = []
     for _ in range(repeats):

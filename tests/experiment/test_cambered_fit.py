@@ -183,7 +183,7 @@ def test_a_measured_centre_of_pressure_is_named_as_unused():
 BAD_MODELS = {
     "lift_lowest = -|lift_lowest = ": ["wing.lift_lowest = 0.4", "must be < 0"],
     "low_join_deg = [-45.0|low_join_deg = [-15.0": ["low_join_deg = [-15.0, -24.0]: has the highest value first"],
-    "high_join_deg = [30.0|high_join_deg = [-30.0": ["must rise from -90 to 90 degrees, with zero lift between"],
+    "high_join_deg = [30.0|high_join_deg = [-30.0": ["must increase, lie between -90 and 90 degrees"],
     "low_rise = |low_raise = ": ["'low_raise'", "wing.low_rise = None: must be a number"],
     "[wing]|alpha_range_deg = [0.0, 1.0]\n[wing]": ["'alpha_range_deg' = '': is not a known key"],
     'free = ["zero_lift_deg"|free = ["zero"': ["wing.fit.free", "must name terms of the formula"],

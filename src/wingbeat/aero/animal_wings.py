@@ -81,7 +81,9 @@ _MEMBRANE = (
             4.1, 3.7, 4.7, "thin plate of aspect ratio 2, converted by lifting line; high end: theory"
         ),
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
-        "lift_highest": Estimate(1.4, 0.75, 1.8, "guess: 0.75 of a thin plate, plus 0.64 that camber adds"),
+        "lift_highest": Estimate(
+            1.4, 0.75, 1.8, "guess: a thin plate's largest C_L, 0.75, plus 0.64 that camber adds"
+        ),
         "drag_least": Estimate(0.039, 0.015, 0.10, "guess: geometric mean of a thin plate and the plate of su-fan"),
         "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 times an ideal wing's at aspect ratio 6"),
     }

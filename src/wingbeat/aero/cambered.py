@@ -275,7 +275,7 @@ class CamberedCoefficients(CoefficientModel):
         rising = (-90.0, *self.low_join_deg, self.terms.zero_lift_deg, *self.high_join_deg, 90.0)
         if any(first >= then for first, then in itertools.pairwise(rising)):
             joins = f"{self.low_join_deg}, {self.high_join_deg}"
-            rule = "must rise from -90 to 90 degrees, with zero lift between the joins"
+            rule = "must increase, lie between -90 and 90 degrees, and enclose the zero-lift angle"
             faults.add("low_join_deg, high_join_deg", joins, rule, "give (lower, upper) of each")
         faults.raise_if_any()
 

@@ -28,9 +28,10 @@ _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
 
 
 class Program:
-    """A function's program, as JAX traced it. Two programs are equal if their compiled code is the same.
+    """A user's coefficient function, as JAX traced it. Two are equal if JAX makes the same code of them.
 
-    Traced programs on disk are named by its `repr`, so two functions of one name are kept apart.
+    The `repr` contains a digest of that code. It is part of the name of every stored program that uses the
+    function, so two functions of the same name are kept apart.
     """
 
     def __init__(self, function: Callable[[Any], Any], name: str, traced: Any) -> None:

@@ -166,7 +166,7 @@ def check_measured(faults: FaultList, case: Any) -> None:
             elif np.shape(values) != case.times.shape:
                 faults.add(place, np.shape(values), f"must have the shape {case.times.shape}, as times")
             elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():
-                faults.add(place, "not finite or beyond 1e7 N", "must be numbers [N] from start to end")
+                faults.add(place, "not finite or beyond 1e7 N", "must be finite from `start` to `end`")
             elif kind == "errors" and (values[case.inside] < 0).any():
                 faults.add(place, "below 0", "must be standard errors", "give their absolute values")
 

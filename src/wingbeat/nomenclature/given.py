@@ -190,7 +190,7 @@ AERO = (
     Term("function", "", "digest of a coefficient function"),
     Term("constant", "1", "constant of a coefficient formula"),
     Term("amplitude", "1", "amplitude of a coefficient formula's sine"),
-    Term("rate", "1", "factor of the angle of attack in a coefficient formula's sine"),
+    Term("rate", "1", "number that multiplies the angle of attack in the sine of a coefficient formula"),
     Term("phase_deg", "deg", "phase of a coefficient formula's sine"),
     Term("decay_amplitude", "1", "amplitude of a coefficient formula's decaying part"),
     Term("decay_rate", "deg-1", "rate of a coefficient formula's decay"),

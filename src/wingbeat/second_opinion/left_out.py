@@ -14,9 +14,9 @@ def left_out(unsteady: str, inflow: str) -> dict[str, list[str]]:
     """Return the effects that our loads with these terms leave out, and those that the lattice leaves out.
 
     >>> left_out("thin-aerofoil", "momentum")["ours"]
-    ['the wake of earlier parts of the beat (its lag)', 'loads of one strip on its neighbours']
+    ['the wake of earlier parts of the beat (its lag)', "effect of one strip's loads on its neighbours"]
     """
-    ours = ["the wake of earlier parts of the beat (its lag)", "loads of one strip on its neighbours"]
+    ours = ["the wake of earlier parts of the beat (its lag)", "effect of one strip's loads on its neighbours"]
     if inflow == "none":
         ours.insert(0, "induced flow, except what the measured coefficients contain")
     if unsteady == "none":

@@ -219,7 +219,8 @@ class Store:
 
         Parameters
         ----------
-        retry_before : number of a run. Points that failed in an earlier run are included; with 0, none is.
+        retry_before : number of a run. A point that failed in a run with a lower number counts as missing; with 0,
+            failed points are not retried.
         """
         chained = self._about.get("chained") == "1"
         missing = f"(q.status IS NULL OR (q.status IN {_FAILED} AND q.run_number < {int(retry_before)}))"

@@ -68,8 +68,8 @@ def _state_maps(
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
     """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
 
-    They are the eigenvalues of the monodromy matrix: the derivative of the pitch state at the end of a period by
-    the pitch state at its start. Not-a-number if the flight diverges.
+    They are the eigenvalues of the monodromy matrix, which is the derivative of these four numbers at the end of a
+    period with respect to the four at its start. They are not-a-number if the flight diverges.
 
     Parameters
     ----------

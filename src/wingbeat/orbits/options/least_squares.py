@@ -22,8 +22,8 @@ class LeastSquaresOptions:
         rejected step multiplies it by `growth`, and each further rejected step by twice the previous ratio.
     accepted : a step that gains less than this share of the linear model's prediction is rejected.
     trusted : only a step that gains more than this share of the prediction may be the last.
-    bound_changes : largest number of bounds that become active or inactive in one step, divided by the number of
-        unknowns.
+    bound_changes : largest number of active-set iterations of one step, divided by the number of unknowns. Each
+        makes one bound active or inactive.
     """
 
     evaluations: int = 150

@@ -127,10 +127,8 @@ def orbit(
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     if within_plausible and kinematics is not None:
-        fix = "leave out one of the two"
-        faults.add(
-            "--within-plausible", str(kinematics), "cannot be combined with a film, which gives the wingbeat", fix
-        )
+        rule = "gives the wingbeat, so it cannot be combined with --within-plausible"
+        faults.add("--kinematics", str(kinematics), rule, "leave out one of the two options")
     if model.model == "animal" and kinematics is not None:
         fix = "give its parts instead, such as --aero feathered --inflow momentum"
         faults.add("--model", model.model, "cannot be combined with a film, which gives the wingbeat", fix)

@@ -40,6 +40,10 @@ _IN_SHORT = {
     "muscle_power_per_mass": "muscle power",
     "muscle_efficiency": "muscle efficiency",
 }
+_WITHOUT_DRAWS = (
+    "The column *draws that fly* is empty, because this page was written without `--draws`. A draw takes random "
+    "values, within their ranges, for all numbers of the animal."
+)
 _ABOUT_DRAWS = (
     "Each draw takes random values, within their ranges, for all numbers of the animal; the draw flies if its "
     "orbit is certified. In brackets: the range of the middle 80 % of the draws that fly."
@@ -68,7 +72,7 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
         "## The flights",
         _flown_table(prediction.flown),
         "`activation` is the largest share of the flight muscle's fibres that the beat uses; above 1, the model's "
-        "muscle is too weak. " + (_ABOUT_DRAWS if drawn else "This page has no draws (option `--draws`)."),
+        "muscle is too weak. " + (_ABOUT_DRAWS if drawn else _WITHOUT_DRAWS),
     ]
     if any(one.due_to for one in prediction.flown):
         parts += ["## What the bands depend on", _due_text(prediction.flown)]

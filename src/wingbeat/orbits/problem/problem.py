@@ -144,7 +144,7 @@ class OrbitProblem:
         if faults.faults:
             return
         if not isinstance(minimise, Quantity):
-            faults.add("minimise", minimise, "is not an objective", "use its name, or a Quantity")
+            faults.add("minimise", minimise, "is not an objective", "give the name of a quantity, or a Quantity")
         for i, constraint in enumerate(constraints):
             if not isinstance(constraint, Constraint):
                 faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")

@@ -23,7 +23,7 @@ def file(pigeon_orbit, tmp_path_factory):
 def test_table_record_and_figure(standin, file, tmp_path, capsys):
     assert main(["compare", str(file), "--with", "uvlm", *SMALL, "--plot", str(tmp_path / "lift.png")]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert told.startswith("pigeon at 10 m/s beside PteraSoftware 0")
+    assert told.startswith("pigeon at 10 m/s, compared with PteraSoftware 0")
     assert told.count("ours, ") == 4
     assert "; the lattice is wrong there" in told
     assert "our loads leave out: rotation and added mass" in told

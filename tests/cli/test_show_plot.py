@@ -185,7 +185,8 @@ def test_what_is_undefined_or_absent_is_not_invented(orbit):
 
 
 @pytest.mark.parametrize(
-    ("size", "words"), [(2.0, "double +1 beats"), (0.5, "halve +1 beats"), (1.0, None), (0.0, "halve +0 beats")]
+    ("size", "words"),
+    [(2.0, "doubles in +1 beats"), (0.5, "halves in +1 beats"), (1.0, None), (0.0, "halves in +0 beats")],
 )
 def test_time_to_double(orbit, size, words):
     record = orbit.record() | {"floquet_multipliers": [[0.0, size]] + [[0.0, 0.0]] * 3, "stable": size < 1}

@@ -45,7 +45,7 @@ def test_page_figure_and_json_tell_the_same_comparison(flights, tmp_path, capsys
 def test_the_table_tells_whether_it_agrees(flights, capsys):
     assert main(["validate", str(flights), "--model", "paper"]) == 0
     printed = capsys.readouterr().out
-    assert "pigeon: model paper, least frequency" in printed
+    assert "pigeon: model paper, minimum frequency" in printed
     assert "5 to 9" in printed
 
 

@@ -121,7 +121,7 @@ def test_a_share_of_no_term_is_left_with_none():
 
 
 @pytest.mark.parametrize(
-    ("model", "words"), [("su-fan", "of a wing of aspect ratio 6"), ("wang", "on a finite wing")]
+    ("model", "words"), [("su-fan", "on a wing of aspect ratio 6"), ("wang", "on a finite wing")]
 )
 def test_what_the_polar_holds_of_the_inflow_is_told(model, words):
     problem = wb.OrbitProblem(PIGEON, 4.0, aero=wb.aero.BladeElement(model, inflow="momentum"))

@@ -121,7 +121,7 @@ def test_what_no_path_can_be_is_refused():
     assert fit_body_path(only, u=7.0).velocity == (7.0, 0.0)
     with pytest.raises(wb.InvalidInputError, match="is filmed and given too"):
         fit_body_path(only, u=7.0, body_pitch=0.1)
-    with pytest.raises(wb.InvalidInputError, match="needs the frequency"):
+    with pytest.raises(wb.InvalidInputError, match="velocities of the body need times"):
         Film("no clock", short.film.phase, pitch)
 
 

@@ -7,6 +7,8 @@ from typing import Any
 from wingbeat.errors import FaultList, FileError, suggest
 from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
+# The rule that a path which names no number breaks; a study tells it from a value that is refused.
+NO_SUCH_PATH = "no number has this path"
 # The whole mass is not among them: it follows from body and wings, and nothing changes unasked.
 _SETTABLE = {
     path: key
@@ -54,7 +56,7 @@ def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
         fix = "set body.mass or wing.mass; the whole mass follows from both"
     else:
         fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
-    faults.add(spoken(path), shown(value), "no number has this path", fix)
+    faults.add(spoken(path), shown(value), NO_SUCH_PATH, fix)
     return None
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat.species.settings import settable
+from wingbeat.species.settings import NO_SUCH_PATH, settable
 from wingbeat.species_schema import shown
 from wingbeat.species_schema.faults import dotted
 from wingbeat.studies.form import StudyForm, number
@@ -285,7 +285,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
                 own.add(path, shown(value), f"is impossible there ({error})")
             told = _values_of(form, path)[i]
             named = [Fault(f"{where}[{i}]", _text(told), fault.rule, fault.fix) for fault in own.faults]
-            if any("is not the path" in fault.rule for fault in named):
+            if any(fault.rule == NO_SUCH_PATH for fault in named):
                 named = [Fault(dotted(("vary", path)), _text(told), named[0].rule, named[0].fix)]
             faults.faults += named
             if len(faults.faults) >= _ENOUGH or (named and named[0].where == dotted(("vary", path))):

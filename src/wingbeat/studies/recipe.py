@@ -19,7 +19,7 @@ from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.aero_record import aero_from
 from wingbeat.results.provenance import inputs_of, species_from
 from wingbeat.species import Species
-from wingbeat.species.settings import settable
+from wingbeat.species.settings import NO_SUCH_PATH, settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken
 from wingbeat.studies.objective import from_inputs
 
@@ -141,7 +141,7 @@ class Recipe:
         elif path in ("mass", "vehicle.mass"):
             settable(path, value, faults)
         elif (found := _parameter(self.example, path)) is None:
-            faults.add(spoken(path), shown(value), "no number has this path", suggest(str(path), self.paths()))
+            faults.add(spoken(path), shown(value), NO_SUCH_PATH, suggest(str(path), self.paths()))
         elif faults.number(path, value):
             found.changed(self.example, float(value))
 

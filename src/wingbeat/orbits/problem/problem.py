@@ -64,8 +64,7 @@ class OrbitProblem:
 
     Raises
     ------
-    InvalidInputError : a speed that is negative or not finite, unknown names, bounds that are missing, crossed or
-        not finite.
+    InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
 
     >>> from wingbeat.species import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]

@@ -176,7 +176,7 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
     fits.barh(places, np.maximum(quality, 0.0), color=GREEN, height=0.7)
     fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
-    fits.set(xlim=(0, 1), xlabel="surface R² [-]")
+    fits.set(xlim=(0, 1), xlabel="R² of the\nsurface [-]")
     for axes in (bars, heat, fits):
         axes.tick_params(length=2)
     letter_panels((bars, heat, fits))

@@ -58,8 +58,8 @@ ASSUMPTIONS = (
     ),
     Assumption(
         "mass_exponent",
-        "exponent p in the wing's mass per unit span, proportional to (1 - s/L)^p at a distance s from the "
-        "shoulder",
+        "exponent p in the wing's mass per unit span, proportional to (1 - s/L)^p at a distance s along a wing of "
+        "length L",
         "0 is uniform; 2 matches van den Berg and Rayner 1995, and 4 matches Harvey et al. 2022",
         0.0,
         4.0,
@@ -91,7 +91,7 @@ ASSUMPTIONS = (
     Assumption(
         "shoulder_aside",
         "distance of the shoulder from the plane of symmetry, divided by semi-span",
-        "the paper gives none; 0.10 in the same pigeon, which is 0.613 m wide with wings of 0.278 m",
+        "the paper gives none; 0.10 in the same pigeon: its span is 0.613 m, and each wing is 0.278 m long",
         0.0,
         0.10,
     ),

@@ -33,13 +33,13 @@ FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
     "Our points are certified orbits of minimum frequency. Filled points, thick lines: coefficients mirrored at "
-    "negative angles of attack. Open points, thin lines: formulas as printed at negative angles. Neighbouring "
-    "points may belong to different families of orbits. The flap amplitude is at its bound in {leaning} of {all} "
-    "orbits. Crosses at the foot mark speeds without a certified orbit. Stars show what the paper prints for the "
-    "bat (it prints no number for the pigeon). Green shows frequencies measured on animals, or a law of such "
-    "measurements for a vehicle of this mass and span. A: as in the source; D: we computed it from the source. The "
-    "table that comes with this figure gives the full sources. We could not obtain the frequencies of Tobalske and "
-    "Dial (1996) that the paper draws; they did not vary with speed."
+    "negative angles of attack. Open points, thin lines: formulas as printed at negative angles, except Su-Fan's "
+    "C_L, which stays mirrored. Neighbouring points may belong to different families of orbits. The flap amplitude "
+    "is at its bound in {leaning} of {all} orbits. Crosses at the foot mark speeds without a certified orbit. "
+    "Stars show what the paper prints for the bat (it prints no number for the pigeon). Green shows frequencies "
+    "measured on animals, or laws of such measurements for this mass and span. A: as in the source; D: we computed "
+    "it from the source. The table that comes with this figure gives the full sources. We could not obtain the "
+    "frequencies of Tobalske and Dial (1996) that the paper draws; they did not vary with speed."
 )
 
 

@@ -67,7 +67,7 @@ def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) ->
         f"dot: shoulder. C: cross-section of strip {strip + 1} of the pigeon, with its forces to one scale and θ "
         "measured from the normal of the stroke plane. D and F also show the quarter chord at both ends of the "
         "stroke (dotted) and at mid-upstroke (grey). In the model the body has no shape. The grey ellipsoid has "
-        "its mass and pitch inertia and the density of water."
+        "the body's mass and pitch inertia, and the density of water."
     )
 
 

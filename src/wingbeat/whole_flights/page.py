@@ -9,8 +9,8 @@ from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
 
 _FIT = (
-    "Nothing is fitted to these measurements. The polars of the wings are fitted to measured wings "
-    "([animal wings](animal_wings.md)), and laws give what the species file lacks ([models](models.md))."
+    "Nothing is fitted to the measurements below. The polars of the wings are fitted to measured wings "
+    "([animal wings](animal_wings.md)), and scaling laws give what the species file lacks ([models](models.md))."
 )
 
 
@@ -63,8 +63,9 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     option, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
     parts = [
         f"# Whole flights: {common_name}",
-        f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It flies the animal at "
-        f"each speed by the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
+        f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It computes the "
+        f"animal's flight at each speed with the model `{prediction.model}`, which minimises the "
+        f"{objective}. {_FIT}",
         f"![Power, frequency and flap amplitude against speed, with measured values]({figure})",
         "## Compared with measurements",
         _score_table(compared(prediction)),
@@ -100,7 +101,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
         [
             "# Whole flights against measurements",
             "`python validation/whole_flights.py` writes this page and those of the animals. Each animal is flown "
-            f"by the model `animal` at the speeds of its measurements. {_FIT}",
+            f"with the model `animal` at the speeds of its measurements. {_FIT}",
             f"**{agree} of {len(known)} comparisons agree.** {_how_to_read()}",
             "| animal | quantity | basis | measured | at [m/s] | predicted | agrees |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(rows),
@@ -113,14 +114,18 @@ def _how_to_read() -> str:
     by_factor: dict[float, list[str]] = {}
     for name, words in _IN_SHORT.items():
         by_factor.setdefault(AGREES[name], []).append(words)
-    factors = "; ".join(f"{factor:g} for {', '.join(names)}" for factor, names in by_factor.items())
+    factors = " or ".join(f"{factor:g} ({_listed(names)})" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]
     return (
         "A prediction agrees if, at every speed, it is within the measured range or outside it by at most a factor "
-        f"({factors}). If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
+        f"of {factors}. If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
         f"minimum power agrees if it is at most {near:g} m/s outside the range. *Basis*: a *measured* number comes "
         "from the animal, an *estimated* one also from somebody's model, and a *law* was fitted to other animals."
     )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join(", ".join(names).rsplit(", ", 1))
 
 
 def _score_table(scores: Iterable[Score]) -> str:

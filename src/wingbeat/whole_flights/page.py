@@ -23,10 +23,10 @@ _SUMMARY = """## What the comparisons say
 - **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
   speed, the predictions for pigeon and zebra finch are a little more than half of the live animals' frequency. No
   single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
-- **The predicted alcids beat twice as fast as measured**, with amplitudes near the measured ones. Alcids have small
-  wings. To carry the weight at 16 m/s without flapping, the murre and the puffins need a mean lift coefficient of
-  1.0 to 1.25, and our gliding wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that the
-  authors of the measurements assume. We have not tested that.
+- **The predicted murre and puffins beat twice as fast as measured**, with smaller amplitudes. Their wings are
+  small. To carry the weight at 16 m/s without flapping, they need a mean lift coefficient of 1.0 to 1.25, and our
+  gliding wings stall at 1.4. Perhaps the puffins flew faster than the 14 to 18.6 m/s that the authors of the
+  measurements assume. We have not tested that.
 - **The predicted muscle is too efficient**: its efficiency is 0.5, and the measured or estimated one 0.06 to 0.11.
   Measured metabolic power includes the rest of the body and the recovery of the muscle, and ours does not."""
 
@@ -113,11 +113,11 @@ def _how_to_read() -> str:
     by_factor: dict[float, list[str]] = {}
     for name, words in _IN_SHORT.items():
         by_factor.setdefault(AGREES[name], []).append(words)
-    factors = "; ".join(f"{factor:g} for {', '.join(names)}" for factor, names in by_factor.items())
+    factors = " or ".join(f"{factor:g} ({', '.join(names)})" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]
     return (
         "A prediction agrees if, at every speed, it is within the measured range or outside it by at most a factor "
-        f"({factors}). If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
+        f"of {factors}. If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
         f"minimum power agrees if it is at most {near:g} m/s outside the range. *Basis*: a *measured* number comes "
         "from the animal, an *estimated* one also from somebody's model, and a *law* was fitted to other animals."
     )

@@ -94,7 +94,7 @@ def test_faults_are_told_beside_their_control(visit):
     enter(page, "semi span [m]", "0.4")
     page.locator(".odd .hint", has_text="Outside: plausible 0.25 to 0.335; changed from 0.279").wait_for()
     enter(page, "Within limits", "x" * 70_000)
-    page.locator(".fault", has_text="has 70000 characters; it may have at most 5000").wait_for()
+    page.locator(".fault", has_text="has 70000 characters; at most 5000 are allowed").wait_for()
 
 
 def test_what_is_typed_and_chosen_stays_while_answers_come(visit):

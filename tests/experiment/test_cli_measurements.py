@@ -202,7 +202,7 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
             "fit c.csv --form cambered",
             "C_L = '0 to 0.9': is negative at none of the angles between 0 and 90 degrees",
         ),
-        ("fit c.csv --aspect-ratio 0", "--aspect-ratio = 0.0: must be > 0; span over mean chord"),
+        ("fit c.csv --aspect-ratio 0", "--aspect-ratio = 0.0: must be > 0; give span over mean chord"),
         ("fit c.csv -o m.csv", "--output = 'm.csv': is not a model file; end it in .toml"),
         ("fit c.csv --plot m.gif", "--plot = 'm.gif': is not a figure format"),
         ("fit c.csv --alpha-min nan", "--alpha-min = nan: must be finite"),

@@ -237,7 +237,7 @@ def test_a_covariance_that_is_none_is_refused(model):
     cells = lines[row].strip(" [],").split(", ")
     lines[row] = f"  [-{cells[0]}, {', '.join(cells[1:])}],"
     model.write_text("\n".join(lines))
-    with pytest.raises(InvalidInputError, match="is not symmetric with variances >= 0"):
+    with pytest.raises(InvalidInputError, match="must be symmetric and positive semidefinite"):
         load_coefficients(model)
 
 

@@ -32,7 +32,8 @@ class ModelOptions:
         str,
         Parameter(
             help="Model of the flight: paper (as in Su et al. 2023), or animal (coefficients, tail, body drag, "
-            "air-load terms and muscle of its kind). Other options replace parts; they list paper's defaults."
+            "air-load terms and muscle of the animal's kind). Other options replace parts of the model; their "
+            "stated defaults are those of paper."
         ),
     ] = "paper"
     aero: Annotated[

@@ -46,11 +46,13 @@ def terms(
         list[str] | None,
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Starts at the first and last share; others get a third as many.")] = 6,
+    starts: Annotated[
+        Whole, Parameter(help="Number of starts at the first and last share; others get a third as many.")
+    ] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw the trace: .png, .pdf or .svg.")] = None,
 ) -> int:
     """Find the best wingbeats, and changes of family, while the share of a term of the air loads rises from 0 to 1.
 

@@ -76,7 +76,7 @@ def validate(
     ] = None,
     seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw the comparison: .png, .pdf or .svg.")] = None,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
     ] = None,

@@ -53,7 +53,7 @@ TABLES = {
     "missing.csv": ["missing.csv|no such file or directory; check the path"],
     "folder.csv": ["folder.csv|it is not a file|give the path"],
     "empty.csv": ["empty.csv row 1 = '': the file is empty; the first row must read alpha_deg,c_l,c_d"],
-    "head.csv": ["has fewer than 4 rows|measure at more angles"],
+    "head.csv": ["must be at least 4 for a cubic spline|measure at more angles"],
     "sorted.csv": ["sorted.csv row 4, column alpha_deg = 10.0: must be above the 20 before it; sort the rows"],
     "column.csv": [
         "column.csv row 1, column c_d = 'alpha_deg,c_l,drag': the column is missing; the first row must read",

@@ -9,8 +9,9 @@ from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
 
 _FIT = (
-    "Nothing is fitted to these measurements. The polars of the wings are fitted to measured wings "
-    "([animal wings](animal_wings.md)), and laws give what the species file lacks ([models](models.md))."
+    "Nothing is fitted to these measurements. The polars of the wings come from other measurements "
+    "([animal wings](animal_wings.md)). Scaling laws give the numbers that the species file lacks "
+    "([models](models.md))."
 )
 
 
@@ -64,7 +65,7 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     parts = [
         f"# Whole flights: {common_name}",
         f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It flies the animal at "
-        f"each speed by the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
+        f"each speed with the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
         f"![Power, frequency and flap amplitude against speed, with measured values]({figure})",
         "## Compared with measurements",
         _score_table(compared(prediction)),
@@ -100,7 +101,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
         [
             "# Whole flights against measurements",
             "`python validation/whole_flights.py` writes this page and those of the animals. Each animal is flown "
-            f"by the model `animal` at the speeds of its measurements. {_FIT}",
+            f"with the model `animal` at the speeds of its measurements. {_FIT}",
             f"**{agree} of {len(known)} comparisons agree.** {_how_to_read()}",
             "| animal | quantity | basis | measured | at [m/s] | predicted | agrees |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(rows),
@@ -159,9 +160,9 @@ def _band(one: Flown, name: str) -> str:
 
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
-        "The table names the numbers of the animal that are most correlated with a quantity over the draws, and "
-        "the square of the rank correlation of each. A better measurement of the first number would narrow the "
-        "band most.",
+        "For each quantity, the table names the numbers of the animal that are most correlated with it over the "
+        "draws. After each number stands the square of its rank correlation. A better measurement of the first "
+        "number would narrow the band most.",
         "",
         "| speed [m/s] | quantity | depends on |",
         "| --- | --- | --- |",

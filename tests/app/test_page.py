@@ -66,7 +66,7 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     page.locator("input[type=file]").set_input_files(path)
     trouble = page.locator(".trouble li")
     trouble.first.wait_for()
-    assert "vehicle.wing.mass: must be a number; take it out of the quotes" in trouble.first.inner_text()
+    assert "vehicle.wing.mass: must be a number; write the number without quotes" in trouble.first.inner_text()
     path.write_text(
         (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text().replace('"pigeon"', '"<b>x</b>"', 1)
     )

@@ -159,7 +159,7 @@ def test_where_nothing_glides_ahead_it_says_so(capsys, tmp_path):
     record = json.loads(capsys.readouterr().out)
     assert record["speed"] == [None] * 3
     assert record["least_sink"] is None
-    assert "3 angles of attack have no steady forward glide" in record["warnings"]
+    assert "there is no steady forward glide at 3 angles of attack" in record["warnings"]
 
 
 @pytest.mark.parametrize(

@@ -301,7 +301,7 @@ def test_a_folder_that_cannot_be_written_is_told(cheap, monkeypatch):
     code, _, err = study.run()
     study.folder.chmod(0o755)
     assert code == 2
-    assert "cannot write beside" in err
+    assert "cannot write in the folder of" in err
     assert "permission denied; copy the study to a folder that you can write to" in err
 
 

@@ -91,7 +91,7 @@ def unpacking(path: Path) -> Iterator[None]:
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         reason = first_line(error)
         raise FileError(
-            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve it again"
+            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve the orbit again"
         ) from None
 
 

@@ -164,9 +164,9 @@ def _band(one: Flown, name: str) -> str:
 
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
-        "The table names the numbers of the animal that are most correlated with a quantity over the draws, and "
-        "the square of the rank correlation of each. A better measurement of the first number would narrow the "
-        "band most.",
+        "For each quantity, the table names the numbers of the animal that are most correlated with it over the "
+        "draws. After each number stands the square of its rank correlation. A better measurement of the first "
+        "number would narrow the band most.",
         "",
         "| speed [m/s] | quantity | depends on |",
         "| --- | --- | --- |",

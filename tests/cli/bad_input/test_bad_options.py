@@ -105,8 +105,8 @@ OUTPUTS = {
     "-o folder": "cannot write 'folder': it is a folder; give the path of a file",
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
-    "-o kept.png": "--output = 'kept.png': is not a format for results; end it in .nc",
-    "-o orbit": "--output = 'orbit': is not a format for results|.csv or .mat",
+    "-o kept.png": "--output = 'kept.png': does not end in a suffix for results; end the name in .nc",
+    "-o orbit": "--output = 'orbit': does not end in a suffix for results|.csv or .mat",
 }
 FIGURES = {
     "--plot page.txt": "--plot = 'page.txt': is not a figure format; end it in .png, .pdf, .svg",

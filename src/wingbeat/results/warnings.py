@@ -100,7 +100,7 @@ def rivals(solution: Solution) -> list[str]:
     here, there = (
         values[place] * (math.degrees(1.0) if angle else 1.0) for values in (solution.unknowns, other.unknowns)
     )
-    unit = " degrees" if angle else ""
+    unit = "" if not angle else " degrees/s" if name == "pitch_rate" else " degrees"
     return [
         f"other optima within 1 % of the best: {len(others)}; the most different one has {name} = "
         f"{there:.3g}{unit}, against {here:.3g}{unit} here"

@@ -21,7 +21,7 @@ _SUMMARY = """## What the comparisons say
   predicted power is too high. Curves of power are U-shaped. The predicted minimum is at 9 m/s for the cockatiel
   (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
 - **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
-  speed, the predictions for pigeon and zebra finch are a little more than half of the live animals' frequency. No
+  speed, the predictions for pigeon and zebra finch are about half of the live animals' frequency. No
   single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
 - **The predicted murre and puffins beat twice as fast as measured**, with smaller amplitudes. Their wings are
   small. To carry the weight at 16 m/s without flapping, they need a mean lift coefficient of 1.0 to 1.25, and our

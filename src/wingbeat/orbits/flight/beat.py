@@ -228,7 +228,7 @@ def _part(
     by_path = jax.linearize(lambda at: _series(model, tables, at, mean_velocity), path)[1]
     own = jax.vmap(by_table)(table_tangents)
     by_state = jax.vmap(by_path)(jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, len(phase))))
-    return found, jax.tree_util.tree_map(lambda *of: _along_path(*of, tangents), own, by_state)
+    return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)
 
 
 def _along_path(own: Any, by_state: Any, tangents: PitchTangents) -> Any:

@@ -261,7 +261,7 @@ def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, 
 def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -> None:
     expected = "deg" if path.endswith("_deg") else key.unit
     if isinstance(unit, str) and unit and _tidy(unit) != _tidy(expected):
-        faults.add(f"{where}.unit", unit, f"must be {expected!r}", f"give the value in {expected}")
+        faults.add(f"{where}.unit", unit, f"must be {expected!r}", "give the value in this unit")
 
 
 def _tidy(unit: str) -> str:

@@ -133,7 +133,7 @@ class Wingbeat:
             where, given = f"wingbeat.{law}_harmonics", getattr(self, f"{law}_harmonics")
             rule = f"must be cosine and sine of order {first}, of order {first + 1} and so on up to {HIGHEST_ORDER}"
             if not isinstance(given, list | tuple):
-                faults.add(where, given, rule, "a list of numbers; [] for none")
+                faults.add(where, given, rule, "give a list of numbers, or [] for no harmonics")
                 sound = False
                 continue
             object.__setattr__(self, where.removeprefix("wingbeat."), tuple(given))

@@ -124,10 +124,10 @@ def _section(found: Validation, figure: str) -> str:
     for axis, force in (("fz", "upward"), ("fx", "forward")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            text = f"The best sine differs from the measured {force} force by an rms of {sine['rms']:.2f} weights"
+            text = f"The best sine has an rms of {sine['rms']:.2f} for the {force} force"
             about = sine["rms_about_mean"]
-            text += "." if about is None else f"; its rms about mean is {about:.2f}."
-            text += "" if noise is None else f" The measurement's own standard error is {noise:.2f} weights."
+            text += "." if about is None else f" and an rms about mean of {about:.2f}."
+            text += "" if noise is None else f" The standard error of the measurement is {noise:.2f} of the weight."
             lines += [text, ""]
     lines += [f"Note: {note}." for note in found.notes]
     lines += [""] * bool(found.notes)

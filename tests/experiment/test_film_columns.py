@@ -118,7 +118,7 @@ def test_a_stroke_plane_that_varies_is_said_to():
     assert still.notes == ()
     swinging = fit_film(Film("swings", phase, {"stroke_plane_deg": 80.0 + 3 * np.cos(2 * math.pi * phase) + noise}))
     (note,) = swinging.notes
-    assert "its mean is used" in note
+    assert "the mean angle is used" in note
     assert any(note in line for line in film_lines(swinging))
 
 

@@ -141,7 +141,7 @@ def test_faults_of_the_new_columns(tmp_path, text, faults):
 
 def test_an_area_of_another_wing_is_refused():
     small = Film("small", np.arange(20) / 20, {"area_fraction": np.full(20, 0.3)})
-    with pytest.raises(wb.InvalidInputError, match="mean of area over span"):
+    with pytest.raises(wb.InvalidInputError, match="mean ratio of area fraction to span fraction"):
         filmed_species(fit_film(small), PIGEON)
 
 

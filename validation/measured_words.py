@@ -128,12 +128,13 @@ def _meaning(rows: list[Row]) -> list[str]:
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
         f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
-        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift. Their data end soon after, at a mount angle of "
-        f"25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these "
-        "data cannot test the plate.",
+        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift. Their data end soon after, at a mount angle "
+        f"of 25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
+        "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"(plate {_slope_of(plate.slope):.1f} per rad, all gulls "
-        f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; "
+        f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the "
+        f"thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; "
         "these have a smaller aspect ratio). "
         f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
         "gulls, because of twist and camber, and at 0 for the plate.",

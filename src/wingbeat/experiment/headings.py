@@ -17,7 +17,17 @@ from wingbeat.files import read_text
 MAX_BYTES = 1 << 26
 # Forty bad cells tell as much as forty thousand.
 MAX_CELL_FAULTS = 40
-_SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "°": "deg", "degrees": "deg", "seconds": "s", "-": "", "1": ""}
+_SAME = {
+    "n·m": "n m",
+    "n*m": "n m",
+    "nm": "n m",
+    "n.m": "n m",
+    "°": "deg",
+    "degrees": "deg",
+    "seconds": "s",
+    "-": "",
+    "1": "",
+}
 
 
 class Heading(NamedTuple):

@@ -33,8 +33,9 @@ C_D = least + induced C_L^2 + low_rise ramp(low_onset - a, onset_rounding)
                             + high_rise ramp(a - high_onset, onset_rounding)
 ```"""
 SIDES = """
-Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is
-`lift_slope`). The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
+Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is `lift_slope`).
+The table counts the two onsets from the angle of zero lift: `low_onset` in the formula is `zero_lift_deg` plus
+`low_onset_deg`. The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
 at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from above. The formulas
 hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a quintic polynomial
 leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its ends. It is a

@@ -27,7 +27,7 @@ alone.
 
 {table}
 
-- *lift later*: the delay of the lattice's lift behind ours, as a fraction of the beat; a negative number means that
+- *lift delay*: the delay of the lattice's lift behind ours, as a fraction of the beat; a negative number means that
   the lattice's lift is earlier.
 - *rms / weight*: root mean square over the beat of the difference between the two lifts, divided by the weight.
 - *rms / lattice*: the same root mean square, divided by that of the lattice's lift.
@@ -136,7 +136,7 @@ def _name(case: tuple[str, float, float | None]) -> str:
 
 def _table(records: dict[tuple[str, float, float | None], dict[str, Any]]) -> str:
     lines = [
-        "| flight | beyond 15 deg | loads | lift [N] | thrust [N] | power [W] | lift later [beat] | rms / weight "
+        "| flight | beyond 15 deg | loads | lift [N] | thrust [N] | power [W] | lift delay [beat] | rms / weight "
         "| rms / lattice |",
         "|---|---|---|---|---|---|---|---|---|",
     ]

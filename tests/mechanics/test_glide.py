@@ -173,7 +173,7 @@ def test_where_nothing_glides_ahead_it_says_so(capsys, tmp_path):
         ("--set air.gravity=0", "air.gravity = 0.0: must be > 0 m/s2; nothing glides without weight"),
         ("--payload nan", "payload = nan: must be finite"),
         ("--plot glide.txt", "is not a figure format"),
-        ("--plot glide.png -o glide.png", "is the file of --output too"),
+        ("--plot glide.png -o glide.png", "is also the file of --output"),
         ("--strips 0", "aero.strips = 0"),
     ],
 )

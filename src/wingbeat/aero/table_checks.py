@@ -41,7 +41,7 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
             rule = f"must be above the {angles[i - 1]:g} before it"
             faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
         if abs(angle) > 180:
-            faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
+            faults.add(where(i, "alpha_deg"), angle, "must lie between -180 and 180 degrees", "wrap the angle")
     for i, drag in enumerate(columns["c_d"]):
         if drag < 0:
             faults.add(

@@ -21,7 +21,7 @@ _DEFAULT = LatticeOptions()
 
 
 def compare(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o`.")],
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o`.")],
     *,
     with_: Annotated[
         str, Parameter(name="--with", help="The other code: uvlm, the unsteady vortex lattice of PteraSoftware.")

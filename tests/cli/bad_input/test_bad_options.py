@@ -113,7 +113,7 @@ FIGURES = {
     "--plot page": "--plot = 'page': is not a figure format",
     "--plot missing/page.png": "cannot write 'missing/page.png': no such file or directory",
     "--plot kept.png/page.png": "cannot write 'kept.png/page.png': not a directory",
-    "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is the file of --plot too; give each its own",
+    "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is also the file of --plot; give each option",
 }
 FLIGHTS = {
     "--beats 0": ["beats = 0: must be a whole number from 1 to 10000"],

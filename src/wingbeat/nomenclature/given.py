@@ -5,8 +5,8 @@ from __future__ import annotations
 from wingbeat.harmonics import HARMONIC_NAMES, HIGHEST_ORDER, SHARES
 from wingbeat.nomenclature.term import Term
 
-_ORDERS = f"cosine and sine of order 2, of order 3 and so on up to {HIGHEST_ORDER}"
-_ORDERS_FROM_1 = f"cosine and sine of order 1, of order 2 and so on up to {HIGHEST_ORDER}"
+_ORDERS = f"cosine and sine of order 2, then of order 3, up to order {HIGHEST_ORDER}"
+_ORDERS_FROM_1 = f"cosine and sine of order 1, then of order 2, up to order {HIGHEST_ORDER}"
 _HALF = "half of peak to peak"
 GIVEN = (
     Term("mass", "kg", "whole mass", "M", "whole mass, body and both wings; give this or body.mass"),

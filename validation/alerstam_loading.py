@@ -89,7 +89,7 @@ def _answer(model: str, as_is: float, left: float, gained: tuple[float, float, f
     else:
         verdict = "**only if fitted**" if gained[0] <= -CLEARLY and gained[2] < 0 else "**no**"
     return (
-        f"- `{model}`: {verdict}. As predicted, the better of the model's two speeds has a scatter of "
-        f"{as_is:.2f}. A fit to wing loading leaves a scatter of {math.exp(alone):.2f}, and a fit to the model's "
-        f"better speed one of {math.exp(left):.2f}."
+        f"- `{model}`: {verdict}. With nothing fitted, the better of the model's two speeds has a scatter of "
+        f"{as_is:.2f}. With a fit, the better of the two has a scatter of {math.exp(left):.2f}, and wing loading "
+        f"one of {math.exp(alone):.2f}."
     )

@@ -87,8 +87,8 @@ FAULTS = {
     "enormous": ("case.toml", TOML.replace("speed = 4.0", f"speed = {10**400}"), "speed", "must be finite"),
     "switch": ("case.toml", TOML.replace("mirrored = true", "mirrored = 1"), "mirrored", "must be true or false"),
     "wing": ("case.toml", TOML.replace("rigid", "scaly"), "case.toml, wing", "is not a known choice"),
-    "both": ("case.toml", TOML + "mean_force = [0.0, 1.0]\n", "case.toml, forces", "must have one of"),
-    "neither": ("case.toml", re.sub("forces = .*\n", "", TOML), "case.toml, forces", "must have one of"),
+    "both": ("case.toml", TOML + "mean_force = [0.0, 1.0]\n", "case.toml, forces", "exactly one of forces"),
+    "neither": ("case.toml", re.sub("forces = .*\n", "", TOML), "case.toml, forces", "exactly one of forces"),
     "mean": ("case.toml", TOML.replace('forces = "forces.csv"', "mean_force = [1.0]"), "mean_force", "two numbers"),
     "no file": ("case.toml", TOML.replace("strips.csv", "none.csv"), "case.toml, strips", "no such file"),
     "file number": (

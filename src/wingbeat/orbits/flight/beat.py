@@ -21,6 +21,9 @@ from wingbeat.orbits.flight.shooting import STEPS, Flown
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import (
+        FieldByFree,
+        FieldByState,
+        FieldTangents,
         Free,
         Number,
         Pair,
@@ -231,7 +234,7 @@ def _part(
     return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)
 
 
-def _along_path(own: Any, by_state: Any, tangents: PitchTangents) -> Any:
+def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
     """Return a field's derivatives: its own by the free parameters, and those through the path.
 
     A sample depends on the path at its own phase alone, so its derivatives by the four states are a linear map.

@@ -121,7 +121,7 @@ def test_a_part_of_a_motion_starts_from_steady_flight_and_says_so(polar):
     whole = case_of(20.0)
     part = dataclasses.replace(whole, periodic=False)
     found = validate(part, [polar], WAKE, "none")
-    assert any("starts from steady flight" in note for note in found.notes)
+    assert any("as that of steady flight" in note for note in found.notes)
     assert not any("starts from" in note for note in validate(part, [polar], "thin-aerofoil", "none").notes)
     repeating = validate(whole, [polar], WAKE, "none")
     assert not any("starts from" in note for note in repeating.notes)

@@ -211,7 +211,7 @@ def test_functions_of_ones_own(free):
     [
         (lambda beat: beat.power, "fails: AttributeError"),
         (lambda beat: float(beat.u[0]), "fails: ConcretizationTypeError"),
-        (lambda beat: beat.alpha.T, "one value or row for each phase"),
+        (lambda beat: beat.alpha.T, "for each phase a number or a row of numbers"),
         (lambda beat: "much", "fails: TypeError"),
     ],
 )

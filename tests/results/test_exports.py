@@ -168,7 +168,7 @@ def test_another_suffix_is_refused_before_anything_is_computed(words, tmp_path, 
     monkeypatch.setattr("wingbeat.aero.FormulaCoefficients.kernel", lambda _: pytest.fail("it computes"))
     monkeypatch.chdir(tmp_path)
     assert main([*words.split(), "-o", "out.xlsx"]) == 2
-    assert "--output = 'out.xlsx': is not a format for results" in capsys.readouterr().err
+    assert "--output = 'out.xlsx': does not end in a suffix for results" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

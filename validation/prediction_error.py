@@ -101,7 +101,8 @@ once, evenly within the range that its source gives. Measured values do not depe
 prediction also moves its error by as much ([whole flights](whole_flights.md)).
 
 A share is the square of the rank correlation of a number with a quantity, over the flights of a band of speeds. A
-number of the animal with a large share is worth measuring better. *Speed* is listed because it differs within a band.
+number of the animal with a large share is worth measuring better. *Speed* is listed because it differs within a
+band.
 
 {table}
 
@@ -112,7 +113,10 @@ wingbeats therefore add scatter that no number explains.
 
 def page(table: pd.DataFrame) -> str:
     """Return the page."""
-    lines = ["| quantity | at [m/s] | flights | 10 to 90 % of them | share of each number |", "|---|---|---|---|---|"]
+    lines = [
+        "| quantity | at [m/s] | flights | 10 to 90 % of them | share of each number |",
+        "|---|---|---|---|---|",
+    ]
     for row in shares(table):
         factor, unit = for_people(NOMENCLATURE[row.quantity.rpartition(".")[2]].unit)
         ends = " to ".join(f"{factor * end:.3g}" for end in row.spread)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import pandas as pd
 
 from wingbeat.plots import save_figure
-from wingbeat.style import FIRST, GREY, PAGE, SECOND, drawing, dress, letter_panels, new_figure
+from wingbeat.style import FIRST, GREY, PAGE, SECOND, drawing, dress, legend_below, letter_panels, new_figure
 from wingbeat.whole_flights import read_measured_flights
 
 # What the words of the abstracts are taken to mean.
@@ -52,6 +52,9 @@ measured on pigeons. Without this limit the model spends the least power on fast
 | --- | --- | --- | --- |
 {statements}
 
+So {sums}. A retraction of {most:g} is the most that we allow. In hover with the frequency free, the stroke plane is
+horizontal ({hover:.0f} degrees from vertical) and the wing stays spread, as the abstract says of hummingbirds.
+
 Power in hover and climb:
 
 | flight | frequency limited [W/kg] | frequency free [W/kg] |
@@ -67,7 +70,7 @@ class Statement(NamedTuple):
 
     words: str
     reading: str
-    test: object
+    test: Callable[[pd.DataFrame], tuple[str, bool | None]]
 
 
 def _rows(table: pd.DataFrame, flight: str) -> pd.DataFrame:
@@ -76,12 +79,17 @@ def _rows(table: pd.DataFrame, flight: str) -> pd.DataFrame:
 
 
 def _ends(values: pd.Series, form: str) -> str:
-    return f"{values.min():{form}} to {values.max():{form}}"
+    low, high = f"{values.min():{form}}", f"{values.max():{form}}"
+    return low if low == high else f"{low} to {high}"
 
 
 def _vertical(table: pd.DataFrame) -> tuple[str, bool | None]:
-    angles = _rows(table, "cruise")["from_vertical_deg"]
-    return f"{_ends(angles, '.0f')} degrees", bool((angles.abs() <= NEAR_VERTICAL).all()) if len(angles) else None
+    rows = _rows(table, "cruise")
+    angles = rows["from_vertical_deg"]
+    near = angles.abs() <= NEAR_VERTICAL
+    at = ", ".join(f"{speed:g}" for speed in rows["speed"][near])
+    words = f"{_ends(angles, '.0f')} degrees; near-vertical at {at or 'no speed'}{' m/s' if at else ''}"
+    return words, bool(near.all()) if len(angles) else None
 
 
 def _flexed(table: pd.DataFrame) -> tuple[str, bool | None]:
@@ -166,10 +174,16 @@ STATEMENTS = (
 )
 
 
-def _told(test: object, table: pd.DataFrame) -> str:
-    words, holds = test(table)  # type: ignore[operator]
+def _told(test: Callable[[pd.DataFrame], tuple[str, bool | None]], table: pd.DataFrame) -> str:
+    words, holds = test(table)
     verdict = "cannot be tested" if holds is None else "**yes**" if holds else "**no**"
     return f"{verdict}: {words}"
+
+
+def _sum(name: str, table: pd.DataFrame) -> str:
+    verdicts = [one.test(table)[1] for one in STATEMENTS]
+    told = [verdict for verdict in verdicts if verdict is not None]
+    return f"{sum(told)} of {len(told)} statements hold with the frequency {name}"
 
 
 def _powers(limited: pd.DataFrame, free: pd.DataFrame) -> Iterator[str]:
@@ -199,10 +213,13 @@ def draw(limited: pd.DataFrame, free: pd.DataFrame, path: Path) -> None:
             if one.quantity == name and one.basis == "measured" and one.speeds is not None:
                 (first, last), (low, high) = one.speeds, one.values
                 wide = max(0.5 * (0.3 - (last - first)), 0.0)
-                axes.fill_between([first - wide, last + wide], low, high, color=GREY, alpha=0.35, linewidth=0)
+                face = {"color": GREY, "alpha": 0.35, "linewidth": 0, "label": "measured on pigeons"}
+                axes.fill_between([first - wide, last + wide], low, high, **face)
         dress(axes, "speed [m/s]", label)
+        axes.tick_params(labelbottom=True)
+        axes.set_ylim(0 if name else None)
     letter_panels(panels)
-    panels[0].legend(fontsize=7)
+    legend_below(figure, panels)
     save_figure(figure, path)
 
 
@@ -214,7 +231,11 @@ def page(table: pd.DataFrame, figure: Path, highest: float) -> str:
         f"| {one.words} | {one.reading} | {_told(one.test, limited)} | {_told(one.test, free)} |"
         for one in STATEMENTS
     )
+    spread = _rows(free, "hover")
     return TEXT.format(
+        sums=" and ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
+        most=table["retraction"].max(),
+        hover=spread[spread["held"].isna()]["from_vertical_deg"].iloc[0],
         highest=highest,
         certified=int(table["power_per_mass"].notna().sum()),
         count=len(table),

@@ -35,6 +35,8 @@ speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). 
   14 m/s.
 - Lighter or heavier wings, a span that retracts more, and an upstroke with 0.4 of its load change the frequency by
   at most 1 Hz.
+- If the model may also tilt its stroke plane and retract its span, it needs 10 to 35 % less power, and its frequency
+  rises by 0.2 to 1.9 Hz.
 - The beat of least positive power is no better: at 10 m/s it is at the bound of 30 Hz. Nor is the beat of least
   activation.
 - **Up to 10 m/s the elevators are too weak for any of these beats.** They must stop and raise the wings. With three

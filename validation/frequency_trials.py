@@ -42,13 +42,21 @@ speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). 
 - **Up to 10 m/s the elevators are too weak for any of these beats.** They must stop and raise the wings. With three
   times their mass, activation falls from 8.3 to 3.6 at 6 m/s, and from 2.3 to 1.2 at 10 m/s.
 
-Two things are missing, and we can measure neither. First, activating and relaxing a muscle costs energy and takes
-time, so each beat has a fixed cost ([muscles](muscles.md)). We found no value of this cost for birds. When
-people push against a fixed bar 2.5 times a second, raising the force quickly takes 40 % of the energy (van der Zee
-and Kuo 2021, J Exp Biol 224:jeb233965, abstract). Second, stopping the wing at the end of the downstroke costs the
-model's elevators more than those of a live bird. Live wings fold there, and tendons may store energy. Both may
-lower the frequency in slow flight. Neither explains the slow beats around 13 m/s. There the optimum is flat: at
-12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
+Three things are missing. We can measure neither of the first two:
+
+- Activating and relaxing a muscle costs energy and takes time, so each beat has a fixed cost
+  ([muscles](muscles.md)). We found no value of this cost for birds. When people push against a fixed bar 2.5 times
+  a second, raising the force quickly takes 40 % of the energy (van der Zee and Kuo 2021, J Exp Biol 224:jeb233965,
+  abstract).
+- Stopping the wing at the end of the downstroke costs the model's elevators more than those of a live bird. Live
+  wings fold there, and tendons may store energy.
+- The lift of a beating wing lags behind its motion because of the wake. Orbits do not include this lag (`wingbeat
+  validate` does), so fast beats are too cheap. By thin-aerofoil theory for a wing that only plunges (Garrick 1936,
+  NACA Report 567), 0.57 of the power becomes thrust at 30 Hz and 12 m/s, and 0.82 at 5 Hz. Without the lag, all of
+  it would at both. At 10 m/s the shares are 0.61 at 17 Hz and 0.72 at 8 Hz.
+
+Each of the three may lower the frequency in slow flight. None explains the slow beats around 13 m/s. There the
+optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
 """
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _LOOKS: dict[str, dict[str, Any]] = {
     "measured": {"color": VERMILION, "hatch": "", "alpha": 0.35, "label": "measured"},
     "estimated": {"color": ORANGE, "hatch": "////", "alpha": 0.25, "label": "estimated with a model"},
-    "law": {"color": GREEN, "hatch": "....", "alpha": 0.15, "label": "law of other animals"},
+    "law": {"color": GREEN, "hatch": "....", "alpha": 0.15, "label": "law fitted to other animals"},
 }
 _LETTERS = 30  # of a line of an axis label
 _LINE = 0.05  # m/s: half of the width of a stripe at a single speed

@@ -51,10 +51,10 @@ and has no feathers. We therefore take least drag and induced drag from the live
 """
 INTERVALS = """
 The intervals come from a bootstrap over wings, and for {live} from a bootstrap over flights and wings. The
-angle of zero lift is measured at the wing's mount. The prints are twisted, so the spread of this angle comes
-from their postures. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are not fitted. `drag_induced` is
-below that of an ideal wing, 0.053, because the wake of the jackdaw also contains the lift of its tail and
-body.
+angle of zero lift is counted from the wing's mount. The nine prints are twisted and have nine postures of elbow
+and wrist, so this angle differs from print to print. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are
+not fitted. `drag_induced` is below that of an ideal wing, 0.053, because the wake of the jackdaw also contains
+the lift of its tail and body.
 """
 LEFT_OUT = """
 For each gull wing, the median of the other eight wings predicts its glide at its own aspect ratio. The drag

@@ -41,8 +41,8 @@ docstring of `wb.read_strip_case` describe its files.
 3. Above this Reynolds number, the rule chooses the model named after the kind of wing if there is one, and
    otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
    measured on revolving wings of this kind.
-4. Above a reduced frequency of 0.1 the rule adds rotation and added mass (Leishman 2006, Principles of Helicopter
-   Aerodynamics, draws the line between 0.05 and 0.2).
+4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
+   (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
 5. Above the same reduced frequency it also adds the lag of the wake if the theory applies. The theory assumes a
    straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions must therefore be
    met: the polar was measured in straight flow and states an aspect ratio; the speed is at least twice the induced

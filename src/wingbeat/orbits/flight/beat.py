@@ -227,6 +227,7 @@ def _part(
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     # The barrier keeps each direction from computing the tables again.
     tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(jnp.eye(len(free)))))
+    # A direction changes either the tables or the state. Taking them apart saves the zeros of the other.
     found, by_table = jax.linearize(lambda table: _series(model, table, path, mean_velocity), tables)
     by_path = jax.linearize(lambda at: _series(model, tables, at, mean_velocity), path)[1]
     own = jax.vmap(by_table)(table_tangents)

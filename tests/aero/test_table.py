@@ -183,7 +183,7 @@ FAULTS = [
     (
         HEADER + "-20,-0.5,0.4\n" + GOOD,
         "row 2, column alpha_deg = -20.0: is negative, and the extension mirrored would ignore it; "
-        "drop the negative rows or use signed",
+        "drop the negative rows, or add rows down to -90 and use signed",
     ),
 ]
 
@@ -221,9 +221,10 @@ def test_every_fault_of_a_table_is_told_at_once(tmp_path):
         (0, "signed", "use mirrored"),
         (0, "signed-drag", "use mirrored"),
         (-45, "signed", "add rows down to -90, or drop the negative rows and use mirrored"),
-        (-90, "mirrored", "drop the negative rows or use signed"),
-        (-90, "clipped-drag", "drop the negative rows or use signed"),
-        (-90, "signed-drag", "drop the negative rows or use signed"),
+        (-45, "mirrored", "drop the negative rows, or add rows down to -90 and use signed"),
+        (-90, "mirrored", "drop the negative rows, or use signed"),
+        (-90, "clipped-drag", "drop the negative rows, or use signed"),
+        (-90, "signed-drag", "drop the negative rows, or use signed"),
     ],
 )
 def test_extensions_that_do_not_fit_the_range(tmp_path, first, extension, fix):

@@ -72,7 +72,8 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
                 faults.add(where(len(angles) - 1, name), column[-1], rule, "repeat the row of -180 at 180")
     elif first < 0 and extension != "signed":
         rule = f"is negative, and the extension {extension} would ignore it"
-        faults.add(at_first, first, rule, "drop the negative rows or use signed")
+        more = "use signed" if first <= -90 else "add rows down to -90 and use signed"
+        faults.add(at_first, first, rule, f"drop the negative rows, or {more}")
     elif first > -90 and extension.startswith("signed"):
         rule = f"the extension {extension} needs the table to begin at -90 degrees or below"
         fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"

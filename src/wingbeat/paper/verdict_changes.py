@@ -27,8 +27,9 @@ _SMALL = (
 )
 _SEPARATELY = "each animal is now judged separately; before, the worse of the two decided for both"
 _IN_LINE = (
-    "'in line with' now means that C_L at the angle of the other peak is close to its maximum. The curves are flat "
-    "there, so the earlier limit of 2 degrees was too strict"
+    "'in line with' now means that one wing's C_L, at the angle where the other wing's C_L peaks, is at most 5 % "
+    "below its own maximum. C_L is flat near its peak, so the earlier limit of 2 degrees between the peaks was too "
+    "strict"
 )
 # Claims whose test is unchanged, in clearer words.
 _CLEARER = (

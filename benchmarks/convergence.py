@@ -86,8 +86,9 @@ def main() -> None:
         "have minimum frequency, with the\ndefault wings and bounds, Su-Fan coefficients and the mirrored "
         "extension. Each is solved from the first start only, so that a column\nfollows one family of orbits; "
         "others of lower frequency may exist.\n",
-        "For the first two tables, we flew a certified orbit with fixed steps. They give the largest difference "
-        "between its final state and\nthe certifier's. In the other tables, *closure* is the largest residual "
+        "For the first two tables, we flew a certified orbit with fixed steps. The tables give the largest "
+        "difference\nbetween the final state of this flight and the final state of the certifying flight. "
+        "In the other tables, *closure* is the largest residual "
         "when the certifier flies the orbit.\n",
     ]
     for title, make in (

@@ -131,7 +131,8 @@ def spread_table(moved: list[Moved]) -> str:
     head = (
         "\n## Sensitivity to the derived numbers\n\nThese are results of the model `paper`. Each number is changed "
         "alone, to the low or high end of its plausible range. The ends for span retraction are 0 and 0.5; "
-        "*body-drag* is the species' alternative of that name. Each cell gives three changes in percent: of the "
+        "*body-drag* is the bird with body drag, by the law for birds ([tails](tails.md#body-drag)); without it "
+        "the body has no drag. Each cell gives three changes in percent: of the "
         "minimum-power speed / of the maximum-range speed / of the minimum power. A dash means that power, or "
         "power over speed, has no minimum within the speeds flown.\n\n"
     )

@@ -33,8 +33,8 @@ speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). 
   14 m/s.
 - Weak and fast muscle, with the stress that was measured in a zebra finch's pectoralis, comes closest: 5.2 Hz at
   14 m/s.
-- Lighter or heavier wings, a span that retracts more, and an upstroke with 0.4 of its load change the frequency by
-  at most 1 Hz.
+- Heavier wings with their mass closer to the root, a span that retracts more, and an upstroke with 0.4 of its load
+  change the frequency by at most 1 Hz.
 - If the model may also tilt its stroke plane and retract its span, it needs 10 to 35 % less power, and its
   frequency rises by 0.2 to 1.9 Hz.
 - The beat of least positive power is no better: at 10 m/s it is at the bound of 30 Hz. Nor is the beat of least
@@ -53,7 +53,7 @@ Three things are missing. We can measure neither of the first two:
 - The lift of a beating wing lags behind its motion because of the wake. Orbits do not include this lag (`wingbeat
   validate` does), so fast beats are too cheap. By thin-aerofoil theory for a wing that only plunges (Garrick 1936,
   NACA Report 567), 0.57 of the power becomes thrust at 30 Hz and 12 m/s, and 0.82 at 5 Hz. Without the lag, all of
-  it would at both. At 10 m/s the shares are 0.61 at 17 Hz and 0.72 at 8 Hz.
+  the power would become thrust at both frequencies. At 10 m/s the shares are 0.61 at 17 Hz and 0.72 at 8 Hz.
 
 Each of the three may lower the frequency in slow flight. None explains the slow beats around 13 m/s. There the
 optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.

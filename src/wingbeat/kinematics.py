@@ -44,7 +44,7 @@ class Wingbeat:
     twist_ratio : wing pitch at the tip over that at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
-    pitch_phase : phase lead of pitch over flap [rad].
+    pitch_phase : phase lead of pitch over flap, beyond a quarter of a wingbeat [rad].
     downstroke_fraction : share of the wingbeat that the downstroke takes; all laws are stretched equally.
     sweep_mean, sweep_amplitude, sweep_phase : angle by which the span points ahead of the stroke plane [rad];
         with `sweep_phase` 0 it is largest at mid-downstroke (protraction).

@@ -154,7 +154,7 @@ def test_least_frequency_at_its_own_bound_is_final():
     assert record["wingbeat"]["frequency"] == pytest.approx(3.0, abs=1e-4)
     assert "frequency is at its lower bound, 3 Hz: more starts cannot improve it" in record["message"]
     (told,) = [line for line in record["warnings"] if "more starts cannot improve it" in line]
-    assert "wingbeat glide bat" in told
+    assert "`wingbeat glide`" in told
     assert not any("a better one may exist" in line or "other optima" in line for line in record["warnings"])
 
 

@@ -58,7 +58,8 @@ class Muscle:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix="count the depressors of both sides")
+        together = "give the mass of the depressors of both sides together"
+        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix=together)
         faults.number("muscle.elevator_share", self.elevator_share, above=0, at_most=2)
         faults.number("muscle.strain_per_angle", self.strain_per_angle, above=0, unit="1/rad")
         faults.number(

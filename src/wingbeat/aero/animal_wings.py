@@ -31,7 +31,7 @@ class Estimate(NamedTuple):
 
 _GULL = "nine gull wings; interval: 95 %, bootstrap over wings"
 _JACKDAW = "gliding jackdaw; interval: 95 %, bootstrap over flights and wings"
-_ASSUMED = "held fixed: single wings do not determine how sharply the curve bends"
+_ASSUMED = "assumed, not fitted: single wings do not determine how sharply the curve bends"
 
 _FEATHERED = {
     "zero_lift_deg": Estimate(-3.01, -7.70, 1.62, _GULL),

@@ -101,7 +101,8 @@ class FormulaTerms:
             faults.number(
                 "terms.decay_amplitude", self.decay_amplitude, fix="give decay_amplitude and decay_rate, or neither"
             )
-            fix = "give decay_amplitude and decay_rate, or neither; a is in degrees in exp(-decay_rate a)"
+            term = "decay_amplitude exp(-decay_rate a), with the angle of attack a in degrees"
+            fix = f"give decay_amplitude and decay_rate, or neither; the term is {term}"
             faults.number("terms.decay_rate", self.decay_rate, at_least=0, unit="1/deg", fix=fix)
         faults.raise_if_any()
         if self.decay_amplitude == 0:

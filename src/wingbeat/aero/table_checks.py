@@ -75,7 +75,9 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         more = "use signed" if first <= -90 else "add rows down to -90 and use signed"
         faults.add(at_first, first, rule, f"drop the negative rows, or {more}")
     elif first > -90 and extension.startswith("signed"):
-        rule = f"the extension {extension} needs the table to begin at -90 degrees or below"
+        rule = "the extension signed needs the table to begin at -90 degrees or below"
+        if extension == "signed-drag":
+            rule = "the extension signed-drag has no effect on a table"
         fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"
         faults.add(at_first, first, rule, fix)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat.app.formatting import number, tiles
 from wingbeat.app.widgets import Rows, box, button, set_class, tag
-from wingbeat.nomenclature import for_people
+from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.plausibility import statements
 
 
@@ -64,8 +64,10 @@ def _message(answer: dict[str, Any]) -> str:
     elif answer.get("continued"):
         parts.append("Continued from the previous result, with one start.")
     if answer.get("continued_better") is not None:
-        better = number(answer["continued_better"])
-        found = f"Continuation from an earlier result found a better optimum: {better}."
+        minimised = answer["record"]["objective"]
+        factor, unit = for_people(NOMENCLATURE[minimised].unit)
+        better = f"{minimised.replace('_', ' ')}, {number(factor * answer['continued_better'])} {unit}".rstrip()
+        found = f"Continuation from an earlier result found a lower {better}."
         parts.append(f"{found} More starts may find it.")
     text = ". ".join(part.rstrip(".") for part in parts if part)
     return f"{text[:1].upper()}{text[1:]}." if text else ""

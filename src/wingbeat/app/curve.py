@@ -16,6 +16,12 @@ from wingbeat.app.widgets import Field, box, button, number_field, set_class, ta
 from wingbeat.workers.fair_pool import Event, Job
 
 _SWEEP = ("from", "to", "step")
+_ENDINGS = {
+    "lost": "the solver process ended ({})",
+    "late": "no result within {:g} s",
+    "failed": "the solver failed ({})",
+    "stopped": "the solver was stopped",
+}
 
 
 class CurvePanel:
@@ -132,7 +138,7 @@ class CurvePanel:
             self._next(event.value["near"] or before)
         elif event.ends:
             self._job = None
-            why = event.value["refused"][0][1] if event.kind == "done" else f"the solver ended ({event.value})"
+            why = event.value["refused"][0][1] if event.kind == "done" else _ENDINGS[event.kind].format(event.value)
             self._finish(f"Stopped after {done} of {total} speeds: {why}.")
 
     def _finish(self, text: str) -> None:
@@ -147,7 +153,7 @@ class CurvePanel:
         if known:
             least = min(known, key=lambda point: point["mean_positive_power"])
             power = number(least["mean_positive_power"], 3)
-            text += f". Lowest power of these: {power} W at {least['speed']:g} m/s"
+            text += f". Lowest power of the certified speeds: {power} W at {least['speed']:g} m/s"
         return text + "."
 
     def mark(self, speed: float) -> None:

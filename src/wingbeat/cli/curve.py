@@ -34,7 +34,11 @@ def curve(
     *,
     speeds: Annotated[
         list[str],
-        Parameter(consume_multiple=True, negative=(), help="Speeds [m/s]: 3:20:1, or 0 3:20:1 with hover."),
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Speeds [m/s]: numbers, or start:stop:step. 0 3:20:1 is hover, and 3 to 20 m/s in steps of 1.",
+        ),
     ],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
@@ -50,7 +54,8 @@ def curve(
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
     power_limit: Annotated[
-        float | None, Parameter(help="Sustainable power [W]; the speeds that need no more are printed.")
+        float | None,
+        Parameter(help="Sustainable power [W]; the slowest and the fastest speed within this power are printed."),
     ] = None,
     starts: Annotated[
         Whole,

@@ -66,7 +66,7 @@ def print_curve(curve: Curve) -> None:
         console.print("  one branch, always at the same bounds")
     console.print(Text(f"characteristic speeds, from the curve of {_power(record)}", style="bold"))
     for name, found in record["characteristic_speeds"].items():
-        console.print(f"  {_LABELS[name]}: {_told(found)}")
+        console.print(f"  {_LABELS[name]}: {_told(name, found)}")
     if record["warnings"]:
         console.print(Text("warnings", style="bold"))
     for warning in record["warnings"]:
@@ -95,13 +95,14 @@ def _row(point: dict[str, Any]) -> list[str]:
     ]
 
 
-def _told(found: dict[str, Any] | None) -> str:
+def _told(name: str, found: dict[str, Any] | None) -> str:
     if found is None:
         return "none"
     text = f"{found['speed']:.3g} m/s, {found['power']:.4g} W"
     if "within_2_percent" in found:
         low, high = found["within_2_percent"]
-        text += f"; within 2 % from {low:.3g} to {high:.3g} m/s"
+        least = "power over speed" if name == "maximum_range" else "the power"
+        text += f"; {least} is within 2 % of its minimum from {low:.3g} to {high:.3g} m/s"
     if found["at_edge"]:
         text += "; at the end of the range or beside a gap: the true speed may lie beyond"
     if found["jump_beside"]:

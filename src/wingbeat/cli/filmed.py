@@ -71,7 +71,7 @@ def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
         lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
     edge = "; the others have none: the wingbeat is close to the limit of flight, and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
-    flown = f"{spread.certified} of {spread.asked} samples of the film have an orbit"
+    flown = f"{spread.certified} of {spread.asked} random draws of the film have an orbit"
     return [*lines, f"one standard error; {flown}{ending}"]
 
 

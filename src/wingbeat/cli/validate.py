@@ -73,7 +73,8 @@ def validate(
     draws: Annotated[
         Whole | None,
         Parameter(
-            help="Whole flights: number of random draws of the animal's numbers for the band; default 0, no band."
+            help="Whole flights: number of random draws of the animal's numbers. The band of each predicted "
+            "quantity goes from the 10th to the 90th percentile of the certified draws. Default 0: no band."
         ),
     ] = None,
     seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
@@ -174,9 +175,10 @@ def _print(found: Validation) -> None:
     for axis, label in (("fz", "upward force"), ("fx", "forward force")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            console.print(f"{label}: the best sine at the beat's frequency has an rms of {sine['rms']:.3f}")
+            fitted = f"{label}: the best sine (at the beat's frequency, fitted to the measured force)"
+            console.print(f"{fitted} differs from that force by an rms of {sine['rms']:.3f} of the weight")
         if noise is not None:
-            console.print(f"{label}: the standard error of the measurement has an rms of {noise:.3f}")
+            console.print(f"{label}: the standard error of the measurement has an rms of {noise:.3f} of the weight")
     for note in found.notes:
         console.print(f"- {note}", style="yellow")
     console.print(

@@ -52,7 +52,8 @@ class LiftForm(BoxForm):
         low, high = float(alpha_deg.min()), float(alpha_deg.max())
         if max(-low, high) > FARTHEST_DEG:
             rule = f"reaches beyond {FARTHEST_DEG:g} degrees, where the form cambered does not hold"
-            fix = f"leave out the other rows (--alpha-min -{FARTHEST_DEG:g} --alpha-max {FARTHEST_DEG:g})"
+            rows = f"leave out the rows beyond {FARTHEST_DEG:g} degrees, positive or negative"
+            fix = f"{rows} (--alpha-min -{FARTHEST_DEG:g} --alpha-max {FARTHEST_DEG:g})"
             faults.add("alpha_deg", f"{low:g} to {high:g}", f"{rule}: there the model is a plate", fix)
         for side, words, where in ((-1, "negative", "below"), (1, "positive", "above")):
             count = len(np.unique(np.round(alpha_deg[side * values > 0], 6)))

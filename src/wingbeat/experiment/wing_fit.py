@@ -154,7 +154,8 @@ class WingFit:
         faults = FaultList()
         if low > 0 or high < 90:
             rule = "does not cover 0 to 90 degrees, which a table model needs"
-            faults.add("alpha range", f"{low:g} to {high:g}", rule, "measure farther, or choose a built-in form")
+            fix = "measure farther, or fit a built-in form and save it as a model file (.toml)"
+            faults.add("alpha range", f"{low:g} to {high:g}", rule, fix)
         faults.raise_if_any()
         alpha = np.arange(0.0, math.floor(high / _STEP_DEG) + 0.5) * _STEP_DEG
         columns = [alpha, *(curve.predict(alpha) for curve in self.curves.values())]

@@ -167,8 +167,11 @@ def check_measured(faults: FaultList, case: Any) -> None:
     for kind in ("forces", "errors"):
         for name, values in getattr(case, kind).items():
             place = f"{kind}[{name!r}]"
-            if name not in ("fx", "fz") or (kind == "errors" and name not in case.forces):
-                faults.add(place, name, "is not a force that was measured", "use fx (forward) and fz (up)")
+            if name not in ("fx", "fz"):
+                faults.add(place, name, "is not a force that wingbeat compares", "use fx (forward) and fz (up)")
+            elif name not in case.forces:
+                fix = "give errors only for names that are in forces, or add this force there"
+                faults.add(place, name, "is not a force that was measured", fix)
             elif np.shape(values) != case.times.shape:
                 faults.add(place, np.shape(values), f"must have the same shape as times, {case.times.shape}")
             elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():

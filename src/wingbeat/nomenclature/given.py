@@ -194,7 +194,7 @@ WINGBEAT = (
         "angle by which the hand drops below the arm at mid-upstroke",
     ),
     Term("wrist", "1", "span fraction of the wrist"),
-    Term("pitch_phase", "rad", "phase lead of wing pitch over flap"),
+    Term("pitch_phase", "rad", "phase lead of wing pitch over flap, beyond a quarter of a wingbeat"),
     Term("downstroke_fraction", "1", "share of the wingbeat taken by the downstroke"),
     Term(
         "sweep_mean",
@@ -213,8 +213,6 @@ WINGBEAT = (
     Term(
         "sweep_phase",
         "rad",
-        "phase lead of sweep over the downstroke",
-        "",
         "phase lead of the largest sweep over mid-downstroke",
     ),
     Term(

@@ -128,7 +128,7 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "small-angles-critical",
             "abstract; discussion",
-            "Lift with little drag at small angles of attack saves power and pitching. "
+            "Lift with little drag at small angles of attack saves power and reduces pitching. "
             "Tested: in the bat's flight with Su-Fan at 10 m/s, Dickinson's C_D would cost extra power. At least "
             "half of this extra power arises at angles up to 13 deg. Ours: the share that arises there.",
             "critical",

@@ -131,9 +131,9 @@ ASSUMPTIONS = (
     ),
     Assumption(
         "pitch_phase_deg",
-        "phase by which pitch leads flap [deg]",
-        "the paper gives no phase; at 0 the wing pitches fastest where its flapping reverses; 30 deg, a twelfth of "
-        "a wingbeat, is a guess",
+        "phase lead of pitch over flap, beyond a quarter of a wingbeat [deg]",
+        "the paper gives no phase; at 0 the lead is a quarter of a wingbeat, and the wing pitches fastest where "
+        "its flapping reverses; 30 deg, a twelfth of a wingbeat, is a guess",
         -30.0,
         30.0,
     ),

@@ -37,8 +37,9 @@ _NOTE = (
     "C_L, which stays mirrored. Neighbouring points may belong to different families of orbits. The flap amplitude "
     "is at its bound in {leaning} of {all} orbits. Crosses at the foot mark speeds without a certified orbit. "
     "Stars show what the paper prints for the bat (it prints no number for the pigeon). Green shows frequencies "
-    "measured on animals, or laws of such measurements for this mass and span. A: as in the source; D: we computed "
-    "it from the source. The table that comes with this figure gives the full sources. We could not obtain the "
+    "measured on animals, or laws of such measurements for this mass and span. In the legend, (A) marks values as "
+    "in the source, and (D) values that we computed from the source. The table "
+    "that comes with this figure gives the full sources. We could not obtain the "
     "frequencies of Tobalske and Dial (1996) that the paper draws; they did not vary with speed."
 )
 

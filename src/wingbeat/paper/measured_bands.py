@@ -111,7 +111,8 @@ MEASURED_FREQUENCIES = (
         _bats,
         1.0,
         "Bullen and McKenzie 2002, J Exp Biol 205:2615, abstract: 23 Australian species, 21 of them within 1 Hz; "
-        "nearly independent of speed at high speeds, so not drawn beyond 10 m/s",
+        "at high speeds the measured frequency hardly depends on speed, but the law keeps falling, so we do not "
+        "draw it beyond 10 m/s",
         "D",
     ),
     Measured(

@@ -105,7 +105,8 @@ def pigeon_data_claim() -> Claim:
         "pigeon-agrees",
         _RESULTS,
         "Above 10 m/s the pigeon's frequency agrees very well with the one that Tobalske and Dial 1996 measured. "
-        "Other rows judge this claim by two other references. Ours: the lower of these two frequencies.",
+        "Other rows judge this claim by two other references. Ours: the lower of the frequencies that these two "
+        "give.",
         "remarkably well",
         "Hz",
         min(pigeon_reference(name) for name in PIGEON_REFERENCES),

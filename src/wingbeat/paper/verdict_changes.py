@@ -20,7 +20,10 @@ REPLACED = {
     "pigeon-closer-at-speed": ("pigeon-closer-at-speed-usherwood", "pigeon-closer-at-speed-pennycuick"),
     "less-pitching": ("less-pitching-pigeon", "less-pitching-bat"),
 }
-_REFERENCE = "judged by each reference drawn in figure 5, no longer by 6.25 Hz, which was our own guess"
+_REFERENCE = (
+    "the pigeon is now judged by two references, Usherwood et al. 2005 and Pennycuick 1996, no longer by 6.25 Hz, "
+    "which was our own guess"
+)
 _SMALL = (
     "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for the drag "
     "of its plate"

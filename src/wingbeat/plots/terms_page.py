@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_TERMS = {"unsteady": ("rotation", "added mass"), "inflow": ("induced flow",)}
 _SPENT = {"profile": FIRST, "induced": SECOND, "unsteady": THIRD}
 
 
@@ -25,7 +26,8 @@ def terms_page(record: dict[str, Any]) -> Figure:
     """
     with drawing():
         figure = new_figure(PAGE, 66.0)
-        terms = " and ".join(record["aero"][name] for name in ("unsteady", "inflow") if name in record["aero"])
+        *first, last = (word for name, words in _TERMS.items() if name in record["aero"] for word in words)
+        terms = f"{', '.join(first)} and {last}" if first else last
         name = record["species"]
         title = f"{name[:1].upper()}{name[1:]} at {record['speed']:.4g} m/s: the share of {terms} rises from 0 to 1"
         figure.suptitle(title, fontsize=8.5, parse_math=False)

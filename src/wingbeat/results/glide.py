@@ -169,9 +169,10 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]
+        tail = "a tail would need to supply" if polar.species.vehicle.tail is None else "the tail would need to add"
         notes.append(
-            f"{len(untrimmed)} of {len(found)} glides are not trimmed: the body stays along the path, and a tail "
-            f"would need to supply {min(moments):.2g} to {max(moments):.2g} N m (nose up positive)"
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: the body stays along the path, and {tail} "
+            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive)"
         )
     coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
     low, high = coefficients.reynolds_range or (0.0, math.inf)

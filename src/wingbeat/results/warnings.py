@@ -73,8 +73,8 @@ def at_lower_bound(solution: Solution) -> list[str]:
     low = solution.problem.bounds["frequency"][0]
     return [
         f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it, and other "
-        "orbits at this bound are equally good; lower the bound, minimise a power, or see "
-        f"`wingbeat glide {solution.problem.species.name}`"
+        "orbits at this bound are equally good; lower the bound, minimise a power, or find the glides of this "
+        "species with `wingbeat glide`"
     ]
 
 

@@ -84,7 +84,7 @@ class Sample(BaseModel):
 
 
 class StudyForm(BaseModel):
-    """A study of all combinations of the lists above `vary`; ``free`` and a set of limits count as one value."""
+    """A study of all combinations of the lists outside `vary`; ``free`` and a set of limits count as one value."""
 
     model_config = _STRICT
     species: _Texts

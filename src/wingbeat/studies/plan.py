@@ -189,8 +189,8 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     lists = {name: values for name in _TOP if (values := getattr(form, name)) is not None}
     combinations = math.prod(map(len, lists.values()))
     if combinations > 10_000:
-        rule = "combinations of the lists above [vary] are more than 10000"
-        faults.add("file", combinations, rule, "vary numbers under [vary] instead")
+        rule = "give more than 10000 combinations"
+        faults.add("lists outside [vary]", combinations, rule, "vary numbers under [vary] instead")
         faults.raise_if_any()
     bases: dict[str, Base] = {}
     makers = makers_of(form, folder)

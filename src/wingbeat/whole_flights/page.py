@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from wingbeat.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat.whole_flights.measured import COMPARED
-from wingbeat.whole_flights.prediction import Flown, Prediction
+from wingbeat.whole_flights.prediction import FEWEST_DRAWS, Flown, Prediction
 
 _FIT = (
     "Nothing is fitted to the measurements below. The polars of the wings are fitted to measured wings "
@@ -46,7 +46,8 @@ _WITHOUT_DRAWS = (
 )
 _ABOUT_DRAWS = (
     "Each draw takes random values, within their ranges, for all numbers of the animal; the draw flies if its "
-    "orbit is certified. In brackets: the range of the middle 80 % of the draws that fly."
+    f"orbit is certified. In brackets, if at least {FEWEST_DRAWS} draws fly: the range of the middle 80 % of "
+    "these draws."
 )
 
 

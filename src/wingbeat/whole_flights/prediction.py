@@ -24,7 +24,7 @@ from wingbeat.whole_flights.measured import COMPARED, MeasuredFlights
 
 _AMPLITUDE = Quantity("flap_amplitude_deg", lambda beat: jnp.degrees(beat.flap_amplitude), "deg", 10.0)
 # Fewer certified draws give no band.
-_FEWEST = 10
+FEWEST_DRAWS = 10
 _BAND = (10.0, 90.0)  # per cent of the certified draws
 # A rank correlation with one of some 30 numbers says something from about a hundred draws on: of 12 draws, one of
 # them explains half of the variance by chance.
@@ -147,7 +147,7 @@ def predict_flights(
     """
     faults = FaultList()
     if draws:
-        faults.whole("draws", draws, _FEWEST, 100_000, "0 for no band")
+        faults.whole("draws", draws, FEWEST_DRAWS, 100_000, "0 for no band")
     faults.raise_if_any()
     species = load_species(flights.species)
     chosen = model_of(model, species)
@@ -214,7 +214,7 @@ def _band(
     )
     certified = int(samples.certified.sum())
     told: dict[str, Any] = {"drawn": draws, "certified": certified}
-    if certified < _FEWEST:
+    if certified < FEWEST_DRAWS:
         return told
     low, high = np.percentile(samples.quantities[samples.certified], _BAND, axis=0)
     names = [one.name for one in quantities]

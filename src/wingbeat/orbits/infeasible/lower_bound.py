@@ -61,5 +61,5 @@ def words_of_raise(problem: OrbitProblem, change: Relaxation) -> str:
         f"no orbit was certified below {change.new:g} Hz, but the lower bound of frequency is {change.old:g} Hz. "
         "The wings hardly need to beat here: the optimum is at the lower bound of frequency, and more starts will "
         "hardly help. Raise that bound "
-        f"({change.text}), minimise a power, or see `wingbeat glide {problem.species.name}`"
+        f"({change.text}), minimise a power, or find the glides of this species with `wingbeat glide`"
     )

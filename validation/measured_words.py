@@ -16,8 +16,9 @@ HEAD = """# Measured wings against the paper's plate
 compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. Other people measured the
 wings; their data are not part of this project:
 
-- 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds. The source's
-  units are ambiguous; its numbers support our reading of them.
+- 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds
+  (github.com/charvey23/UMWTStaticStability). The source's units are ambiguous. We read its columns CL and CD as
+  areas, and its numbers support this.
 - A live gliding jackdaw. The forces on its wings, without those on its body, were computed from its wake
   (KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi 10.1242/jeb.132480).
 - Thin plates of small aspect ratio. We read their values by eye from a figure of Pelletier and Mueller 2000
@@ -127,10 +128,10 @@ def _meaning(rows: list[Row]) -> list[str]:
         "plate is 8 mm thick, with a chord of 76 mm, and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
-        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
-        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift. Their data end soon after, at a mount angle "
-        f"of 25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
-        "these data cannot test the plate.",
+        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' data end at a mount angle "
+        "of 25 degrees, soon after their largest lift. Counted from zero lift, which is at another mount angle for "
+        f"each wing, the largest lift is at {min(turn):.0f} to {max(turn):.0f} degrees. The plate has its "
+        f"largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"(plate {_slope_of(plate.slope):.1f} per rad, all gulls "
         f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the "

@@ -37,10 +37,10 @@ the abstracts say of theirs.
 
 ## How we flew
 
-The pigeon of the model [`animal`](models.md), but at least mean positive power, as in their model, and with tilt of
-the stroke plane and span retraction free. *Frequency limited* means at most {highest:g} Hz, the highest frequency
-measured on pigeons. Without this limit the model spends the least power on fast, small strokes
-([muscles](muscles.md)). {certified} of {count} flights are certified.
+We flew the pigeon of the model [`animal`](models.md) with two changes. It minimises mean positive power, as their
+model minimises mechanical power, and the tilt of the stroke plane and the span retraction are free as well. *Frequency limited*
+means at most {highest:g} Hz, the highest frequency measured on pigeons. Without this limit the model spends the least power
+on fast, small strokes ([muscles](muscles.md)). {certified} of {count} flights are certified.
 
 ![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
 

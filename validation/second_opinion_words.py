@@ -70,9 +70,9 @@ changes the results by 0.1 %, because in forward flight the wake is soon left be
 changes them by 0.4 %. We measured the convergence with panels and steps for the pigeon only.
 
 The tests contain two cases with known results. A steady plate of aspect ratio 6 at 3 degrees has the lift of a
-lifting line within 3 %. A slender plate that heaves at a reduced frequency of 0.31 has 1.07 times Theodorsen's
-lift, and its phase agrees within 1 degree. The excess remains when panels and steps are refined further, so it is
-a property of this lattice.
+lifting line within 3 %. A plate of large aspect ratio that heaves at a reduced frequency of 0.31 has 1.07
+times Theodorsen's lift, and its phase agrees within 1 degree. The excess remains when panels and steps are refined
+further, so it is a property of this lattice.
 
 ## The version
 

@@ -38,9 +38,10 @@ the abstracts say of theirs.
 ## How we flew
 
 We flew the pigeon of the model [`animal`](models.md) with two changes. It minimises mean positive power, as their
-model minimises mechanical power, and the tilt of the stroke plane and the span retraction are free as well. *Frequency limited*
-means at most {highest:g} Hz, the highest frequency measured on pigeons. Without this limit the model spends the least power
-on fast, small strokes ([muscles](muscles.md)). {certified} of {count} flights are certified.
+model minimises mechanical power, and the tilt of the stroke plane and the span retraction are free as well.
+*Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. Without this limit the
+model spends the least power on fast, small strokes ([muscles](muscles.md)). {certified} of {count} flights are
+certified.
 
 ![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
 

@@ -61,7 +61,8 @@ Pigeon at 12 m/s. a: lift, b: thrust. The lower panels show the share of strips 
 The lattice uses velocities from the previous step, so its loads are late by up to a step. Its discretisation error
 is proportional to the size of the panels. `wingbeat compare` therefore computes two lattices, one with half as many
 panels in each direction and half as many steps as the other. It extrapolates the results to panels and steps of
-zero size. Single lattices, for the pigeon at 12 m/s:
+zero size. The next table gives extrapolated results for the pigeon at 12 m/s. Each row names the finer of its two
+lattices:
 
 {convergence}
 
@@ -96,8 +97,8 @@ difference by a few percent for the pigeon at 12 m/s and for the bat, and increa
 improve neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a
 pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
 
-**Inflow** alone reduces our lift on the same motion. The difference from the lattice then increases or stays the
-same. The coefficients are those of a finite plate and already include most of its induced flow.
+**Inflow** alone reduces our lift on the same motion. *rms / lattice* then increases or stays the same. The
+coefficients are those of a finite plate and already include most of its induced flow.
 """
 
 

@@ -36,7 +36,8 @@ and induced flow. Every row changes one thing, except where its name says two. T
   of 1.64, gliding wings 1.38 ([sources](animal_wings.md)). How the polar passes from attached flow to the delayed
   stall is a guess.
 - A free downstroke fraction lowers the frequency by 11 % at 4 m/s and by 5 to 8 % at higher speeds. Free twist
-  lowers it by 8 % at 4 m/s and by 11 to 14 % at higher speeds. For pigeons we found neither of the two measured.
+  lowers it by 8 % at 4 m/s and by 11 to 14 % at higher speeds. We
+  found no measurement of the downstroke fraction or of the twist of pigeons.
 - A longer chord, a span that retracts more, an upstroke with half the load, and a tail change the frequency at
   4 m/s by at most 2 %. From 8 m/s on, a longer chord lowers it by 7 %.
 - Rotation and added mass raise the frequency by 7 to 15 %.

@@ -158,9 +158,11 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "",
         "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the form is",
         "not identified: an interval is wider than its own parameter, a parameter is at a bound of the fit, or",
-        "the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form is fitted",
-        "only from 0 degrees up, where its exponential applies. The other three forms are fitted to all",
-        "measurements; of these three, the best by AICc (a corrected Akaike criterion) is in bold.",
+        "the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form of",
+        "lift is the sum of a sine and an exponential that decays with angle of attack. At negative angles the",
+        "exponential grows without bound, so lift and drag of this form are fitted only from 0 degrees up. The",
+        "other three forms are fitted to all measurements; of these three, the best by AICc (a corrected Akaike",
+        "criterion) is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),
@@ -177,8 +179,8 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         *lines,
         "",
         f"Su-Fan's form of lift is identified for {told} of {len(lift)} wings: only angles far beyond stall can "
-        "distinguish its",
-        f"exponential from its slow sine. The form `cambered` is the best by AICc for {followed} of the "
+        "distinguish the",
+        f"exponential from the slow sine. The form `cambered` is the best by AICc for {followed} of the "
         f"{2 * len(lift)} curves. Beyond the",
         "measurements it continues with the coefficients of a plate. For a wing measured up to 25 degrees on both "
         "sides, use",

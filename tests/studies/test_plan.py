@@ -164,7 +164,11 @@ VARY_FAULTS = [
     ({"speed": {"grid": [9.0, -1.0]}}, "vary.speed.grid[1] = -1.0: must be >= 0 and <= 100 m/s"),
     ({"speed": {"grid": [9.0, 9]}}, "vary.speed.grid = [9.0, 9]: names a value twice"),
     ({"speed": {"grid": ["fast"]}}, "vary.speed.grid[0] = 'fast': must be a number"),
-    ({"speed": {"relative": [1.0]}}, "vary.speed.relative = [1.0]: has no value to be relative to"),
+    (
+        {"speed": {"relative": [1.0]}},
+        "vary.speed.relative = [1.0]: needs a value other than zero to be relative to",
+    ),
+    ({"aero.unsteady": {"relative": [1.0]}}, "relative = [1.0]: would multiply a word; use grid"),
     ({"speed": {"range": [9.0, 6.0]}}, "vary.speed.range = [9.0, 6.0]: must be [lowest, highest]"),
     ({"speed": {"range": [6.0, 9.0]}}, "sample = nothing: must be given, since speed has a range"),
     ({"wing.mass": {"grid": [-1.0]}}, 'vary."wing.mass".grid[0] = -1.0: must be > 0 kg'),
@@ -220,7 +224,7 @@ def test_all_faults_come_at_once(tmp_path, capsys):
             {"bounds": {"flap_amplitude_deg": [5, 40], "flap_amplitude": [0.1, 1.2]}},
             "is given as flap_amplitude too",
         ),
-        ({"vary": {"body.drag_area": {"relative": [1, 2]}}}, "has no value to be relative to"),
+        ({"vary": {"body.drag_area": {"relative": [1, 2]}}}, "needs a value other than zero to be relative to"),
         ({"vary": {"climb": {"grid": [0.0, -0.0]}}}, "names a value twice"),
         (
             {"vary": {n: {"grid": [0.02, 0.021]} for n in ("wing.mass", "vehicle.wing.mass")}},

@@ -49,7 +49,8 @@ class Controls:
             self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
-            whole = [("paper", "paper: the plate of Su et al."), ("animal", "animal: wing and muscle of its kind")]
+            animal = ("animal", "animal: air loads and objective of a bird, bat or robot")
+            whole = [("paper", "paper: the plate of Su et al."), animal]
             self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))

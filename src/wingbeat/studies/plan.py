@@ -269,9 +269,10 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
         if given.startswith("relative") and (isinstance(stock, str) or stock is None or not np.any(stock)):
             known = path in MOTION or settable(path, None, FaultList()) is not None or stock is not None
             if known:
-                faults.add(
-                    where, shown(_values_of(form, path)), "has no value to be relative to", "use grid or range"
-                )
+                rule, fix = "needs a value other than zero to be relative to", "use grid or range"
+                if isinstance(stock, str):
+                    rule, fix = "would multiply a word", "use grid"
+                faults.add(where, shown(_values_of(form, path)), rule, fix)
                 continue
         values = _values_of(form, path)
         values = values if stock is None else _scaled(form, path, stock, values)

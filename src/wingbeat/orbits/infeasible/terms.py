@@ -87,7 +87,10 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
         ratio = problem.aero.coefficients.aspect_ratio
         why = f"the coefficients, measured on a wing of aspect ratio {ratio:g}, then include its induced flow"
         if math.isinf(ratio):
-            why = "coefficients that were measured on a finite wing already include its induced flow"
+            why = (
+                "the coefficients are stated to be those of a section, without induced flow; if they were measured on "
+                "a finite wing, they already include it"
+            )
         return f"without momentum inflow {closes}: {why}"
     if name == UNSTEADY:
         return f"without the unsteady terms {closes}: rotation, added mass and couples make the difference"

@@ -88,8 +88,8 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
         why = f"the coefficients, measured on a wing of aspect ratio {ratio:g}, then include its induced flow"
         if math.isinf(ratio):
             why = (
-                "the coefficients are stated to be those of a section, without induced flow; if they were measured on "
-                "a finite wing, they already include it"
+                "the coefficients are stated to be those of a section, without induced flow; if they were measured "
+                "on a finite wing, they already include it"
             )
         return f"without momentum inflow {closes}: {why}"
     if name == UNSTEADY:

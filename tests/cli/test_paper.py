@@ -29,7 +29,7 @@ def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
     assert {row["verdict"] for row in rows if row["id"] in ("twice-the-frequency", "wing-shape")} == {NOT_ASKED}
     text = (folder / "claims.md").read_text()
     assert "| `two-dimensional` | fails | cannot be tested | the flow was not measured" in text
-    assert "twice-the-frequency: not asked with --quick" in out
+    assert "twice-the-frequency: not tested with --quick" in out
 
 
 @pytest.mark.parametrize(

@@ -143,7 +143,7 @@ def test_another_sample_in_the_folder_is_refused(whole, tmp_path, monkeypatch, c
         words[words.index(change[0]) + 1] = change[1]
     assert main(words) == 2
     err = capsys.readouterr().err
-    assert "sample.json' is of another sample (--sets 3 --seed 4 --piece 2" in err
+    assert "sample.json' belongs to another sample (--sets 3 --seed 4 --piece 2" in err
     assert (folder / "assumptions.csv").read_text() == (whole / "assumptions.csv").read_text()
 
 
@@ -152,7 +152,7 @@ def test_another_sample_in_the_folder_is_refused(whole, tmp_path, monkeypatch, c
     [
         (lambda text: text[: len(text) // 2], "remove it to run it again"),
         (lambda text: "", "remove it to run it again"),
-        (lambda text: text.replace('"seed": 4', '"seed": 5'), "is of another sample"),
+        (lambda text: text.replace('"seed": 4', '"seed": 5'), "belongs to another sample"),
         (lambda text: text.replace('"number": 1', '"number": 2'), "another piece"),
         (lambda text: text.replace("wing_mass_share", "share"), "its columns do not match"),
     ],

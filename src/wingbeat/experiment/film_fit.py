@@ -165,7 +165,7 @@ class FilmedBeat:
         error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
         faults = FaultList()
         if not 0.5 < mean <= 1.0 + _NOISE * error:
-            rule = "is the mean of area over span and must be above 0.5 and at most 1"
+            rule = "the mean of area over span must be above 0.5 and at most 1"
             fix = "divide by the area of the fully spread wing of the species file"
             faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
         faults.raise_if_any()
@@ -251,7 +251,7 @@ def fit_film(film: Film) -> FilmedBeat:
     if "span_fraction" in laws:
         mean, error = laws["span_fraction"].coefficients[0], math.sqrt(laws["span_fraction"].covariance[0, 0])
         if not 0.5 < mean <= 1.0 + _NOISE * error:
-            rule = "is its mean and must be above 0.5 and at most 1"
+            rule = "the mean of this column must be above 0.5 and at most 1"
             faults.add(f"{film.name}, span_fraction", float(mean), rule, "divide by the species' semi_span")
     faults.raise_if_any()
     return FilmedBeat(film, laws)

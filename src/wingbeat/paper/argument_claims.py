@@ -34,23 +34,23 @@ def _share(where: np.ndarray) -> float:
 
 
 def hand_leaves_small_angles(evidence: Evidence) -> TestResult:
-    """Return the share of the wingbeat for which the hand's angle of attack is beyond 13 degrees.
+    """Return the share of the wingbeat for which the hand's absolute angle of attack is beyond 13 degrees.
 
-    It is the smaller of the two models' values.
+    The result is the smaller of the two models' values.
     """
     shares = [_share(np.abs(station_series(evidence, m, "alpha", HAND)) > _SMALL) for m in MODELS]
     return min(shares), min(shares) > 0.5
 
 
 def arm_nose_up(evidence: Evidence) -> TestResult:
-    """Return the share of the wingbeat for which the arm's angle is positive and small with Su-Fan."""
+    """Return the share of the wingbeat for which the arm's angle of attack is positive and small with Su-Fan."""
     alpha = station_series(evidence, "su-fan", "alpha", ARM)
     small = (alpha > 0) & (alpha <= _SMALL)
     return _share(small), bool(small.all())
 
 
 def arm_angle_smaller_throughout(evidence: Evidence) -> TestResult:
-    """Return the share of the wingbeat for which the arm's absolute angle is smaller with Su-Fan."""
+    """Return the share of the wingbeat for which the arm's absolute angle of attack is smaller with Su-Fan."""
     fit, fly = (np.abs(station_series(evidence, model, "alpha", ARM)) for model in MODELS)
     return _share(fit < fly), bool((fit < fly).all())
 
@@ -76,7 +76,7 @@ def higher_drag_penalty(evidence: Evidence) -> TestResult:
 def gains_at_speed(evidence: Evidence) -> TestResult:
     """Return how much more Su-Fan improves the frequency at 10 m/s and above than below 10 m/s.
 
-    The improvement is Dickinson's relative error minus Su-Fan's. The result is the smallest over all references.
+    The improvement is Dickinson's mean relative error minus Su-Fan's. The smallest over all references counts.
     """
     more = []
     for animal, measured in (*(("pigeon", pigeon_reference(n)) for n in PIGEON_REFERENCES), ("bat", BAT_MEASURED)):
@@ -96,10 +96,9 @@ def many_wingbeats(evidence: Evidence) -> TestResult:
 
 
 def small_angles_critical(evidence: Evidence) -> TestResult:
-    """Return the share of an extra power that arises at angles of attack up to 13 degrees.
+    """Return the share of the extra power that arises at angles of attack up to 13 degrees.
 
-    The flight is the one found with Su-Fan. The extra power is the additional power that Dickinson's drag would
-    need in that flight.
+    The extra power is what the bat's flight with Su-Fan would need in addition if it had Dickinson's drag.
     """
     flight = evidence.orbit("bat", "su-fan").dataset
     alpha = flight["alpha"].values
@@ -124,14 +123,14 @@ def drag_costs_thrust(evidence: Evidence) -> TestResult:
 
 
 def argument_claims() -> list[FlightClaim]:
-    """Return the steps of the paper's argument, for the bat at 10 m/s unless they say otherwise."""
+    """Return the steps of the paper's argument as claims."""
     return [
         FlightClaim(
             "small-angles-critical",
             "abstract; discussion",
-            "lift with little drag at small angles of attack saves power and pitching (tested: in the bat's "
-            "flight with Su-Fan at 10 m/s, Dickinson's C_D would cost extra power; at least half of this extra "
-            "arises below 13 deg; ours: the share that arises there)",
+            "Lift with little drag at small angles of attack saves power and pitching. "
+            "Tested: in the bat's flight with Su-Fan at 10 m/s, Dickinson's C_D would cost extra power. At least "
+            "half of this extra power arises at angles up to 13 deg. Ours: the share that arises there.",
             "critical",
             "1",
             small_angles_critical,
@@ -139,9 +138,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "hand-leaves-small-angles",
             _DISCUSSION,
-            "with both models the hand does not use small angles (tested: at 3/4 span the angle of attack is "
-            "beyond 13 deg for more than half of the wingbeat; ours: this share of the wingbeat, the smaller of "
-            "the two models' values)",
+            "With both models the hand does not use small angles. Tested: for the bat at 10 m/s, the angle of "
+            "attack at 3/4 span is beyond 13 deg, up or down, for more than half of the wingbeat. Ours: this share "
+            "of the wingbeat, for the model with the smaller share.",
             "> 0.5",
             "1",
             hand_leaves_small_angles,
@@ -149,9 +148,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-nose-up",
             _DISCUSSION,
-            "with Su-Fan the arm is slightly nose-up throughout the wingbeat (tested: at every phase the angle "
-            "of attack at 1/4 span is above 0 and at most 13 deg, which the paper calls small; ours: the share "
-            "of the wingbeat where this is so)",
+            "With Su-Fan the arm is slightly nose-up throughout the wingbeat. Tested: for the bat at 10 m/s, the "
+            "angle of attack at 1/4 span is always above 0 and at most 13 deg. The paper calls angles up to 13 deg "
+            "small. Ours: the share of the wingbeat with these angles.",
             1.0,
             "1",
             arm_nose_up,
@@ -159,9 +158,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "arm-angle-smaller-throughout",
             _DISCUSSION,
-            "with Su-Fan the arm's effective angle of attack is smaller throughout the wingbeat (tested: at "
-            "every phase the absolute angle at 1/4 span is smaller than with Dickinson; ours: the share of the "
-            "wingbeat where this is so)",
+            "With Su-Fan the arm's effective angle of attack is smaller throughout the wingbeat. Tested: for the "
+            "bat at 10 m/s, the absolute angle at 1/4 span is smaller than with Dickinson at every phase. Ours: "
+            "the share of the wingbeat in which it is smaller.",
             1.0,
             "1",
             arm_angle_smaller_throughout,
@@ -169,8 +168,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "higher-drag-penalty",
             _DISCUSSION,
-            "with Dickinson's coefficients the arm's larger angle costs more drag (tested: the mean drag at 1/4 "
-            "span is larger than with Su-Fan; ours: Dickinson's drag divided by Su-Fan's)",
+            "With Dickinson's coefficients the arm's larger angle costs more drag. Tested: for the bat at 10 m/s, "
+            "the mean drag at 1/4 span is larger than with Su-Fan. Ours: Dickinson's drag divided by Su-Fan's.",
             "> 1",
             "1",
             higher_drag_penalty,
@@ -178,8 +177,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "over-prediction",
             "results, power",
-            "Dickinson's coefficients over-predict the frequency at 10 m/s (tested: the bat's frequency is above "
-            "the measured 6 Hz)",
+            "Dickinson's coefficients over-predict the frequency at 10 m/s. Tested: the bat's frequency is above "
+            "the measured 6 Hz.",
             "> 6",
             "Hz",
             over_prediction,
@@ -187,9 +186,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "closer-power",
             _DISCUSSION,
-            "Su-Fan's power is much closer to that found for similar bats (tested: the peak power minus 4 W is "
-            "at most half of the same difference with Dickinson; ours: Su-Fan's difference divided by "
-            "Dickinson's; the paper's own peaks of 30 and 150 W give 0.18)",
+            "Su-Fan's power is much closer to the power found for similar bats, less than 4 W. Tested: at 10 m/s "
+            "the bat's peak power exceeds 4 W by at most half as much with Su-Fan as with Dickinson. Ours: "
+            "Su-Fan's excess divided by Dickinson's. The paper's own peaks of 30 and 150 W give 0.18.",
             "<= 0.5",
             "1",
             closer_power,
@@ -197,10 +196,10 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "gains-at-speed",
             _DISCUSSION,
-            "Su-Fan brings the frequencies of both animals closer to the measured ones, most of all at high "
-            "speed (tested: the gain, Dickinson's relative error minus Su-Fan's, has a larger mean at 10 m/s and "
-            "above than below 10 m/s; ours: the difference of the two means, the smallest of three: the "
-            "pigeon with each of its two references, and the bat)",
+            "Su-Fan brings the frequencies of both animals closer to the measured ones, most of all at high speed. "
+            "The gain is Dickinson's relative error minus Su-Fan's. Tested: its mean at 10 m/s and above is larger "
+            "than its mean below 10 m/s. Ours: the difference of the two means. It is the smallest of three: the "
+            "bat's, and the pigeon's with each of two references.",
             "> 0",
             "1",
             gains_at_speed,
@@ -208,8 +207,8 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "many-wingbeats",
             "methods, simulation",
-            "many wingbeats may satisfy the conditions of one flight (tested: the bat's flight has more unknowns "
-            "than conditions; ours: the difference)",
+            "Many wingbeats may satisfy the conditions of one flight. Tested: the bat's flight has more unknowns "
+            "than closure conditions. Ours: the difference.",
             "> 0",
             "1",
             many_wingbeats,
@@ -217,9 +216,9 @@ def argument_claims() -> list[FlightClaim]:
         FlightClaim(
             "drag-costs-thrust",
             "introduction",
-            "drag measured at low Reynolds number is too large, which may explain why the thrust found for "
-            "cruising bats is low (tested: Dickinson's C_D lowers the mean forward force in the bat's flight with "
-            "Su-Fan at 10 m/s; ours: the change divided by weight)",
+            "Drag measured at low Reynolds number is too large. This may explain why the thrust found for cruising "
+            "bats is low. Tested: in the bat's flight with Su-Fan at 10 m/s, Dickinson's C_D lowers the mean "
+            "forward force. Ours: the change divided by weight.",
             "< 0",
             "1",
             drag_costs_thrust,

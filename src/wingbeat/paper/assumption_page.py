@@ -19,11 +19,11 @@ from wingbeat.style import BLUE, GREEN, VERMILION, drawing, letter_panels, new_f
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# A pair of claims is reported as never holding together only if each holds in this many sets.
+# A pair of claims is reported as never holding together only if each holds in at least this many sets.
 _OFTEN = 20
-# Assumptions that explain less of a claim's number than this are not named.
+# Assumptions that explain less than this share of the variance of a claim's number are not named.
 _TELLING = 0.05
-# A surface that explains less than this of unseen numbers says little about what a claim depends on.
+# A surface that explains less than this share of the variance of unseen numbers says little.
 TRUSTED = 0.3
 _BEST = 5
 
@@ -53,7 +53,7 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
 
 
 def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str:
-    """Return the page."""
+    """Return the page of results in Markdown."""
     kept = np.nansum(study.holds, axis=1)
     lines = [
         "# What the paper's claims depend on",
@@ -67,16 +67,16 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "",
         heading,
         "",
-        "![Share of sets that satisfy each claim, and what it depends on](assumptions.png)",
+        "![Share of the testable sets that satisfy each claim, and what the claim depends on](assumptions.png)",
         "",
         "## Claim by claim",
         "",
         "*Testable* is the share of sets that have the orbits to test the claim. *Holds* is the share of the "
-        "testable sets that satisfy it, with its standard error. *Depends on* comes from a quadratic response "
-        "surface, fitted to the ranks of the claim's number. In the claims, *ours* is this number. The column "
-        "names each assumption that explains at least a twentieth of the variance, and gives the explained share. "
-        "*Quality* is the share of the variance that the surface explains in numbers not used in the fit; below "
-        f"{TRUSTED:g} the surface says little.",
+        "testable sets that satisfy it, with its standard error. Each set gives one number for the claim; the "
+        "claim calls it *Ours*. We fit a quadratic response surface to the ranks of these numbers. *Depends on* "
+        "names each assumption that explains at least a twentieth of their variance, with the share that it "
+        "explains. *Quality* is the share of the variance that the surface explains in numbers not used in the "
+        f"fit. Below {TRUSTED:g} the surface says little.",
         "",
         "| claim | holds [%] | testable [%] | depends on | quality |",
         "| --- | --- | --- | --- | --- |",
@@ -115,7 +115,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
 
 
 def _share(holds: np.ndarray) -> str:
-    """Return the share of sets that satisfy a claim, in percent, with its standard error if it is not 0 or 100.
+    """Return the share of sets that satisfy a claim [%], with its standard error unless the share is 0 or 100.
 
     >>> _share(np.array([1.0, 1.0, 0.0, 1.0]))
     '75 ± 22'
@@ -151,7 +151,7 @@ def _apart(study: Judged) -> list[str]:
 
 @drawing(font=9.0)
 def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
-    """Draw, for each claim, the share of sets that satisfy it and what its number depends on."""
+    """Draw, for each claim, the share of the testable sets that satisfy it and what its number depends on."""
     from matplotlib import colormaps
 
     count = len(study.claims)
@@ -162,7 +162,8 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
     bars.barh(places, share, color=BLUE, height=0.7)
     bars.plot(100 * told.mean(axis=0), places, "|", color=VERMILION, markersize=9)
-    bars.set(xlim=(0, 103), xlabel="bar: sets that satisfy it [%]\ntick: sets that can test it [%]")
+    shown = "bar: sets in which the claim holds\n[% of the sets that can test it]\n"
+    bars.set(xlim=(0, 103), xlabel=f"{shown}tick: sets that can test it\n[% of all sets]")
     bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
     shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
     image = heat.imshow(
@@ -175,7 +176,7 @@ def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
     quality = np.array([np.nan if h is None else h.quality for h in hangs])
     fits.barh(places, np.maximum(quality, 0.0), color=GREEN, height=0.7)
     fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
-    fits.set(xlim=(0, 1), xlabel="surface R² [-]")
+    fits.set(xlim=(0, 1), xlabel="R² of the\nsurface [-]")
     for axes in (bars, heat, fits):
         axes.tick_params(length=2)
     letter_panels((bars, heat, fits))

@@ -1,4 +1,4 @@
-"""The claims about flight, judged under many sets of assumptions; each piece of the sample is a few studies."""
+"""The claims about flight, judged under many sets of assumptions. Each piece of the sample is a few studies."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from wingbeat.studies.study import Study, plan_study
 SPEEDS = {"pigeon": (16.0, 12.0, 10.0), "bat": (12.0, 10.0, 8.0, 5.0)}
 # Orbits that one set needs.
 ORBITS = len(MODELS) * sum(len(speeds) for speeds in SPEEDS.values())
-# Claims left out: identities, which hold in every set; claims that need many starts; claims whose number is that of
+# Claims left out: identities, which hold in every set; claims that need many starts; claims with the same number as
 # another claim.
 _LEFT_OUT = {
     "closed-loops",
@@ -37,11 +37,11 @@ _LEFT_OUT = {
     "few-degrees",
 }
 # Starts of each orbit, one of them from the solution at the previous speed, and how reliable they are. Six starts
-# missed 10 of the same orbits and gave 4 of them too high a frequency, at 1.4 times the cost.
+# missed 10 of the same orbits and gave too high a frequency for 4 of them, at 1.4 times the cost.
 STARTS = 4
 SURENESS = (
-    "of 103 orbits that 20 starts found for 12 sets, these starts miss 11 and give 2 a frequency more than 0.5 % "
-    "too high"
+    f"for 12 sets, 20 starts found 103 orbits; {STARTS} starts miss 11 of them and find 2 with a frequency more "
+    "than 0.5 % too high"
 )
 _SET = "set"
 
@@ -62,7 +62,7 @@ class Judged:
 
 
 class Group(NamedTuple):
-    """Sets of a piece with the same free trims: their indices in it, and a study by animal and model."""
+    """Sets of a piece with the same free mean angles: their indices, and their studies by animal and model."""
 
     places: list[int]
     studies: dict[tuple[str, str], Study]
@@ -74,7 +74,7 @@ def study_claims() -> tuple[FlightClaim, ...]:
 
 
 def plan_piece(sets: list[Values], folder: Path) -> list[Group]:
-    """Return the studies that solve the sets; their stores lie in a folder.
+    """Return the studies that solve the sets, with their stores in a folder.
 
     All sets of a study have the same free parameters.
     """

@@ -11,7 +11,7 @@ import numpy as np
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS
 from wingbeat.species import Species
 
-# Parameters that the paper says are free, and the mean angles of which it does not say whether they are.
+# Parameters that the paper calls free, and the mean angles: it does not say whether they are free.
 _FREE = ("frequency", "flap_amplitude", "pitch_amplitude")
 _MEANS = ("flap-mean", "pitch-mean")
 TRIMS = ("both", "pitch-mean", "flap-mean", "none")
@@ -19,7 +19,7 @@ TRIMS = ("both", "pitch-mean", "flap-mean", "none")
 
 @dataclass(frozen=True)
 class Assumption:
-    """One thing that the paper leaves open: a range of numbers, or a choice of words.
+    """One thing that the paper leaves open: a range of numbers, or a choice among words.
 
     Parameters
     ----------
@@ -52,19 +52,20 @@ ASSUMPTIONS = (
     Assumption(
         "wing_mass_share",
         "mass of one wing divided by that of the animal",
-        "pigeon 6.3 (van den Berg and Rayner 1995) to 9.6 % (Harvey et al. 2022), bats 5.4 to 7 %",
+        "pigeons 6.3 % (van den Berg and Rayner 1995) to 9.6 % (Harvey et al. 2022), bats 5.4 to 7 %",
         0.05,
         0.10,
     ),
     Assumption(
         "mass_exponent",
-        "exponent p of the wing mass per span, (1 - s/L)^p",
-        "0 is uniform; 2 and 4 match van den Berg and Rayner 1995 and Harvey et al. 2022",
+        "exponent p in the wing's mass per unit span, proportional to (1 - s/L)^p at a distance s along a wing of "
+        "length L",
+        "0 is uniform; 2 matches van den Berg and Rayner 1995, and 4 matches Harvey et al. 2022",
         0.0,
         4.0,
     ),
     Assumption(
-        "taper", "tip chord divided by root chord, at the same area", "the paper's rectangle is 1", 0.3, 1.0
+        "taper", "tip chord divided by root chord, at the same area", "1 is the paper's rectangle", 0.3, 1.0
     ),
     Assumption(
         "body_inertia_factor",
@@ -76,22 +77,21 @@ ASSUMPTIONS = (
     Assumption(
         "shoulder_ahead",
         "distance of the shoulder ahead of the body's centre of mass, divided by semi-span",
-        "0 by default; 0.13 in Harvey et al. 2022's pigeon",
+        "0 in the species files; 0.13 in the pigeon of Harvey et al. 2022",
         0.0,
         0.13,
     ),
     Assumption(
         "shoulder_above",
         "distance of the shoulder above the body's centre of mass, divided by semi-span",
-        "0 by default; 0.03 in the same pigeon",
+        "0 in the species files; 0.03 in the same pigeon",
         0.0,
         0.04,
     ),
     Assumption(
         "shoulder_aside",
         "distance of the shoulder from the plane of symmetry, divided by semi-span",
-        "0 by default; 0.10 in the same pigeon, half the difference between its span of 0.613 m and twice the "
-        "wing's 0.278 m",
+        "the paper gives none; 0.10 in the same pigeon: its span is 0.613 m, and each wing is 0.278 m long",
         0.0,
         0.10,
     ),
@@ -112,23 +112,28 @@ ASSUMPTIONS = (
     Assumption(
         "flap_amplitude_deg",
         "largest flap amplitude allowed [deg]",
-        "half of the 90 deg of Bullen and McKenzie 2002 at 10 m/s, to half of their largest angle, 140 deg",
+        "half of the bats' stroke angles in Bullen and McKenzie 2002: 90 deg at 10 m/s, 140 deg at most",
         40.0,
         70.0,
     ),
-    Assumption("trims", "mean angles that are free", "the paper names neither mean angle", choices=TRIMS),
+    Assumption(
+        "trims",
+        "mean angles that are free",
+        "the paper mentions neither the mean flap angle nor the mean pitch angle",
+        choices=TRIMS,
+    ),
     Assumption(
         "flap_mean_deg",
-        "largest mean flap angle allowed up and down, if it is free [deg]",
-        "the paper gives no bound; 0 is a stroke symmetric about the shoulder, 30 the bound of the species files",
+        "largest mean flap angle allowed, up or down, if this angle is free [deg]",
+        "the paper gives no bound; 0 makes the stroke symmetric about the shoulder; the species files allow 30",
         0.0,
         30.0,
     ),
     Assumption(
         "pitch_phase_deg",
         "phase by which pitch leads flap [deg]",
-        "the paper gives no phase; at 0 pitch is fastest where flap reverses; a twelfth of a wingbeat either way "
-        "is a guess",
+        "the paper gives no phase; at 0 the wing pitches fastest where its flapping reverses; 30 deg, a twelfth of "
+        "a wingbeat, is a guess",
         -30.0,
         30.0,
     ),
@@ -136,8 +141,9 @@ ASSUMPTIONS = (
     Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
     Assumption(
         "airspeed",
-        "airspeed that determines a segment's loads: the component across the span only, or also that along it",
-        "the paper says airspeed at each segment; strip theory uses the component across the span",
+        "airspeed that determines a strip's loads: the component across the span only, or also the one along the "
+        "span",
+        "the paper says 'airspeed at each segment'; strip theory uses the component across the span",
         choices=AIRSPEEDS,
     ),
     Assumption(
@@ -149,7 +155,7 @@ ASSUMPTIONS = (
     Assumption(
         "body_drag_factor",
         "drag area of the body divided by 0.2 times Pennycuick's frontal area",
-        "the paper names no body drag",
+        "the paper gives no body drag",
         0.0,
         1.0,
     ),
@@ -180,7 +186,7 @@ def free_under(trims: str) -> list[str]:
 
 
 def changes_under(values: Values, species: Species, model: str) -> dict[str, Any]:
-    """Return the values, by path, that a set of assumptions gives an animal with a coefficient model.
+    """Return the values, by path, that a set of assumptions gives to an animal and its coefficient model.
 
     Sets with the same trims have the same paths; `free_under` gives their free parameters.
     """

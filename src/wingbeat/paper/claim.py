@@ -14,12 +14,12 @@ from wingbeat.results.orbit import Orbit
 # Our number, and whether the claim holds.
 TestResult = tuple[float, bool]
 HOLDS, HOLDS_UNDER, FAILS, UNTESTABLE = "holds", "holds under", "fails", "cannot be tested"
-NOT_ASKED = "not asked with --quick"
+NOT_ASKED = "not tested with --quick"
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One set of assumptions, our number, whether the claim holds (None: cannot be tested), the orbits used."""
+    """Our number under one set of assumptions, whether the claim holds (None: untestable), and the orbits used."""
 
     assumptions: str
     number: float | None
@@ -44,7 +44,7 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """Whether the claim holds under all, some or no assumptions; or cannot be tested; or was not asked."""
+        """Whether the claim holds under all, some or no assumptions, cannot be tested, or was not tested."""
         if not self.asked:
             return NOT_ASKED
         told = [finding.holds for finding in self.findings if finding.holds is not None]
@@ -74,17 +74,17 @@ def _words(assumptions: str) -> str:
     return next((t.words for t in TREATMENTS if t.name == assumptions), assumptions)
 
 
-NO_DATA = "the measurements are not deposited"
+NO_DATA = "the paper's measurements are not public"
 
 
 def tested(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, holds: Any) -> Claim:
-    """Return a claim tested on printed numbers and formulas alone, without any assumption."""
+    """Return a claim that is tested on printed numbers and formulas alone, without any assumption."""
     finding = Finding("no assumption needed", float(ours), bool(holds))
     return Claim(name, where, claim, paper, unit, (finding,))
 
 
 def untestable(name: str, where: str, claim: str, paper: float | str, unit: str, ours: float, why: str) -> Claim:
-    """Return a claim that we cannot test, with a number of ours to compare."""
+    """Return a claim that we cannot test, with a number of ours for comparison and the reason why."""
     return Claim(name, where, claim, paper, unit, (Finding(why, float(ours), None),))
 
 
@@ -157,7 +157,7 @@ class FlightClaim:
     test: Callable[[Evidence], TestResult]
 
     def unasked(self) -> Claim:
-        """Return the claim without a verdict, because too few flights were solved to test it."""
+        """Return the claim without a verdict, for runs with too few flights to test it."""
         finding = Finding(NOT_ASKED, None, None)
         return Claim(self.id, self.where, self.claim, self.paper, self.unit, (finding,), asked=False)
 

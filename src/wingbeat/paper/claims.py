@@ -28,7 +28,7 @@ def judge_claims(orbits: Orbits, quick: bool = False) -> list[Claim]:
     Parameters
     ----------
     orbits : the orbits of all treatments (`wingbeat.paper.treatments.solve_cases`).
-    quick : whether too few flights were solved to test the claims about flight; other verdicts stay the same.
+    quick : true if too few flights were solved to test the claims about flight. The other verdicts stay the same.
     """
     flights = (*flight_claim_list(), *argument_claims())
     on_print = [*experiment_claims(), *coefficient_claims(), *premise_claims(), pigeon_data_claim()]
@@ -74,19 +74,20 @@ def write_claims(
 
 
 def markdown(claims: Sequence[Claim]) -> str:
-    """Return the claims as a page to read."""
+    """Return the claims as a Markdown page."""
     counts = Counter(claim.verdict for claim in claims)
     tally = ", ".join(f"{verdict} {count}" for verdict, count in counts.most_common())
     lines = [
         "# The paper's claims beside our results",
         "",
         "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
-        "directional claim. The column *ours* gives our number under our default assumptions, the first in the "
+        "directional claim. After the claim, *Tested* says what we tested, and *Ours* says what our number is, "
+        "unless this is plain. The column *ours* gives this number under our default assumptions, the first in the "
         "list below. A claim *holds* if it holds under every set of assumptions tried, and it *fails* if it "
         "holds under none. *Holds under* means that it holds under some of them. *By assumption* gives our number "
         "under each set of assumptions, and whether the claim then holds (yes or no). *No assumption needed* marks "
         "a claim that we test on printed numbers and formulas alone. If a claim holds, our result is consistent "
-        "with the paper; this does not prove that the authors made the same assumptions.",
+        "with the paper. This does not prove that the authors made the same assumptions.",
         "",
         f"Verdicts of the {len(claims)} claims: {tally}.",
         "",

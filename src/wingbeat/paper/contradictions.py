@@ -1,21 +1,21 @@
-"""What the paper prints about its figures 5 to 8, whether our orbits agree, and why they need not."""
+"""What the paper prints about its figures 5 to 8, whether our orbits agree, and why they may differ."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
-# The same tests as those of the claims: see their texts.
+# Limits of the tests, the same as those of the claims.
 CLOSE, TWICE, NEAR_PEAK = 0.15, (1.7, 2.3), 0.25
 _OPEN = (
-    "The paper leaves open which mean angles are free, how far the wing may flap and what the coefficients are at "
-    "negative angles of attack, and the answer depends on each of them"
+    "The paper leaves open which mean angles are free and how far the wing may flap. It does not say what the "
+    "coefficients are at negative angles of attack, either. Our result depends on each of these."
 )
 WHY = {
-    5: f"{_OPEN}.",
-    6: f"{_OPEN}; another family of wingbeats has other angles.",
-    7: f"{_OPEN}. It gives no wing mass either, and a wingbeat of lowest frequency is not one of lowest power.",
-    8: f"{_OPEN}. It gives neither the body's pitch inertia nor the position of the shoulder.",
+    5: _OPEN,
+    6: f"{_OPEN} Wingbeats of another family have other angles.",
+    7: f"{_OPEN} The paper gives no wing mass. A wingbeat of lowest frequency does not have the lowest power.",
+    8: f"{_OPEN} The paper gives neither the body's pitch inertia nor the position of the shoulder.",
 }
 
 
@@ -33,7 +33,7 @@ def near(value: float, printed: float, share: float) -> bool:
 
 
 def told(figure: int, printed: Sequence[Printed]) -> str:
-    """Return the sentences of a caption: the printed number, our number, and the reason if they differ.
+    """Return the sentences of a caption: the printed numbers, our numbers, and possible reasons if they differ.
 
     >>> told(7, [Printed("a peak of 30 W", "31 W", True)])
     'The paper prints a peak of 30 W; ours: 31 W, which agrees.'

@@ -34,8 +34,8 @@ def peak_power(model: str) -> FlightClaim:
     return FlightClaim(
         f"peak-power-{model}",
         "results, energetics",
-        f"with {model.title()} the peak power at 10 m/s is {paper:g} W, which we read as the bat's (tested: "
-        "ours is within 25 % of this)",
+        f"With {model.title()} the peak power at 10 m/s is {paper:g} W. We read this as the bat's peak power. "
+        "Tested: ours is within 25 % of it.",
         paper,
         "W",
         test,
@@ -67,7 +67,7 @@ def measured_power_below(evidence: Evidence) -> TestResult:
 def lower_power(evidence: Evidence) -> TestResult:
     """Return the mean positive power at 10 m/s with Su-Fan divided by that with Dickinson.
 
-    It is the larger of the two animals' ratios.
+    The result is the larger of the two animals' ratios.
     """
     ratios = [_ratio(evidence, animal, "mean_positive_power")[0] for animal in ANIMALS]
     return max(ratios), max(ratios) < 1
@@ -81,12 +81,12 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
         found = float(np.degrees(evidence.record("bat", model)["body_pitch_range"]))
         return found, found <= paper if bound else abs(found / paper - 1) <= 0.25
 
-    amount, words = ("at most ", "ours is within this bound") if bound else ("", "ours is within 25 % of this")
+    amount, words = ("at most ", "ours is at most this") if bound else ("", "ours is within 25 % of this")
     return FlightClaim(
         f"pitch-range-{model}",
         "results, body pitch",
-        f"with {model.title()} body pitch varies by {amount}{paper:g} deg within a wingbeat, which we read as "
-        f"the bat's at 10 m/s (tested: {words})",
+        f"With {model.title()} body pitch varies by {amount}{paper:g} deg within a wingbeat. We read this as the "
+        f"bat's range at 10 m/s. Tested: {words}.",
         paper,
         "deg",
         test,
@@ -108,8 +108,8 @@ def less_pitching(animal: str) -> FlightClaim:
     return FlightClaim(
         f"less-pitching-{animal}",
         "abstract; discussion",
-        f"with Su-Fan's coefficients the {animal}'s body pitches less (tested: the range of body "
-        "pitch at 10 m/s; ours: Su-Fan's range divided by Dickinson's)",
+        f"With Su-Fan's coefficients the {animal}'s body pitches less. Tested: at 10 m/s the range of body pitch "
+        "is smaller than with Dickinson. Ours: Su-Fan's range divided by Dickinson's.",
         "< 1",
         "1",
         test,

@@ -1,4 +1,4 @@
-"""The paper's claims about its experiment, tested on what it prints and on a synthetic campaign like it."""
+"""The paper's claims about its experiment, tested on what it prints and on synthetic measurements like its own."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _reynolds_at(speed: float) -> Finding:
 
 
 def experiment_claims() -> list[Claim]:
-    """Return the claims about the experiment and what it covers."""
+    """Return the claims about the experiment and the range that it covers."""
     width, height = CHANNEL
     where = "methods, experimental setup"
     fitted = fit_wing(reduce_runs(synthetic_runs(Campaign(rate=10.0), seed=0)))
@@ -35,20 +35,28 @@ def experiment_claims() -> list[Claim]:
         tested(
             "blockage",
             where,
-            "the chord is under 10 % of the channel's width, so blockage is minor (tested: the chord divided by "
-            f"the width; when broadside, the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the "
-            "cross-section)",
+            "The chord is under 10 % of the channel's width, so blockage is minor. Ours: the chord divided by the "
+            f"width. Broadside to the flow, the plate blocks {100 * CHORD * SPAN / (width * height):.1f} % of the "
+            "cross-section.",
             "< 0.10",
             "1",
             CHORD / width,
             CHORD / width < 0.1,
         ),
-        tested("aspect-ratio", where, "the plate has aspect ratio 6", 6.0, "1", SPAN / CHORD, SPAN / CHORD == 6.0),
+        tested(
+            "aspect-ratio",
+            where,
+            "The plate has aspect ratio 6. Ours: its span divided by its chord.",
+            6.0,
+            "1",
+            SPAN / CHORD,
+            SPAN / CHORD == 6.0,
+        ),
         untestable(
             "repeats",
             where,
-            "three repeats agree and their standard deviations are small, so the forces are steady (ours: the "
-            "number of runs of the whole experiment with its repeats)",
+            "Three repeats agree and their standard deviations are small, so the forces are steady. Ours: the "
+            "number of runs in the whole experiment, repeats included.",
             "reproducible",
             "1",
             4 * 3 * (110 / 2 + 1),
@@ -57,8 +65,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "collapse",
             "results, centre of pressure",
-            "the results at the four Reynolds numbers collapse (ours: how much the formulas vary with Reynolds "
-            "number; they do not contain it)",
+            "The results at the four Reynolds numbers collapse. Ours: how much the formulas vary with Reynolds "
+            "number, which they do not contain.",
             "collapse",
             "1",
             0.0,
@@ -67,9 +75,9 @@ def experiment_claims() -> list[Claim]:
         Claim(
             "animals-reynolds",
             "introduction; title",
-            "birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made (tested: at each "
-            f"speed, the Reynolds numbers of the paper's pigeon and bat are both within {REYNOLDS_FITTED[0]:.0f} "
-            f"to {REYNOLDS_FITTED[1]:.0f}; ours: the one farther from 40 000)",
+            "Birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made. Tested at each "
+            f"speed: the Reynolds numbers of the paper's pigeon and bat are both from {REYNOLDS_FITTED[0]:.0f} to "
+            f"{REYNOLDS_FITTED[1]:.0f}. Ours: the one that is farther from 40 000 on a logarithmic scale.",
             40000.0,
             "1",
             tuple(_reynolds_at(speed) for speed in SPEEDS),
@@ -77,9 +85,9 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "r-squared",
             "abstract; results, after the formulas",
-            "C_D is described by a sine alone and C_L by a sine and an exponential, both with R-squared above "
-            "0.995 (ours: we fit those forms to a SYNTHETIC campaign like the paper's and show the smaller "
-            "R-squared)",
+            "A sine alone describes C_D, and a sine and an exponential describe C_L, both with R-squared above "
+            "0.995. Ours: we fit the same forms to SYNTHETIC measurements like the paper's and give the smaller "
+            "R-squared.",
             "> 0.995",
             "1",
             min(fitted.lift.r_squared, fitted.drag.r_squared),
@@ -88,8 +96,8 @@ def experiment_claims() -> list[Claim]:
         tested(
             "usherwood-reynolds",
             "introduction",
-            "Usherwood 2009 measured a dried pigeon wing up to a Reynolds number of 10 800 (tested: the number "
-            "in the abstract of Usherwood 2009, PMC3380271)",
+            "Usherwood 2009 measured a dried pigeon wing up to a Reynolds number of 10 800. Tested: the abstract "
+            "of Usherwood 2009 (PMC3380271) gives this number. Ours: the number in that abstract.",
             10800.0,
             "1",
             _USHERWOOD_REYNOLDS,

@@ -26,19 +26,19 @@ _PANELS = (
 _NOTE = (
     "Coloured lines are the published formulas at the angles to which they were fitted: 0 to 110 degrees for "
     "Su-Fan, and up to 90 degrees for Dickinson, who give no centre of pressure. Thin black lines are what our "
-    "simulations use where it differs: the formulas mirrored beyond 90 degrees and blended within 1 degree of 0 "
-    "and 90. Dotted grey lines are thin-aerofoil theory, 2πα and πα/2. In C the moment is about mid-chord; in D "
+    "simulations use instead: they mirror the formulas beyond 90 degrees and blend them within 1 degree of 0 and "
+    "90. Dotted grey lines are thin-aerofoil theory, 2πα and πα/2. In C the moment is about mid-chord; in D "
     "the distance is from the leading edge. The paper's measurements are not public, so no points are drawn."
 )
 
 
 def published(model: FormulaCoefficients, alpha_deg: np.ndarray) -> dict[str, np.ndarray]:
-    """Return C_L, C_D and, where the model has them, C_M about mid-chord and x_cp, by the formulas alone.
+    """Return C_L and C_D by the formulas alone, and C_M about mid-chord and x_cp if the model has them.
 
     Parameters
     ----------
     model : a coefficient model made of formulas.
-    alpha_deg : angles of attack, shape (K,) [deg]; what lies outside the fit is NaN.
+    alpha_deg : angles of attack, shape (K,) [deg]; coefficients at angles outside the fit are NaN.
 
     >>> found = published(LIBRARY["su-fan"](), np.array([40.0, 120.0]))
     >>> found["lift"].round(3).tolist()
@@ -69,7 +69,7 @@ def coefficients_figure() -> tuple[Figure, Table]:
 
     Returns
     -------
-    The figure and its rows, one for each model and angle: formula, what the simulations use, thin aerofoil.
+    The figure and its rows, one for each model and angle: by formula, as simulated, and by thin-aerofoil theory.
 
     Su et al. 2023, doi 10.48550/arXiv.2302.09602; Dickinson et al. 1999, doi 10.1126/science.284.5422.1954.
     """

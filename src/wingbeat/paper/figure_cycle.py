@@ -50,23 +50,23 @@ def absence(orbits: Orbits, treatment: str, animal: str, models: tuple[str, ...]
 
 
 def assumptions(treatment: str) -> str:
-    """Return a treatment in words."""
+    """Return the description of a treatment."""
     return next(t.words for t in TREATMENTS if t.name == treatment)
 
 
 def _about(shown: dict[str, Orbit], treatment: str) -> str:
-    """Return the beginning of a note: what flies, at which frequencies, under which assumptions."""
+    """Return the beginning of a note: animal, speed, frequencies and assumptions."""
     beats = ", ".join(f"{LOOKS[model].name} {orbit.wingbeat.frequency:.3g} Hz" for model, orbit in shown.items())
     return f"Bat at {SAMPLE_SPEED:g} m/s{f' ({beats})' if beats else ''}; {assumptions(treatment)}."
 
 
 def strip_series(orbit: Orbit, station: float) -> dict[str, np.ndarray]:
-    """Return angle of attack and forces of one strip at a span fraction, over the beat.
+    """Return the angle of attack and the forces of the strip at a span fraction, over the wingbeat.
 
     Returns
     -------
-    ``alpha_deg`` and horizontal and vertical force on that strip of both wings over the animal's weight, shape
-    (K,) each; values are interpolated linearly between strip centres.
+    ``alpha_deg``, and the horizontal and the vertical force on this strip of both wings divided by the animal's
+    weight. Each has shape (K,). Values are interpolated linearly between strip centres.
     """
     data, model = orbit.dataset, orbit.problem.model
     weight = model.vehicle.mass * model.air.gravity
@@ -158,7 +158,7 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
 
 
 def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
-    """Draw figure 8: body pitch of the bat over one beat at 10 m/s, with the range of each curve.
+    """Draw figure 8: body pitch of the bat over one wingbeat at 10 m/s, with the ranges that the paper prints.
 
     Parameters and returns are those of `forces_figure`.
     """
@@ -167,8 +167,8 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     ranges = [f"{LOOKS[m].name} {np.ptp(s['body_pitch_deg']):.3g} deg" for m, s in series.items()]
     printed = [f"{LOOKS[m].name} {value:g} deg" for m, value in PAPER_PITCH_RANGE_DEG.items()]
     note = (
-        f"{_about(shown, sample)} Nose up is positive; downstroke shaded. "
-        f"Range over the beat: {', '.join(ranges) or 'none'}; bars at the right: the ranges that the paper "
+        f"{_about(shown, sample)} Nose up is positive. The downstroke is shaded. "
+        f"Range over the wingbeat: {', '.join(ranges) or 'none'}; bars at the right: the ranges that the paper "
         f"prints, {', '.join(printed)}. "
     ) + told(8, _printed_of_pitch(series))
     with drawing():
@@ -199,7 +199,7 @@ def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> 
         low, high = PAPER_SMALL_ALPHA_DEG
         arm = series["su-fan", "1/4"]["alpha_deg"][:-1]
         share = float(np.mean((arm > low) & (arm <= high)))
-        statement = "a small nose-up angle of the arm throughout the beat with Su-Fan"
+        statement = "a small nose-up angle of the arm throughout the wingbeat with Su-Fan"
         found.append(Printed(statement, f"from {arm.min():.3g} to {arm.max():.3g} deg", share == 1.0))
     if {model for model, _ in series} == set(MODELS):
         for name, words in (
@@ -209,7 +209,7 @@ def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> 
             swings = [[float(np.ptp(series[model, station][name])) for station in STATIONS] for model in MODELS]
             ratios = [fit / fly for fit, fly in zip(*swings, strict=True)]
             told_ratios = " and ".join(f"{ratio:.2f}" for ratio in ratios)
-            ours = f"their swings are {told_ratios} times Dickinson's at 1/4 and 3/4 span"
+            ours = f"peak to peak, {told_ratios} times Dickinson's at 1/4 and 3/4 span"
             found.append(Printed(f"smaller {words} forces with Su-Fan", ours, max(ratios) < 1))
     return found
 

@@ -33,13 +33,13 @@ FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
     "Our points are certified orbits of minimum frequency. Filled points, thick lines: coefficients mirrored at "
-    "negative angles of attack. Open points, thin lines: formulas as printed at negative angles. Neighbouring "
-    "points may belong to different families of orbits. The flap amplitude is at its bound in {leaning} of {all} "
-    "orbits. Crosses at the foot mark speeds without a certified orbit. Stars show what the paper prints for the "
-    "bat (it prints no number for the pigeon). Green shows frequencies measured on animals, or a law of such "
-    "measurements for a vehicle of this mass and span. A: as in the source; D: we computed it from the source. "
-    "The table beside this figure gives the full sources. We could not obtain the frequencies of Tobalske and "
-    "Dial (1996) that the paper draws; they did not vary with speed."
+    "negative angles of attack. Open points, thin lines: formulas as printed at negative angles, except Su-Fan's "
+    "C_L, which stays mirrored. Neighbouring points may belong to different families of orbits. The flap amplitude "
+    "is at its bound in {leaning} of {all} orbits. Crosses at the foot mark speeds without a certified orbit. "
+    "Stars show what the paper prints for the bat (it prints no number for the pigeon). Green shows frequencies "
+    "measured on animals, or laws of such measurements for this mass and span. A: as in the source; D: we computed "
+    "it from the source. The table that comes with this figure gives the full sources. We could not obtain the "
+    "frequencies of Tobalske and Dial (1996) that the paper draws; they did not vary with speed."
 )
 
 
@@ -52,7 +52,7 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
 
     Returns
     -------
-    The figure, and its rows: every orbit asked for with its status, and what was measured with its source.
+    The figure, and its rows: every requested orbit with its status, and every measurement with its source.
     """
     series = itertools.product(FILLS, ANIMALS, MODELS)
     drawn = [orbit for each in series for orbit in certified(orbits, *each).values()]
@@ -109,7 +109,7 @@ def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
 
 
 def _mark_printed(axes: Axes) -> None:
-    """Mark what the paper prints for the bat: Su-Fan's frequency, and Dickinson's at the highest speed named."""
+    """Mark what the paper prints for the bat: Su-Fan's frequency at two speeds, Dickinson's at the higher one."""
     slow, fast = PAPER_BAT_SPEEDS
     marks = {
         "su-fan": ([slow, fast], [PAPER_BAT_FREQUENCY] * 2),
@@ -140,7 +140,7 @@ def _printed(orbits: Orbits) -> list[Printed]:
 
 
 def _reach(measured: Measured) -> np.ndarray:
-    """Return the speeds at which to draw a measurement [m/s]: its own range, cut to that of the figure."""
+    """Return the speeds at which to draw a measurement [m/s]: the part of its range that the figure shows."""
     low, high = measured.speeds
     if low == high:
         return np.array([low])

@@ -23,12 +23,12 @@ _PORTRAITS = (
     ("z_mm", "w_m_per_s", "height z [mm]", "vertical velocity w [m/s]"),
     ("body_pitch_deg", "pitch_rate_deg_per_s", "body pitch ψ [deg]", "pitch rate q [deg/s]"),
 )
-# Phase, marker and size of the beginning of either stroke: the paper's asterisk and black dot.
+# Phase at which each stroke begins, marker and its size: the paper's asterisk and black dot.
 _STARTS = {"downstroke": (0.0, (8, 2, 0), 8.0), "upstroke": (0.5, "o", 4.5)}
 
 
 def portrait_series(orbit: Orbit) -> dict[str, np.ndarray]:
-    """Return the body's path and velocities over one beat in the units of the drawing, shape (K,) each."""
+    """Return the body's path and velocities over one wingbeat in the units of the drawing, shape (K,) each."""
     data = orbit.dataset
     return {
         "phase": data["phase"].values,

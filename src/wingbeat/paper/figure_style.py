@@ -1,4 +1,4 @@
-"""How the figures of the paper look: sheets of a journal's width, one look per coefficient model, tables."""
+"""The look of the paper's figures: sheets as wide as a journal page, and one style for each coefficient model."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Table = Sequence[Row]
 
 @dataclass(frozen=True)
 class Look:
-    """A coefficient model's name for readers, colour, dash and marker; each of these alone identifies the model."""
+    """A coefficient model's displayed name, colour, dash and marker; each of these alone identifies the model."""
 
     name: str
     color: str
@@ -79,7 +79,7 @@ def dress_cycle(axes: Axes, ylabel: str) -> None:
 
 
 def say(axes: Axes, words: str) -> None:
-    """Write a text into an empty panel that says why it is empty."""
+    """Write into an empty panel why it is empty."""
     middle: dict[str, Any] = {"ha": "center", "va": "center", "transform": axes.transAxes, "backgroundcolor": "w"}
     axes.set(xticks=[], yticks=[])
     axes.text(0.5, 0.5, textwrap.fill(words, 28), color=ALARM, fontsize=FONT, parse_math=False, **middle)

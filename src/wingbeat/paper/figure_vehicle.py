@@ -1,4 +1,4 @@
-"""Figure 2: the vehicles to scale, their strips, axes and angles, drawn from the model's own points."""
+"""Figure 2: the vehicles to scale, with strips, axes and angles, drawn from points that the model computes."""
 
 from __future__ import annotations
 
@@ -62,12 +62,12 @@ def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) ->
         else ""
     )
     return (
-        f"Drawn from the model's own points at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s "
+        f"Drawn from points that the model computes, at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s "
         f"({beats}).{guess} Each wing has {strips} strips. Dashed line: quarter chord, which is the pitch axis; "
         f"dot: shoulder. C: cross-section of strip {strip + 1} of the pigeon, with its forces to one scale and θ "
         "measured from the normal of the stroke plane. D and F also show the quarter chord at both ends of the "
-        "stroke (dotted) and at mid-upstroke (grey). The model gives the body no shape: the grey ellipsoid is "
-        "one of water with the mass and pitch inertia of the body."
+        "stroke (dotted) and at mid-upstroke (grey). In the model the body has no shape. The grey ellipsoid has "
+        "the body's mass and pitch inertia, and the density of water."
     )
 
 

@@ -1,4 +1,4 @@
-"""The views of figure 2: oblique, from the side, from the front, from above, and one strip across its span."""
+"""The views of figure 2: oblique, from the side, from the front, from above, and the cross-section of one strip."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _HALF_HEIGHT = 0.28
 
 
 def _plane(at: Posture, sides: Sequence[int]) -> np.ndarray:
-    """Return the strips' outlines of both wings, seen along an axis: coordinates `sides` of (2 N, 4, 3)."""
+    """Return the coordinates `sides` of the outlines of both wings' strips, shape (2 N, 4, 2)."""
     return np.concatenate([at.outlines, at.outlines * _MIRROR])[..., list(sides)]
 
 
@@ -155,7 +155,7 @@ def draw_side(axes: Axes, at: Posture) -> None:
 
 
 def draw_front(axes: Axes, postures: Sequence[Posture], animal: str) -> None:
-    """Draw the vehicle from ahead at the first posture, and the quarter chord at the others; flap is named."""
+    """Draw the vehicle from ahead at the first posture, the quarter chord at the others, and flap angles."""
     first, *others = postures
     _to_scale(axes, "y [m]", "z [m]", f"{animal}, from ahead")
     _strips(axes, _plane(first, (1, 2)))
@@ -184,7 +184,7 @@ def draw_top(axes: Axes, at: Posture, animal: str) -> None:
 
 
 def draw_section(axes: Axes, strip: Section) -> None:
-    """Draw one strip across its span, leading edge to the right: pitch, motion, angle of attack, forces."""
+    """Draw the cross-section of one strip, leading edge to the right: pitch, motion, angle of attack, forces."""
     chord = np.array([math.cos(strip.pitch), math.sin(strip.pitch)])
     motion = np.array([math.cos(strip.motion), math.sin(strip.motion)])
     axes.plot(*np.outer(chord, [-0.75, 0.25]), color="k", linewidth=3, solid_capstyle="round", zorder=4)
@@ -199,5 +199,5 @@ def draw_section(axes: Axes, strip: Section) -> None:
     _dot(axes, (0, 0))
     axes.set_aspect("equal")
     axes.margins(0.08)
-    axes.set_title("strip across its span", fontsize=FONT_SMALL, pad=3)
+    axes.set_title("cross-section of a strip", fontsize=FONT_SMALL, pad=3)
     axes.axis("off")

@@ -1,4 +1,4 @@
-"""Figures 1 to 8 of the paper redrawn from our model: as pictures, as pages, and as tables of what is drawn."""
+"""Figures 1 to 8 of the paper redrawn from our model, as PNG and PDF files and as tables of the drawn numbers."""
 
 from __future__ import annotations
 

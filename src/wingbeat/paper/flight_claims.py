@@ -53,7 +53,7 @@ def open_loop(evidence: Evidence) -> TestResult:
 
 
 def printed_sign(evidence: Evidence) -> TestResult:
-    """Return the velocity that the condition gives with the sign as printed [m/s]."""
+    """Return the forward speed that the periodicity condition gives with the sign as printed [m/s]."""
     orbit = evidence.orbit("pigeon", "su-fan")
     x = orbit.dataset["x"].values
     return float(x[0] - x[-1]) * orbit.wingbeat.frequency, False
@@ -70,7 +70,7 @@ def stable(evidence: Evidence) -> TestResult:
 
 
 def least_frequency(evidence: Evidence) -> TestResult:
-    """Return the largest number of distinct optima that the starts of one orbit found."""
+    """Return the largest number of distinct optima that the starts of one problem found."""
     counts = [
         evidence.record(animal, "su-fan", speed)["distinct_optima"]
         for animal in ("pigeon", "bat")
@@ -80,9 +80,9 @@ def least_frequency(evidence: Evidence) -> TestResult:
 
 
 def bat_slow_alike(evidence: Evidence) -> TestResult:
-    """Return the bat's frequency with Dickinson divided by that with Su-Fan, at 5 m/s and below.
+    """Return the bat's frequency with Dickinson divided by that with Su-Fan, up to 5 m/s.
 
-    Of the ratios at these speeds it is the one farthest from 1.
+    The result is the ratio that is farthest from 1 over these speeds.
     """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)
@@ -135,8 +135,8 @@ def smaller_alpha(station: float) -> FlightClaim:
     return FlightClaim(
         f"smaller-alpha-{words.replace('/', '-of-')}",
         "results, forces; discussion",
-        f"at {words} span the bat's effective angles of attack are smaller with Su-Fan (tested: the mean "
-        "absolute angle over the wingbeat at 10 m/s; ours: Su-Fan's mean minus Dickinson's)",
+        f"At {words} span the bat's effective angles of attack are smaller with Su-Fan. Tested: at 10 m/s the mean "
+        "absolute angle over the wingbeat is smaller than with Dickinson. Ours: Su-Fan's mean minus Dickinson's.",
         "< 0",
         "deg",
         test,
@@ -144,7 +144,7 @@ def smaller_alpha(station: float) -> FlightClaim:
 
 
 def smaller_force(axis: int, words: str) -> FlightClaim:
-    """Return the claim that a force is smaller with Su-Fan at both stations."""
+    """Return the claim that the force along an axis is smaller with Su-Fan at both stations."""
 
     def test(evidence: Evidence) -> TestResult:
         ratios = [
@@ -157,8 +157,9 @@ def smaller_force(axis: int, words: str) -> FlightClaim:
     return FlightClaim(
         f"smaller-{words}-force",
         "results, forces",
-        f"the bat's {words} forces at 1/4 and 3/4 span are smaller with Su-Fan (tested: peak to peak over the "
-        "wingbeat at 10 m/s; ours: the larger ratio of Su-Fan's to Dickinson's)",
+        f"The bat's {words} forces at 1/4 and 3/4 span are smaller with Su-Fan. Tested: at 10 m/s their "
+        "peak-to-peak ranges over the wingbeat are smaller than with Dickinson. Ours: Su-Fan's range divided by "
+        "Dickinson's, at the station with the larger ratio.",
         "< 1",
         "1",
         test,
@@ -195,7 +196,7 @@ def arm_lifts(evidence: Evidence) -> TestResult:
 
 
 def hand_thrusts(evidence: Evidence) -> TestResult:
-    """Return the hand's mean forward force divided by weight; the smaller of the two models' values."""
+    """Return the hand's mean forward force divided by weight, for the model with the smaller force."""
     hands = [hand for _, hand in _means(evidence, 0)]
     return min(hands), min(hands) > 0
 
@@ -203,7 +204,7 @@ def hand_thrusts(evidence: Evidence) -> TestResult:
 def arm_drags(evidence: Evidence) -> TestResult:
     """Return the mean forward force at 1/4 span (arm) minus that at 3/4 span (hand), divided by weight.
 
-    It is the larger of the two models' values.
+    The result is the larger of the two models' values.
     """
     gaps = [arm - hand for arm, hand in _means(evidence, 0)]
     return max(gaps), max(gaps) < 0
@@ -216,9 +217,9 @@ def arm_pitches_least(evidence: Evidence) -> TestResult:
 
 
 def force_balance(evidence: Evidence) -> TestResult:
-    """Return how far the mean air force deviates from thrust 0 and lift equal to weight.
+    """Return how far the mean air force deviates from zero forward and from the weight upward.
 
-    It is the largest deviation of all sample orbits, divided by weight.
+    The result is the largest deviation of all sample orbits, divided by weight.
     """
     worst = 0.0
     for animal in ("pigeon", "bat"):

@@ -18,8 +18,9 @@ _PER_TERM = 2
 class Importance:
     """How much of a claim's number each assumption explains, and how well the surface predicts unseen numbers.
 
-    ``shares`` : for each assumption, the share of the variance that the surface loses if it is shuffled.
-    ``quality`` : R-squared in ten-fold cross-validation; importance means little where it is low.
+    ``shares`` : for each assumption, the share of the variance that the surface no longer explains if the values of
+    this assumption are shuffled.
+    ``quality`` : R-squared in ten-fold cross-validation; the shares mean little where it is low.
     """
 
     shares: np.ndarray
@@ -27,13 +28,13 @@ class Importance:
 
 
 def fewest_outcomes() -> int:
-    """Return how many outcomes the surface of all assumptions needs."""
+    """Return the number of outcomes that a surface of all assumptions needs at least."""
     one = [np.zeros((1, max(len(a.choices) - 1, 1))) for a in ASSUMPTIONS]
     return _PER_TERM * _surface(one).shape[1]
 
 
 def importance(sets: Sequence[Values], numbers: np.ndarray) -> Importance | None:
-    """Return what a claim's number depends on; None if too few sets give a number or all give the same one.
+    """Return what a claim's number depends on, or None if too few sets give a number or all give the same number.
 
     Numbers are replaced by their ranks, so that a few outliers do not dominate the surface.
 

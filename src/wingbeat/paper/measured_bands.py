@@ -1,4 +1,4 @@
-"""Wingbeat frequencies measured on animals, each with its source, spread and how sure we are of it.
+"""Wingbeat frequencies measured on animals, each with its source, its spread and a grade.
 
 Grade A: we read the number in the source's own text. Grade D: we computed it from such a text for our vehicle. We
 leave out numbers that we know only second-hand. Among these are the frequencies of Tobalske and Dial 1996 that the
@@ -18,7 +18,7 @@ from wingbeat.vehicle import Air, Vehicle
 PAPER = "Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602"
 PAPER_PEAK_POWER = {"su-fan": 30.0, "dickinson": 150.0}
 PAPER_PITCH_RANGE_DEG = {"su-fan": 10.0, "dickinson": 25.0}
-# The bat's frequency [Hz]; the lowest and highest speed [m/s] at which Su-Fan's frequency agrees with it;
+# The bat's frequency [Hz]; the lowest and highest speed [m/s] at which Su-Fan's frequency is said to agree with it;
 # Dickinson's frequency at the higher speed divided by Su-Fan's.
 PAPER_BAT_FREQUENCY, PAPER_BAT_SPEEDS, PAPER_BAT_RATIO = 6.0, (5.0, 10.0), 2.0
 # The angles of attack that the paper calls small [deg].
@@ -32,7 +32,7 @@ class Measured:
     Parameters
     ----------
     animal : the vehicle of ours with which it is compared.
-    label : short, for a legend.
+    label : short text for a legend.
     speeds : lowest and highest flight speed of the measurement [m/s]; equal for a single point.
     value : function that returns the frequency, in `unit`, for a vehicle, its air and a flight speed [m/s].
     spread : half width, in `unit`; 0 where the source states none.
@@ -69,7 +69,7 @@ def _bats(vehicle: Vehicle, air: Air, speed: float) -> float:
 
 
 _RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, table 3"
-_FLAT = "flat in speed from 6 to 20 m/s: Tobalske and Dial 1996, J Exp Biol 199:263, abstract"
+_FLAT = "independent of speed from 6 to 20 m/s: Tobalske and Dial 1996, J Exp Biol 199:263, abstract"
 _BIRDS_BY_SIZE = Measured(
     "pigeon",
     "birds by size, Pennycuick 1996",
@@ -111,12 +111,12 @@ MEASURED_FREQUENCIES = (
         _bats,
         1.0,
         "Bullen and McKenzie 2002, J Exp Biol 205:2615, abstract: 23 Australian species, 21 of them within 1 Hz; "
-        "nearly flat at high speeds, so not drawn beyond 10 m/s",
+        "nearly independent of speed at high speeds, so not drawn beyond 10 m/s",
         "D",
     ),
     Measured(
         "bat",
-        "6 Hz, as the paper says",
+        "bats, 6 Hz as cited by Su et al. 2023",
         (4, 20),
         lambda vehicle, air, speed: PAPER_BAT_FREQUENCY,
         0.0,
@@ -124,6 +124,6 @@ MEASURED_FREQUENCIES = (
         "A",
     ),
 )
-# What the pigeon's frequency is judged by. We could not obtain the paper's own reference, the measurements of
-# Tobalske and Dial 1996. Our figure 5 draws these two: loaded birds in slow flight, and a scaling law.
+# References for the pigeon's frequency: loaded birds in slow flight, and a scaling law. Our figure 5 draws both. We
+# could not obtain the paper's own reference, the measurements of Tobalske and Dial 1996.
 PIGEON_REFERENCES = {"usherwood": _LOADED_PIGEONS, "pennycuick": _BIRDS_BY_SIZE}

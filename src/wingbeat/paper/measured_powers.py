@@ -1,6 +1,6 @@
 """Flight powers and speeds of live animals, each with its source and grade as in `measured_bands`.
 
-None of them measures what we compute, the mean positive hinge power; each label says what was measured.
+No source measures the mean positive hinge power, which we compute. Each label says what was measured.
 """
 
 from __future__ import annotations

@@ -55,11 +55,11 @@ class Sample:
         return -(-self.sets // self.piece)
 
     def range(self, number: int) -> range:
-        """Return which sets are in a piece; pieces are counted from 1."""
+        """Return the indices of the sets in a piece; pieces are counted from 1."""
         return range((number - 1) * self.piece, min(number * self.piece, self.sets))
 
     def about(self) -> dict[str, int | str]:
-        """Return what identifies this sample: its ranges, speeds, starts and claims, but none of their words."""
+        """Return what identifies this sample: its ranges, speeds, starts and claim ids, but not their words."""
         ranges = [(a.name, a.low, a.high, a.choices) for a in ASSUMPTIONS]
         asked = repr((ranges, SPEEDS, STARTS, [claim.id for claim in study_claims()]))
         digest = hashlib.sha256(asked.encode()).hexdigest()[:12]
@@ -67,7 +67,7 @@ class Sample:
 
 
 class Pieces:
-    """The folder of a sample's pieces: a finished piece is a table, an unfinished one a folder of study stores.
+    """The folder of a sample's pieces. A finished piece is a table, an unfinished one a folder of study stores.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class Pieces:
         return self.folder / f"piece-{number:04d}-of-{len(self):04d}.csv"
 
     def finished(self) -> list[int]:
-        """Return the numbers of the pieces whose tables are there."""
+        """Return the numbers of the pieces whose tables exist."""
         return [number for number in range(1, len(self) + 1) if self.path(number).is_file()]
 
     def run(
@@ -108,7 +108,7 @@ class Pieces:
         stop: Stop,
         progress: Progress | None = None,
     ) -> Iterator[int]:
-        """Solve and judge those of the pieces that are not finished, and yield the number of each once it is saved.
+        """Solve and judge the unfinished ones of these pieces, and yield the number of each once it is saved.
 
         Parameters
         ----------
@@ -202,11 +202,11 @@ def _check_same(about: object, sample: Sample, path: Path) -> None:
         for of in (told, sample.about())
     )
     fix = "give another folder, or the same sample"
-    raise FileError(f"{str(path)!r} is of another sample ({theirs}), not of this one ({ours}); {fix}")
+    raise FileError(f"{str(path)!r} belongs to another sample ({theirs}), not to this one ({ours}); {fix}")
 
 
 def table(parts: Iterable[Judged]) -> str:
-    """Return one line for each set: its assumptions, its certified orbits, each claim's number and verdict."""
+    """Return a CSV text with a line for each set: assumptions, number of certified orbits, numbers and verdicts."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_columns())

@@ -24,7 +24,7 @@ AGREES = 0.15
 
 @functools.cache
 def pigeon_reference(name: str) -> float:
-    """Return a reference for the paper's pigeon [Hz].
+    """Return a reference frequency for the paper's pigeon [Hz].
 
     >>> [round(pigeon_reference(name), 1) for name in PIGEON_REFERENCES]
     [8.0, 8.3]
@@ -49,10 +49,10 @@ def closer_at_speed(name: str, animal: str, measured: float, words: str) -> Flig
     return FlightClaim(
         name,
         "abstract; discussion, simulations",
-        f"the {animal}'s frequency is closer to the measured one with Su-Fan's than with Dickinson's "
-        f"coefficients, especially at high speed (tested: the mean relative deviation at 10 m/s and above is "
-        "smaller with Su-Fan; ours: Dickinson's deviation divided by Su-Fan's; reference "
-        f"{measured:.3g} Hz, {words})",
+        f"The {animal}'s frequency is closer to the measured one with Su-Fan's than with Dickinson's coefficients, "
+        "especially at high speed. Tested: at 10 m/s and above, its mean relative deviation from the reference is "
+        f"smaller with Su-Fan. Ours: Dickinson's deviation divided by Su-Fan's. Reference: {measured:.3g} Hz, "
+        f"{words}.",
         "> 1",
         "1",
         test,
@@ -77,9 +77,9 @@ def pigeon_claims() -> list[FlightClaim]:
             FlightClaim(
                 f"pigeon-agrees-{name}",
                 _RESULTS,
-                "above 10 m/s the pigeon's frequency agrees very well with the measured one (tested: the mean "
-                f"deviation is at most {100 * AGREES:.0f} %; Usherwood et al. state a spread of 9 %; reference "
-                f"{by})",
+                "Above 10 m/s the pigeon's frequency agrees very well with the measured one. Tested: its mean "
+                f"relative deviation from the reference is at most {100 * AGREES:.0f} %. Ours: this deviation. "
+                f"Reference: {by}. For comparison, Usherwood et al. state a spread of 9 %.",
                 "remarkably well",
                 "1",
                 _by_model("su-fan", measured, lambda found: found <= AGREES),
@@ -87,8 +87,9 @@ def pigeon_claims() -> list[FlightClaim]:
             FlightClaim(
                 f"pigeon-dickinson-off-{name}",
                 _RESULTS,
-                "above 10 m/s Dickinson's coefficients give the pigeon a frequency that agrees poorly with "
-                f"measurement (tested: the mean deviation is above {100 * AGREES:.0f} %; reference {by})",
+                "Above 10 m/s Dickinson's coefficients give the pigeon a frequency that agrees poorly with "
+                f"measurement. Tested: its mean relative deviation from the reference is above {100 * AGREES:.0f} "
+                f"%. Ours: this deviation. Reference: {by}.",
                 "poor",
                 "1",
                 _by_model("dickinson", measured, lambda found: found > AGREES),
@@ -99,12 +100,12 @@ def pigeon_claims() -> list[FlightClaim]:
 
 
 def pigeon_data_claim() -> Claim:
-    """Return the claim as compared with the data that the paper draws; we cannot test it."""
+    """Return the claim that the pigeon's frequency agrees with the data that the paper draws; we cannot test it."""
     return untestable(
         "pigeon-agrees",
         _RESULTS,
-        "above 10 m/s the pigeon's frequency agrees very well with the one that Tobalske and Dial 1996 measured "
-        "(ours: the lower of two other reference frequencies; other rows judge the claim by each of these two)",
+        "Above 10 m/s the pigeon's frequency agrees very well with the one that Tobalske and Dial 1996 measured. "
+        "Other rows judge this claim by two other references. Ours: the lower of these two frequencies.",
         "remarkably well",
         "Hz",
         min(pigeon_reference(name) for name in PIGEON_REFERENCES),

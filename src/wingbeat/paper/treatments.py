@@ -35,7 +35,7 @@ class Treatment:
     ----------
     name : name in file names and tables.
     words : description for readers.
-    extension : how the coefficients reach negative angles of attack (`wingbeat.aero.EXTENSIONS`).
+    extension : how the coefficients are continued to negative angles of attack (`wingbeat.aero.EXTENSIONS`).
     uniform_wings : whether the wing mass is uniform along the span, not distributed as in dissected wings.
     flap_amplitude_deg : largest flap amplitude allowed [deg]; None takes the bound of the species file.
     taper : tip chord divided by root chord, at the same mean chord; 1 is the paper's rectangle.
@@ -80,7 +80,7 @@ DEFAULT = TREATMENTS[0].name
 # The treatments that the figures show.
 DRAWN = TREATMENTS[:2]
 PLANFORMS = tuple(treatment.name for treatment in TREATMENTS if treatment.leaf or treatment.taper != 1.0)
-# Number of stations of the wings that are no rectangle; root chord of the leaf divided by that of the rectangle.
+# Number of stations of the wings that are not rectangles; root chord of the leaf divided by that of the rectangle.
 _STATIONS, _ROOT = 11, 0.25
 
 
@@ -114,7 +114,7 @@ def all_cases(speeds: Iterable[float], treatments: Iterable[Treatment] = TREATME
 
 
 def tapered_chord(chord: float, taper: float) -> tuple[float, ...]:
-    """Return the chords of a tapered wing at as many stations as a leaf has, so that both fly in one program [m].
+    """Return the chords of a tapered wing [m], at as many stations as a leaf, so that both use one program.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def tapered_chord(chord: float, taper: float) -> tuple[float, ...]:
 
 
 def leaf_chord(chord: float) -> tuple[float, ...]:
-    """Return the chords of a leaf at stations from root to tip [m]: widest past mid-span, narrow at root and tip.
+    """Return the chords of a leaf-shaped wing from root to tip [m]: widest past mid-span, narrow at both ends.
 
     The chord is that of the rectangle plus a parabola. This changes neither the area nor the second moment of area
     about the shoulder, ``int s^2 c ds``. Between the stations the chord is linear.
@@ -166,7 +166,7 @@ def problem_of(case: Case) -> OrbitProblem:
 def chain(treatment: str, animal: str, speeds: Iterable[float]) -> list[Case]:
     """Return the cases of an animal, ordered so that neighbours are similar.
 
-    The first coefficient model comes at increasing speeds, then the second at decreasing speeds.
+    The first coefficient model comes first, at increasing speeds. The second follows at decreasing speeds.
     """
     up = sorted(speeds)
     rows = zip(MODELS, (up, up[::-1]), strict=True)
@@ -180,7 +180,7 @@ def _solve_row(row: list[Case], starts: int) -> list[Solution]:
 def solve_cases(
     cases: Iterable[Case], starts: int, processes: int = 1, progress: Progress | None = None
 ) -> dict[Case, Orbit]:
-    """Solve and certify the orbits of the cases; failed ones are returned, too.
+    """Solve and certify the orbits of the cases, and return all of them, failed ones too.
 
     The cases of one animal under one treatment are solved as a series, so that each also starts from the solutions
     of its neighbours.
@@ -188,7 +188,7 @@ def solve_cases(
     Parameters
     ----------
     cases : the orbits to solve.
-    starts : starts of each case before solutions are passed on to its neighbours.
+    starts : starts of each case, not counting those from the solutions of its neighbours.
     processes : Python processes that share the series.
     progress : called with (series done, all series).
     """

@@ -71,7 +71,7 @@ class Flown(NamedTuple):
 
 
 def flown(animal: str, orbit: Orbit | None) -> Flown:
-    """Return the flight of a certified orbit, or if there is none the stock wingbeat in steady level flight."""
+    """Return the flight of a certified orbit; without one, the stock wingbeat in steady level flight."""
     if orbit is None:
         species = load_species(animal)
         aero = BladeElement(load_coefficients(MODELS[0]))
@@ -83,7 +83,7 @@ def flown(animal: str, orbit: Orbit | None) -> Flown:
 
 
 def posture(flight: Flown, phase: float) -> Posture:
-    """Place a vehicle at a phase of its wingbeat, from the points that the equations of motion use."""
+    """Return a vehicle's posture at a phase of its wingbeat, from the points that the equations of motion use."""
     model, wingbeat = flight.model, flight.wingbeat
     attitude, flap = float(flight.state(phase)[2]), float(flap_angle(wingbeat, phase))
     q = np.array([0.0, 0.0, attitude, flap, float(pitch_angle(wingbeat, phase))])

@@ -27,26 +27,35 @@ _SMALL = (
 )
 _SEPARATELY = "each animal is now judged separately; before, the worse of the two decided for both"
 _IN_LINE = (
-    "'in line with' now compares the lift at the angle of the other peak; the curves are flat there, and a limit "
-    "of 2 degrees was too strict"
+    "'in line with' now means that C_L at the angle of the other peak is close to its maximum. The curves are flat "
+    "there, so the earlier limit of 2 degrees was too strict"
 )
-# Claims whose test is the one of before, in clearer words.
+# Claims whose test is unchanged, in clearer words.
 _CLEARER = (
     "blockage",
+    "aspect-ratio",
     "repeats",
     "collapse",
     "r-squared",
     "usherwood-reynolds",
     "lift-slope",
     "exponential-term",
+    "lift-peak-angle",
     "lift-decay",
     "dickinson-slope",
     "extra-lift",
+    "drag-at-zero",
+    "drag-max",
     "drag-monotonic",
     "drag-below-dickinson",
     "drag-normal-plate",
     "moment-slope",
     "moment-like-lift",
+    "moment-peak",
+    "moment-rises",
+    "moment-measured",
+    "centre-limit",
+    "centre-monotonic",
     "centre-plateau",
     "smaller-lift",
     "smaller-drag",
@@ -56,6 +65,7 @@ _CLEARER = (
     "drag-alike-in-form",
     "own-reynolds",
     "transient-cut",
+    "comparable-magnitudes",
     "edge-vortex",
     "closed-loops",
     "open-loop",
@@ -69,7 +79,10 @@ _CLEARER = (
     "twice-the-frequency",
     "smaller-alpha-1-of-4",
     "smaller-alpha-3-of-4",
+    "smaller-horizontal-force",
+    "smaller-vertical-force",
     "hand-alpha",
+    "arm-lifts",
     "hand-thrusts",
     "arm-drags",
     "arm-pitches-least",
@@ -92,9 +105,9 @@ _CLEARER = (
     "many-wingbeats",
     "drag-costs-thrust",
 )
-# Why a claim is worded differently from before, by its id now.
+# Why a claim is worded differently from before, by its present id.
 ASKED_OTHERWISE = {
-    **dict.fromkeys(_CLEARER, "the same test in clearer words; only the flights can differ"),
+    **dict.fromkeys(_CLEARER, "the same test in clearer words; a new verdict comes from new orbits"),
     "pigeon-agrees": "the data that the paper draws were not available, and 6.25 Hz was our own guess",
     **{
         f"pigeon-{what}-{by}": _REFERENCE
@@ -102,7 +115,7 @@ ASKED_OTHERWISE = {
         for by in ("usherwood", "pennycuick")
     },
     "gains-at-speed": _REFERENCE,
-    "bat-closer-at-speed": "the same test; its words now say whose 6 Hz it is",
+    "bat-closer-at-speed": "the same test; its words now say that the paper gives the 6 Hz",
     "less-pitching-pigeon": _SEPARATELY,
     "less-pitching-bat": _SEPARATELY,
     "animals-reynolds": "judged at each speed, no longer only at 10 m/s",
@@ -114,12 +127,12 @@ ASKED_OTHERWISE = {
     "drag-penalty-small": f"new: this is the drag that the paper calls small; {_SMALL}",
     "arm-nose-up": "'a small nose-up pitch' now means positive and at most 13 degrees, no longer only positive",
     "closer-power": "'much closer' now means at most half the difference; before, it meant closer by any amount",
-    "wing-shape": "judged also at equal second moment of area, no longer only at equal area",
+    "wing-shape": "judged also with wings of equal second moment of area, no longer only of equal area",
 }
 
 
 class Change(NamedTuple):
-    """A claim, its earlier and its present verdict, and why they differ; `same` says that they do not."""
+    """A claim, its earlier and its present verdict, and why claim, test or verdict differ."""
 
     id: str
     before: str
@@ -162,7 +175,7 @@ def verdict_changes(before: Sequence[dict[str, Any]], claims: Sequence[Claim]) -
     here = {claim.id for claim in claims}
     for name, row in old.items():
         if not here & set(REPLACED.get(name, (name,))):
-            found.append(Change(name, row["verdict"], _NONE, "no longer asked"))
+            found.append(Change(name, row["verdict"], _NONE, "no longer tested"))
     return found
 
 
@@ -170,10 +183,12 @@ def _change(row: dict[str, Any] | None, claim: Claim) -> Change:
     if row is None:
         return Change(claim.id, _NONE, claim.verdict, ASKED_OTHERWISE.get(claim.id, "new"))
     if row["id"] != claim.id or row["claim"] != claim.claim.replace("|", "/"):
-        why = ASKED_OTHERWISE.get(claim.id, "asked in other words")
+        why = ASKED_OTHERWISE.get(claim.id, "worded differently")
     else:
         then, now = (_shown(number) for number in (row.get("ours"), claim.findings[0].number))
-        why = f"same test, new orbits: our number was {then} and is now {now}" if then != now else "asked as before"
+        why = (
+            f"same test, new orbits: our number was {then} and is now {now}" if then != now else "tested as before"
+        )
     return Change(claim.id, row["verdict"], claim.verdict, why)
 
 

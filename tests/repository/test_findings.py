@@ -87,9 +87,13 @@ def under(holds, choice):
     return holds.groupby(choice).mean().map(percent)
 
 
+def span_of(name):
+    return next((a.low, a.high) for a in ASSUMPTIONS if a.name == name)
+
+
 def quarter(sets, name):
     """Return in which quarter of its range an assumption lies, 0 to 3."""
-    (low, high) = next((a.low, a.high) for a in ASSUMPTIONS if a.name == name)
+    low, high = span_of(name)
     return np.clip(np.floor(4 * (sets[name] - low) / (high - low)), 0, 3).astype(int)
 
 
@@ -128,7 +132,11 @@ def orbits_found(sets, holds):
     ahead, aside = (
         found.groupby(quarter(sets, f"shoulder_{way}")).mean().map(percent) for way in ("ahead", "aside")
     )
+    _, last = span_of("shoulder_aside")
+    own = [load_species(name).vehicle.wing for name in ("pigeon", "bat")]
+    pigeon, bat = (wing.shoulder[1] / wing.semi_span for wing in own)
     return [
+        f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span. The sampled range ends at {last:g}",
         f"Of the {spaced(needed)} orbits needed, {percent(found.mean())} % were found",
         f"in {percent(told.min())} to {percent(told.max())} % of the sets",
         f"With both mean angles fixed, only {trims['none']} % of the orbits were found; with both free, "

@@ -136,7 +136,8 @@ def orbits_found(sets, holds):
     own = [load_species(name).vehicle.wing for name in ("pigeon", "bat")]
     pigeon, bat = (wing.shoulder[1] / wing.semi_span for wing in own)
     return [
-        f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span. The sampled range ends at {last:g}",
+        f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span. The sampled range ends at "
+        f"{last:g}",
         f"Of the {spaced(needed)} orbits needed, {percent(found.mean())} % were found",
         f"in {percent(told.min())} to {percent(told.max())} % of the sets",
         f"With both mean angles fixed, only {trims['none']} % of the orbits were found; with both free, "

@@ -83,12 +83,12 @@ def main() -> None:
     parts = [
         "# Convergence\n",
         "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, all orbits "
-        "have the default wings and\nbounds, the mirrored extension and Su-Fan coefficients, and minimum "
-        "frequency. Each orbit has only the first start, so that a column\nfollows one family of orbits; others of "
-        "lower frequency may exist.\n",
-        "The first two tables fly a certified orbit with fixed steps and give the largest difference of its final "
-        "state from the certifier's.\nIn the other tables, *closure* is the largest residual when the certifier "
-        "flies the orbit.\n",
+        "have minimum frequency, with the\ndefault wings and bounds, Su-Fan coefficients and the mirrored "
+        "extension. Each is solved from the first start only, so that a column\nfollows one family of orbits; "
+        "others of lower frequency may exist.\n",
+        "For the first two tables, we flew a certified orbit with fixed steps. They give the largest difference "
+        "between its final state and\nthe certifier's. In the other tables, *closure* is the largest residual "
+        "when the certifier flies the orbit.\n",
     ]
     for title, make in (
         ("Fixed steps against the certifier", steps),

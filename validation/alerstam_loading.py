@@ -20,9 +20,9 @@ HEAD = """
 
 *As predicted* is the scatter of predicted over measured speed about its mean, with nothing else fitted. *Fitted*
 is the scatter that is left if a factor times a power of the prediction, or of wing loading, is fitted to the
-measured speed: each predictor then has the same two fitted numbers. *Change* compares the logarithm of that scatter
-with that of wing loading; its 95 % interval is from {samples} bootstrap samples of the species. A change of
--{clearly:.0%} or more counts as better.
+measured speed: each predictor then has the same two fitted numbers. *Change* is the relative change of the
+logarithm of the fitted scatter if the predictor replaces wing loading. Its 95 % interval is from {samples}
+bootstrap samples of the species. A decrease of {clearly:.0%} or more counts as better.
 
 | predictor of the measured speed | as predicted | fitted | change |
 | --- | --- | --- | --- |
@@ -89,7 +89,7 @@ def _answer(model: str, as_is: float, left: float, gained: tuple[float, float, f
     else:
         verdict = "**only if fitted**" if gained[0] <= -CLEARLY and gained[2] < 0 else "**no**"
     return (
-        f"- By `{model}`: {verdict}. As predicted, the better of the model's two speeds has a scatter of "
-        f"{as_is:.2f}. A fit to wing loading has {math.exp(alone):.2f}, and the same fit to the better speed "
-        f"{math.exp(left):.2f}."
+        f"- `{model}`: {verdict}. With nothing fitted, the better of the model's two speeds has a scatter of "
+        f"{as_is:.2f}. With a fit, the better of the two has a scatter of {math.exp(left):.2f}, and wing loading "
+        f"one of {math.exp(alone):.2f}."
     )

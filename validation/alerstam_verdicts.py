@@ -145,7 +145,7 @@ def _verdict(claim: str, found: str, good: bool, yes: str = "agrees", no: str = 
 def _frequencies(points: list[Point], timed: list[Bird]) -> str:
     head = (
         "\n## Measured frequencies\n\nFrequencies are in Hz, at the speed of the measurement. For the alcids (the "
-        "first four species) this is the ground speed, which differs slightly from the airspeed. The columns "
+        "first four species) this speed is the ground speed, which differs slightly from the airspeed. The columns "
         "*minimum power* and *minimum frequency* give the frequency of the orbit with that objective. *Amplitude "
         "fixed* gives the frequency of minimum power with the measured flap amplitude. The last three columns are "
         "scaling laws.\n\n| species | speed [m/s] | measured | model | minimum power | minimum frequency | "

@@ -22,23 +22,25 @@ HEAD = """# {count} birds against radar measurements
 {count} of their species, mass, span and area are known. `wb.bird` builds each of these species from the three
 numbers; scaling laws give the rest. Each bird is flown by one or both [models](models.md), and nothing is fitted.
 
-By the model `paper`, the air loads are those of the Su-Fan coefficients, without induced flow and without body
-drag. Least power is the least positive hinge power, because this model has no muscle. By the model `animal`, the
-wing is feathered, air loads include induced flow, rotation and added mass, and scaling laws give body drag, tail
-and muscle. Least power is the least *metabolic* power, which is this model's own objective: theories of flight
-speed ask what a flight costs the bird, and only this power charges the muscle for force and frequency. We chose it
-before any comparison with the radar. The tables also hold the positive hinge power of these orbits.
+The model `paper` computes air loads from the Su-Fan coefficients, without induced flow and without body drag. Its
+least power is the least positive hinge power, because it has no muscle. The model `animal` has feathered wings. Its
+air loads include induced flow, rotation and added mass; scaling laws give body drag, tail and muscle. Its least
+power is the least *metabolic* power, which is this model's own objective. Theories of flight speed ask what a
+flight costs the bird, and only metabolic power includes what force and frequency cost the muscle. We chose this
+objective before any comparison with the radar. The tables also hold the positive hinge power of the orbits.
 
-Each bird flies with least power at several speeds, given as multiples of the speed at which a wing of lift
-coefficient 1 carries it; they do not depend on the measured airspeed. By `paper` these are seven, from 0.65 to 1.6,
-by `animal` five, from 1.1 to 1.5, and further ones where a minimum is at an end. A parabola through the point of
-lowest power and its two neighbours gives the minimum-power speed. In the same way, power over speed gives the
-maximum-range speed. Each bird also flies at its measured airspeed, with least power and with minimum frequency.
+Each bird flies with least power at several speeds. These speeds are multiples of the speed at which a wing of lift
+coefficient 1 carries the bird, so they do not depend on the measured airspeed. The model `paper` has seven
+multiples, from 0.65 to 1.6. The model `animal` has five, from 1.1 to 1.5; if power, or power over speed, is least
+at an end, further speeds follow. A parabola through the point of lowest power and its two neighbours gives the
+minimum-power speed. In the same way, power over speed gives the maximum-range speed. Each bird also flies at its
+measured airspeed, with least power and with minimum frequency.
 
-By `paper`, one batch solves all problems; the orbits of a bird whose power does not change smoothly with speed are
-solved again, each starting from its neighbours' results. By `animal`, the birds are solved in order of mass. Each
-bird starts from the orbits of the bird before, and at some speeds also from its own stock wingbeat. Each orbit then
-serves as a start at the neighbouring speeds, until no orbit improves. {certified}
+For `paper`, one batch solves all problems. If a bird's power does not change smoothly with speed, its orbits are
+solved again, each starting from the results at the neighbouring speeds. For `animal`, the birds are solved in order
+of mass. Each bird starts from the orbits of the bird before, and at some speeds also from its own stock wingbeat.
+Each orbit then serves as a start at the neighbouring speeds, until no orbit improves.
+{certified}
 
 The orbits are the best found; better ones may exist. The tables behind this page are
 [alerstam.csv](../data/alerstam.csv) (all species) and [alerstam_points.csv](../data/alerstam_points.csv) (all
@@ -81,10 +83,10 @@ def head(found: list[Row], points: list[Point]) -> str:
     for model in _flown(found):
         own = [point for point in points if point.model == model]
         good = sum(math.isfinite(point.power) for point in own)
-        certified.append(f"by `{model}` {good} of {len(own)} ({good / len(own):.1%})")
-    text = f"Orbits were certified for these shares of the problems: {', '.join(certified)}."
+        certified.append(f"{good} of {len(own)} problems of `{model}` ({good / len(own):.1%})")
+    text = f"Certified orbits were found for {' and '.join(certified)}."
     if missing := [model for model in MODELS if not of_model(found, model)]:
-        text += f" Not flown yet: {', '.join(f'`{model}`' for model in missing)}."
+        text += f" No bird has been flown with {' or '.join(f'`{model}`' for model in missing)} yet."
     return HEAD.format(count=len(of_model(found, PAPER)), certified=text)
 
 
@@ -127,11 +129,11 @@ def _speed_line(label: str, *values: NDArray[np.float64]) -> str:
 def spread_table(moved: list[Moved]) -> str:
     """Return how the range of each derived number and guess changes the results."""
     head = (
-        "\n## Sensitivity to the derived numbers\n\nBy the model `paper`. Each number is changed alone, to "
-        "the low or high end of its plausible range. The ends for span retraction are 0 and 0.5; *body-drag* is "
-        "the species' alternative of that name. Each cell gives three changes in percent: of the minimum-power "
-        "speed / of the maximum-range speed / of the minimum power. A dash: power, or power over speed, has no "
-        "minimum within the speeds flown.\n\n"
+        "\n## Sensitivity to the derived numbers\n\nThese are results of the model `paper`. Each number is changed "
+        "alone, to the low or high end of its plausible range. The ends for span retraction are 0 and 0.5; "
+        "*body-drag* is the species' alternative of that name. Each cell gives three changes in percent: of the "
+        "minimum-power speed / of the maximum-range speed / of the minimum power. A dash means that power, or "
+        "power over speed, has no minimum within the speeds flown.\n\n"
     )
     birds = list(dict.fromkeys(row.species for row in moved))
     lines = ["| number | " + " | ".join(birds) + " |", "| --- " * (len(birds) + 1) + "|"]
@@ -173,7 +175,7 @@ def largest_differences(found: list[Row]) -> str:
             if not all(math.isfinite(getattr(row, name)) for name, _ in SPEEDS)
         ]
         if none:
-            rest += f"\nNo minimum within the speeds flown, by `{model}`: {', '.join(none)}.\n"
+            rest += f"\nNo minimum within the speeds flown, with `{model}`: {', '.join(none)}.\n"
     return "\n## Largest differences\n\nSpeeds in m/s.\n\n" + "\n".join(lines) + "\n" + rest
 
 
@@ -193,27 +195,25 @@ def failures(points: list[Point]) -> str:
 TAIL = """
 ## Conclusions
 
-Of the model `paper`:
+For the model `paper`:
 
-- Nothing was fitted. The model puts the species in the right order, but no better than wing loading alone does.
-  Both predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the
-  coefficients do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low
-  wing loading fly far faster than that. The model predicts the airspeed of a species no better than one speed
-  for all birds does.
+- Nothing was fitted. The model ranks the species by speed, but no better than wing loading alone does. Both
+  predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the coefficients
+  do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low wing loading fly far
+  faster than that. The model predicts the airspeed of a species no better than one speed for all birds does.
 - Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight
   outside that range therefore does not explain the differences by itself.
-- Two possible explanations are in the air loads; the model `animal` changes both:
-  - The model has no induced flow. It underestimates the power of slow flight, so both speeds are too low.
-  - A thick plate has high drag at small angles. The model overestimates the power of fast flight, and
-    this too makes both speeds too low.
-- We tested neither of these:
-  - Small birds fold their wings between bursts of flapping, which the models cannot do.
-  - Migrating birds may not choose their speed for power or range.
+- Two possible explanations are in the air loads, and the model `animal` changes both. First, the model `paper` has
+  no induced flow. It underestimates the power of slow flight, so both speeds are too low. Second, a thick plate has
+  high drag at small angles. The model overestimates the power of fast flight, and this too makes both speeds too
+  low.
+- We did not test two other explanations. Small birds fold their wings between bursts of flapping, which the models
+  cannot do. Migrating birds may not choose their speed for power or range.
 - The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
   the law but hardly confirms it: the law's exponents come from dimensional reasoning, which our model obeys too.
-- The model needs least power at about twice the frequency at which animals fly. In {leaning} of {count} orbits that
-  frequency is at its upper bound. With the measured flap amplitude of the alcids (auks), the frequency of
-  least power is even higher: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
+- The model's orbits of least power have about twice the frequency of live animals. In {leaning} of {count} of these
+  orbits the frequency is at its upper bound. With the measured flap amplitude of the alcids (auks), the frequency
+  of least power is even higher: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
   as such, but the energy that a muscle needs does.
 - The predicted power is several times the measured power. Do not take a power from this model for an animal's.
 - The uncertainty of the derived numbers does not explain the differences from measurement. In the table above,
@@ -223,7 +223,7 @@ Of the model `paper`:
 """
 
 BESIDE = """
-Of the model `animal`, beside `paper`:
+For the model `animal`, with the values of `paper` in brackets:
 
 - The median ratio of the maximum-range speed to the measured one is {range_animal:.2f} (`paper` {range_paper:.2f}),
   that of the minimum-power speed {power_animal:.2f} ({power_paper:.2f}). The predicted maximum-range speed rises

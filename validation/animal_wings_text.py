@@ -33,8 +33,9 @@ C_D = least + induced C_L^2 + low_rise ramp(low_onset - a, onset_rounding)
                             + high_rise ramp(a - high_onset, onset_rounding)
 ```"""
 SIDES = """
-Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is
-`lift_slope`). The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
+Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is `lift_slope`).
+The table counts the two onsets from the angle of zero lift: `low_onset` in the formula is `zero_lift_deg` plus
+`low_onset_deg`. The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
 at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from above. The formulas
 hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a quintic polynomial
 leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its ends. It is a
@@ -50,10 +51,10 @@ and has no feathers. We therefore take least drag and induced drag from the live
 """
 INTERVALS = """
 The intervals come from a bootstrap over wings, and for {live} from a bootstrap over flights and wings. The
-angle of zero lift is measured at the wing's mount. The prints are twisted, so the spread of this angle comes
-from their postures. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are not fitted. `drag_induced` is
-below that of an ideal wing, 0.053, because the wake of the jackdaw also contains the lift of its tail and
-body.
+angle of zero lift is counted from the wing's mount. The nine prints are twisted and have nine postures of elbow
+and wrist, so this angle differs from print to print. `lift_rounding` (0.15) and `onset_rounding_deg` (2) are
+not fitted. `drag_induced` is below that of an ideal wing, 0.053, because the wake of the jackdaw also contains
+the lift of its tail and body.
 """
 LEFT_OUT = """
 For each gull wing, the median of the other eight wings predicts its glide at its own aspect ratio. The drag
@@ -89,8 +90,8 @@ the measured ratio of its wings is about 15.
 REYNOLDS = """
 The gull wings were measured at two speeds, at Reynolds numbers of about 130 and 190 thousand. Between the
 two, drag from -4 to 12 degrees changes as Re to the power {mean:.2f} ± {error:.2f} (mean and standard error
-of nine wings, whose exponents range from {low:.2f} to {high:.2f}). This exponent does not differ from zero.
-In our models, least drag therefore does not depend on Reynolds number; each model states its range of
+of nine wings, whose exponents range from {low:.2f} to {high:.2f}). This exponent is not distinguishable from
+zero. In our models, least drag therefore does not depend on Reynolds number; each model states its range of
 Reynolds numbers instead.
 """
 STALL = """
@@ -110,11 +111,11 @@ GUESSES = (
     normal to the wing, as on revolving plates. The model uses their geometric mean. Use this model for hover
     and slow flight.""",
     """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so it
-    holds for slow and fast flight. That the two join in this way is a guess. It is not meant for glides, in which
-    wings stall earlier.""",
-    """- `membrane` is largely a guess, because we found no polar of a bat's wing that we could read. Only two
-    of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie 2007, doi
-    10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8 (Muijres et
-    al. 2008, doi 10.1126/science.1153019); no model here does.""",
+    holds for slow and fast flight. That the two join in this way is a guess. Do not use this model for glides,
+    in which wings stall earlier.""",
+    """- `membrane` is largely a guess, because we found no polar of a bat's wing in a source that we could
+    access. Only two of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie
+    2007, doi 10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8
+    (Muijres et al. 2008, doi 10.1126/science.1153019); no model here reaches that.""",
     "- Choose a model by the kind of wing, not by the flight that it gives.",
 )

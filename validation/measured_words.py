@@ -18,8 +18,8 @@ wings; their data are not part of this project:
 
 - 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds. The source's
   units are ambiguous; its numbers support our reading of them.
-- A live gliding jackdaw. The forces on its wings alone come from its wake (KleinHeerenbrink, Warfvinge and
-  Hedenstrom 2016, doi 10.1242/jeb.132480).
+- A live gliding jackdaw. The forces on its wings, without those on its body, were computed from its wake
+  (KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi 10.1242/jeb.132480).
 - Thin plates of small aspect ratio. We read their values by eye from a figure of Pelletier and Mueller 2000
   (J. Aircraft 37:825).
 
@@ -43,9 +43,11 @@ NOTES = f"""
 - For the drag of the jackdaw, the table uses a fitted parabola, C_D = a + b (C_L - c)^2. We do not use single
   measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's largest
   C_L is the largest in steady gliding; the bird did not stall.
-- *Centre* is -dC_M/dC_N below stall. For gulls it is measured in mean aerodynamic chords behind the shoulder, for
-  Su-Fan in chords behind the leading edge.
-- The two models are evaluated from 0 to 60 degrees. A dash means that a value was not measured.
+- *Centre* is the point at which the normal force due to a change of angle of attack acts: -dC_M/dC_N below stall.
+  For gulls it is measured in mean aerodynamic chords behind the shoulder, for Su-Fan in chords behind the leading
+  edge.
+- The coefficients of Su-Fan and Dickinson are evaluated from 0 to 60 degrees. A dash means that a value was not
+  measured.
 """
 
 
@@ -125,14 +127,15 @@ def _meaning(rows: list[Row]) -> list[str]:
         "plate is 8 mm thick, with a chord of 76 mm, and has no rounded leading edge.",
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
-        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings stall "
-        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift, or their data end there, at a mount angle of "
-        f"25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
+        f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' wings have their largest lift "
+        f"{min(turn):.0f} to {max(turn):.0f} degrees from zero lift. Their data end soon after, at a mount angle "
+        f"of 25 degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees "
         "these data cannot test the plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
-        f"({_slope_of(plate.slope):.1f} against {_between(lambda row: _slope_of(row.slope), gulls)} per rad) and "
-        f"above those of the thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; these have a smaller "
-        "aspect ratio). "
+        f"(plate {_slope_of(plate.slope):.1f} per rad, all gulls "
+        f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the "
+        f"thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; "
+        "these have a smaller aspect ratio). "
         f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
         "gulls, because of twist and camber, and at 0 for the plate.",
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
@@ -154,8 +157,8 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "",
         "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the form is",
         "not identified: an interval is wider than its own parameter, a parameter is at a bound of the fit, or",
-        "the fit is ill-conditioned. Do not use such a fit outside its range. Su-Fan's form is fitted only from 0",
-        "degrees up, where its exponential applies. The other three forms are fitted to the same",
+        "the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form is fitted",
+        "only from 0 degrees up, where its exponential applies. The other three forms are fitted to all",
         "measurements; of these three, the best by AICc (a corrected Akaike criterion) is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",

@@ -8,9 +8,9 @@ HEAD = """# A second opinion on the air loads
 
 `python validation/second_opinion.py` writes this page. It replays orbits in the unsteady ring vortex lattice of
 [PteraSoftware](https://github.com/camUrban/PteraSoftware) (here {code}) and compares the lattice's loads with
-ours **on the same motion**. At every step the corners of the lattice's wings are points of the wing that our strips
-form, and the body heaves, pitches and advances as in the orbit. The lattice's loads do not change this motion. To
-compare an orbit of your own:
+ours **on the same motion**. At every step the corners of the lattice's panels are points of the wing that our
+strips form, and the body heaves, pitches and advances as in the orbit. The lattice's loads do not change this
+motion. To compare an orbit of your own:
 
 ```sh
 uv run wingbeat orbit pigeon --speed 12 -o pigeon.nc
@@ -20,13 +20,14 @@ uv run --extra uvlm wingbeat compare pigeon.nc --with uvlm --plot lift.png
 Both codes give the force on the wings alone, in world axes (thrust forward, lift up), and the power that the wings
 give to still air: minus the force times the velocity of the wing. We evaluate our loads four times on the motion
 of the orbit: with the measured coefficients alone, with `--unsteady thin-aerofoil` (rotation, added mass), with
-`--inflow momentum`, and with both. The orbits have the lowest frequency with the Su-Fan coefficients alone.
+`--inflow momentum`, and with both. Each orbit is the one of lowest frequency, solved with the Su-Fan coefficients
+alone.
 
 ## The result
 
 {table}
 
-- *lift later*: the delay of the lattice's lift behind ours, as a fraction of the beat; a negative number means that
+- *lift delay*: the delay of the lattice's lift behind ours, as a fraction of the beat; a negative number means that
   the lattice's lift is earlier.
 - *rms / weight*: root mean square over the beat of the difference between the two lifts, divided by the weight.
 - *rms / lattice*: the same root mean square, divided by that of the lattice's lift.
@@ -78,7 +79,7 @@ a property of this lattice.
 wingbeat requires exactly PteraSoftware 5.0.0. PteraSoftware has no movement in which a wing flaps, pitches, twists,
 sweeps, folds and shortens while the body heaves and pitches. We therefore supply the panels of every step. For this
 we use its private class of panels, and we construct its wing and its movement ourselves. Another version may change
-these. Version 5.1.0 requires an older MuJoCo than our tests.
+these. Version 5.1.0 requires an older MuJoCo than our tests do.
 """
 
 
@@ -86,8 +87,8 @@ READING = """
 
 **In none of these flights does the lattice check the whole beat**: averaged over the beat, {0:.0%} to {1:.0%} of
 the strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the
-leading edge and no profile drag. For the same motion it has {2:.0%} to {3:.0%} of our power, and a large mean
-thrust where our model has none.
+leading edge and no profile drag. For the same motion its power is {2:.0%} to {3:.0%} of ours with the coefficients
+alone. Its mean thrust is large, while ours is about zero.
 
 **Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
 beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. They change the
@@ -135,7 +136,7 @@ def _name(case: tuple[str, float, float | None]) -> str:
 
 def _table(records: dict[tuple[str, float, float | None], dict[str, Any]]) -> str:
     lines = [
-        "| flight | beyond 15 deg | loads | lift [N] | thrust [N] | power [W] | lift later [beat] | rms / weight "
+        "| flight | beyond 15 deg | loads | lift [N] | thrust [N] | power [W] | lift delay [beat] | rms / weight "
         "| rms / lattice |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
@@ -192,8 +193,8 @@ def _reading(records: dict[tuple[str, float, float | None], dict[str, Any]]) -> 
         verb = "falls" if shares[1] < shares[0] else "rises"
         lags = [_lag(row["lift_lag"]) for row in (bare, turned)]
         lines.append(
-            f"- {_name(case)}: with rotation and added mass, the difference of lift {verb} from {shares[0]:.2f} to "
-            f"{shares[1]:.2f} of the lattice's lift. The lattice's lift is {lags[1]} than ours; "
+            f"- {_name(case)}: with rotation and added mass, *rms / lattice* {verb} from {shares[0]:.2f} to "
+            f"{shares[1]:.2f}. The lattice's lift is {lags[1]} than ours; "
             f"without these terms it is {lags[0]}."
         )
     power = [record["aerodynamic_power"]["ratio"] for record in records.values()]

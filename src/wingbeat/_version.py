@@ -3,9 +3,9 @@
 __version__ = "0.1.0"
 
 NUMERICAL_VERSION = 8
-"""The version of the numbers that this package computes; it is part of the key of every point of a study.
+"""The version of the numbers that this package computes. The key of every point of a study contains it.
 
-Raise it by one whenever the numbers of any record may change by more than rounding, because equations, defaults,
-solver, certificate or the meaning of a number in the record changed. Studies then refuse stores of other versions.
-A test compares a few records with committed digits; it fails if they changed.
+Raise it by one whenever a change may alter the numbers of any record by more than rounding: a change of equations,
+defaults, solver or certificate, or of the meaning of a number in the record. Studies then refuse stores of other
+versions. A test compares a few records with stored digits; it fails if they have changed.
 """

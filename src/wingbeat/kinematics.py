@@ -107,7 +107,7 @@ class Wingbeat:
         faults.number("wingbeat.fold_amplitude", self.fold_amplitude, unit="rad")
         faults.number("wingbeat.wrist", self.wrist, at_least=0, at_most=1, fix="a fraction of the span")
         faults.number("wingbeat.pitch_phase", self.pitch_phase, unit="rad")
-        even = "0.5 makes it as long as the upstroke"
+        even = "0.5 makes downstroke and upstroke equally long"
         faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
         faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
         faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
@@ -123,17 +123,19 @@ class Wingbeat:
         mean = faults.number("wingbeat.sweep_mean", self.sweep_mean, unit="rad")
         swing = faults.number("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0, unit="rad")
         if mean and swing and abs(self.sweep_mean) + self.sweep_amplitude >= 0.5 * math.pi:
-            rule = "must stay below a right angle when sweep_mean is added"
-            faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "in rad")
+            rule = "|sweep_mean| plus sweep_amplitude must stay below a right angle"
+            faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "give both in rad")
 
     def _check_harmonics(self, faults: FaultList) -> bool:
         """Note harmonics that are not lists of pairs; return whether all are lists of numbers."""
         sound = True
         for law, first in FIRST_ORDER.items():
             where, given = f"wingbeat.{law}_harmonics", getattr(self, f"{law}_harmonics")
-            rule = f"must be cosine and sine of order {first}, of order {first + 1} and so on up to {HIGHEST_ORDER}"
+            rule = (
+                f"must be cosine and sine of order {first}, then of order {first + 1}, up to order {HIGHEST_ORDER}"
+            )
             if not isinstance(given, list | tuple):
-                faults.add(where, given, rule, "a list of numbers; [] for none")
+                faults.add(where, given, rule, "give a list of numbers, or [] for no harmonics")
                 sound = False
                 continue
             object.__setattr__(self, where.removeprefix("wingbeat."), tuple(given))
@@ -150,11 +152,11 @@ class Wingbeat:
             least = float((1.0 - retraction * 0.5 * (1.0 - np.sin(turn)) + self._waves(law, turn)).min())
             if harmonics and least <= 0:
                 rule = f"makes the {law} vanish: its minimum is {least:.2g} of the full {law}"
-                faults.add(f"wingbeat.{law}_harmonics", harmonics, rule, "make them smaller")
+                faults.add(f"wingbeat.{law}_harmonics", harmonics, rule, "make the harmonics smaller")
         swing = self.sweep_amplitude * np.sin(turn + self.sweep_phase) + self._waves("sweep", turn)
         if self.sweep_harmonics and np.abs(self.sweep_mean + swing).max() >= 0.5 * math.pi:
             rule = "must keep the sweep below a right angle"
-            faults.add("wingbeat.sweep_harmonics", self.sweep_harmonics, rule, "make them smaller")
+            faults.add("wingbeat.sweep_harmonics", self.sweep_harmonics, rule, "make the harmonics smaller")
 
     def _waves(self, law: str, turn: np.ndarray) -> np.ndarray:
         pairs = np.reshape(getattr(self, f"{law}_harmonics"), (-1, 2))

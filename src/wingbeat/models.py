@@ -30,13 +30,13 @@ _WINGS = {
         "feathered-flapping",
         "a feathered wing: attached flow as in a glide, stall as late as on revolving wings",
     ),
-    "bat": ("membrane", "a membrane wing: a thin plate with the camber of bats; mostly guesses"),
+    "bat": ("membrane", "a membrane wing: a thin plate with the camber of a bat's wing; mostly guesses"),
     "robot": ("su-fan", "a rigid wing: the flat plate measured by Su et al. 2023"),
 }
 # Free beyond what the species file frees: bounds [rad, 1] and their reasons.
 _FREE = {
     "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: no measured range of a tail's tilt was found"),
-    "downstroke_fraction": ((0.4, 0.6), "guess: measured birds and bats change it with speed, around a half"),
+    "downstroke_fraction": ((0.4, 0.6), "guess: in measured birds and bats it is near 0.5 and changes with speed"),
 }
 
 
@@ -159,7 +159,7 @@ class Model:
             Choice("unsteady terms", aero.unsteady, "rotation and added mass: wings turn within a beat"),
             Choice(
                 "inflow",
-                f"{aero.inflow}, {aero.induced_factor:g} times that of an ideal disc",
+                f"{aero.inflow}, {aero.induced_factor:g} times the induced power of an ideal disc",
                 "the factor 1.2 fits a cockatiel's power (Morris and Askew 2010, J Exp Biol 213:2781, abstract)",
             ),
             Choice("body drag area", f"{1e4 * body.drag_area:.2g} cm2", numbers["vehicle.body.drag_area"].source),
@@ -243,10 +243,10 @@ def _check_kind(species: Species, kind: str) -> None:
     faults = FaultList()
     if species.kind not in _WINGS:
         fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
-        faults.add("kind", species.kind, "the model animal is only for a bird, a bat or a robot", fix)
+        faults.add("kind", species.kind, 'the model "animal" is only for a bird, a bat or a robot', fix)
     elif species.kind != kind:
         faults.add(
-            "species", species.name, f"is a {species.kind}, not a {kind}", "use wb.models.animal of this species"
+            "species", species.name, f"is a {species.kind}, not a {kind}", "call wb.models.animal with this species"
         )
     faults.raise_if_any()
 

@@ -77,7 +77,7 @@ class Wing:
         faults.raise_if_any()
 
     def _check_chord(self, faults: FaultList) -> None:
-        fix = "give one number or at least two stations from root to tip"
+        fix = "give one chord, or the chords at two or more stations from root to tip"
         if not isinstance(self.chord, list | tuple):
             faults.number("wing.chord", self.chord, above=0, unit="m", fix=fix)
             return
@@ -137,7 +137,7 @@ class Tail:
         faults = FaultList()
         faults.number("tail.area", self.area, above=0, unit="m2", fix="leave the tail out if there is none")
         faults.number("tail.arm", self.arm, unit="m")
-        fix = "pi/2 times the aspect ratio of a slender tail"
+        fix = "for a slender tail, give pi/2 times its aspect ratio"
         faults.number("tail.lift_slope", self.lift_slope, above=0, unit="1/rad", fix=fix)
         faults.number("tail.drag_coefficient", self.drag_coefficient, at_least=0)
         faults.number("tail.height", self.height, unit="m")

@@ -14,7 +14,7 @@ import pytest
 from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
-NOT_KEPT = "warning: compiled programs are not kept, so every start takes longer: "
+NOT_KEPT = "warning: compiled programs are not kept ("
 
 
 # Traces and compiles a little, twice, the second time without what the process itself remembers.
@@ -121,7 +121,9 @@ def test_what_another_user_planted_is_not_read(first: tuple[Path, str], tmp_path
     before = contents(place)
     told = little(tmp_path)
     assert told[0] == out
-    assert told[1].startswith(f"{NOT_KEPT}{str(place)!r} belongs to another user; set WINGBEAT_CACHE to")
+    assert told[1].startswith(
+        f"{NOT_KEPT}{str(place)!r} belongs to another user), so every start takes longer; set "
+    )
     assert contents(place) == before
 
 

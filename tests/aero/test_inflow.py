@@ -148,7 +148,8 @@ def test_a_descent_into_its_own_wake_is_refused(speed, climb):
         wb.OrbitProblem(PIGEON, speed=speed, climb=climb, aero=MOMENTUM)
     (fault,) = refused.value.faults
     assert (fault.where, fault.value) == ("climb", climb)
-    assert fault.rule.startswith("descends into its own wake (vortex ring): below 2.5 m/s forward")
+    assert fault.rule.startswith("is a descent into the wings' own wake (vortex ring)")
+    assert "only below 2.5 m/s forward" in fault.rule
     assert "between 0 and 5 m/s down" in fault.rule
     assert "fly faster" in fault.fix
     with pytest.raises(wb.InvalidInputError, match="vortex ring"):

@@ -166,10 +166,10 @@ FAULTS = [
         HEADER + GOOD.replace("60", "20"),
         "row 4, column alpha_deg = 20.0: must be above the 30 before it; sort",
     ),
-    (HEADER + GOOD.replace("90", "190"), "row 5, column alpha_deg = 190.0: must lie in -180 to 180 degrees"),
+    (HEADER + GOOD.replace("90", "190"), "row 5, column alpha_deg = 190.0: must lie between -180 and 180 degrees"),
     (HEADER + GOOD.replace("1.5", "-1.5"), "row 4, column c_d = -1.5: must be >= 0"),
-    (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: has fewer than 4 rows"),
-    (HEADER, "rows = 0: has fewer than 4 rows"),
+    (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: must be at least 4 for a cubic spline"),
+    (HEADER, "rows = 0: must be at least 4 for a cubic spline"),
     (
         HEADER + GOOD.replace("90", "80"),
         "row 5, column alpha_deg = 80.0: the table must reach at least 90 degrees",

@@ -94,7 +94,7 @@ BOMB = base64.urlsafe_b64encode(zlib.compress(b"a" * 50_000_000, 9)).decode().rs
         ("speed=1e999", "must be a number"),
         ("speed=101", "must be >= 0 and <= 100 m/s"),
         ("speed=1&speed=2", "is given twice"),
-        ("sped=1", "is not part of a link; known are"),
+        ("sped=1", "is not part of a link; the parts of a link are"),
         ("species=dodo", "is not a known choice"),
         ("starts=1.5", "must be a whole number"),
         ("starts=1000", "must be a whole number from 1 to 100"),

@@ -7,7 +7,7 @@ def test_bounds_free_the_tilt_of_the_tail_and_empty_fields_hold_it(visit):
     page = visit()
     solved(page, "pigeon")
     page.locator("summary", has_text="Tail").first.click()
-    page.get_by_role("button", name="Add a bird's tail of this mass").click()
+    page.get_by_role("button", name="Add the tail of a bird of this mass").click()
     asks_for(page, "set=vehicle.tail.area")
     pair = page.get_by_role("group", name="Bounds of tail tilt")
     lowest, highest = pair.get_by_role("textbox").all()

@@ -66,7 +66,7 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     page.locator("input[type=file]").set_input_files(path)
     trouble = page.locator(".trouble li")
     trouble.first.wait_for()
-    assert "vehicle.wing.mass: must be a number; take it out of the quotes" in trouble.first.inner_text()
+    assert "vehicle.wing.mass: must be a number; write the number without quotes" in trouble.first.inner_text()
     path.write_text(
         (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text().replace('"pigeon"', '"<b>x</b>"', 1)
     )
@@ -94,7 +94,7 @@ def test_faults_are_told_beside_their_control(visit):
     enter(page, "semi span [m]", "0.4")
     page.locator(".odd .hint", has_text="Outside: plausible 0.25 to 0.335; changed from 0.279").wait_for()
     enter(page, "Within limits", "x" * 70_000)
-    page.locator(".fault", has_text="has 70000 characters; it may have at most 5000").wait_for()
+    page.locator(".fault", has_text="has 70000 characters; at most 5000 are allowed").wait_for()
 
 
 def test_what_is_typed_and_chosen_stays_while_answers_come(visit):

@@ -124,8 +124,8 @@ def test_arrays_that_would_unpack_to_a_flood_are_refused_before_they_are_read(al
         (lambda f: f["alpha"].__setitem__((0, 0), np.nan), "alpha holds values that are not numbers"),
         (lambda f: f.attrs.__delitem__("inputs"), "damaged"),
         (lambda f: f.attrs.__setitem__("wingbeat", '{"frequency": "<b>"}'), "damaged"),
-        (lambda f: f.attrs.__setitem__("wingbeat_kind", "cake"), "it is cake"),
-        (lambda f: f.__delitem__("strip_corner"), "without the corners of its strips"),
+        (lambda f: f.attrs.__setitem__("wingbeat_kind", "cake"), "it is of kind 'cake'"),
+        (lambda f: f.__delitem__("strip_corner"), "does not hold the corners of the strips"),
         (lambda f: f.attrs.__setitem__("message", "x" * 30_000 + "y" * 30_000), None),
     ],
 )

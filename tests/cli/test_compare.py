@@ -40,7 +40,7 @@ def test_table_record_and_figure(standin, file, tmp_path, capsys):
     ("words", "reason"),
     [
         (["--with", "panels"], "--with = 'panels': is not a known choice; use one of uvlm"),
-        (["--steps", "17"], "steps = 17: must be even; a lattice with half as many is flown too"),
+        (["--steps", "17"], "steps = 17: must be even; a second lattice, with half this number, is flown too"),
         (["--beats", "1.5"], '"1.5" is not a whole number'),
         (["--plot", "lift.txt"], "--plot = 'lift.txt'"),
     ],
@@ -61,7 +61,8 @@ def test_a_flight_is_no_orbit(pigeon_orbit, tmp_path, capsys):
     flight = wb.simulate(pigeon_orbit.model, pigeon_orbit.wingbeat, pigeon_orbit.orbit.initial_state)
     flight.save(tmp_path / "flight.nc")
     assert main(["compare", str(tmp_path / "flight.nc")]) == 2
-    assert "as an orbit: it is flight; give a file that `wingbeat orbit -o` wrote" in capsys.readouterr().err
+    words = "as an orbit: it is of kind 'flight'; give a file that `wingbeat orbit -o` wrote"
+    assert words in capsys.readouterr().err
 
 
 def test_a_missing_extra_is_named(file, capsys, monkeypatch):

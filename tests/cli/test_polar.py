@@ -112,7 +112,7 @@ def test_table_is_readable(capsys):
     assert "cited second-hand" in text
     assert "alpha [deg]" in text
     assert "x_cp [chords]" in text
-    assert re.search(r"45 │ +1\.2000 │ 1\.4000 │ 1\.8385 │ +- │ +- ", text)
+    assert re.search(r"45 │ +1\.2000 │ +1\.4000 │ +1\.8385 │ +- │ +- ", text)
 
 
 def test_a_table_file_can_be_shown(tmp_path, capsys):

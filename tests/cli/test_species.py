@@ -178,7 +178,7 @@ def test_the_list(run: Any) -> None:
     assert [word in rows["pigeon"] for word in ("316", "279", "112", "7.5e+04", "2.7 to 6.7")] == [True] * 5
     assert [word in rows["bat"] for word in ("68", "300", "100", "6.7e+04", "3.0 to 7.5")] == [True] * 5
     warning = " ".join(out.partition("warning: ")[2].split())
-    assert "these are outside Su et al.'s Reynolds numbers, 2e4 to 5e4: " in warning
+    assert "outside Su et al.'s Reynolds numbers (2e4 to 5e4) at 10 m/s: " in warning
     assert "pigeon" in warning
     assert "noctule" not in warning
 

@@ -164,7 +164,7 @@ def test_tables_that_cannot_decide_it_are_refused(case):
 
 
 def test_a_bad_aspect_ratio_is_refused():
-    with pytest.raises(InvalidInputError, match="aspect_ratio = -1: must be > 0; span over mean chord"):
+    with pytest.raises(InvalidInputError, match="aspect_ratio = -1: must be > 0; give span over mean chord"):
         fit_wing(polar(), "cambered", aspect_ratio=-1)
 
 

@@ -182,11 +182,14 @@ def test_radians_are_suspected(tmp_path):
         ),
         ("phase,time,flap_deg\n0,0,1\n", ["one of phase and time", "frequency"]),
         ("time,flap_deg\n0,1\n", ["frequency", "is missing"]),
-        ("# frequency = fast\ntime,flap_deg [rad]\n0,1\n", ["row 1, frequency", "one number", "is not the unit"]),
+        (
+            "# frequency = fast\ntime,flap_deg [rad]\n0,1\n",
+            ["row 1, frequency", "one number", "is not the expected unit"],
+        ),
         ("# frequency = -5\ntime,flap_deg\n0,1\n", ["row 1, frequency", "must be > 0"]),
         ("phase,flap_deg\n" + "\n".join(f"{t},{f}" for t, f in rows(6)), ["at least 8"]),
         ("phase,flap_deg\n" + "\n".join(f"{t / 2},{f}" for t, f in rows()), ["no frame from phase 0.47 to 0.00"]),
-        ("phase,flap_deg\n" + "\n".join(f"{t},{9 * f}" for t, f in rows()), ["-180 to 180"]),
+        ("phase,flap_deg\n" + "\n".join(f"{t},{9 * f}" for t, f in rows()), ["between -180 and 180"]),
         (
             "phase,span_fraction\n" + "\n".join(f"{t},{90 + f / 10}" for t, f in rows()),
             ["not a fraction of the semi-span"],

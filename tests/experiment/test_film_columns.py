@@ -118,7 +118,7 @@ def test_a_stroke_plane_that_varies_is_said_to():
     assert still.notes == ()
     swinging = fit_film(Film("swings", phase, {"stroke_plane_deg": 80.0 + 3 * np.cos(2 * math.pi * phase) + noise}))
     (note,) = swinging.notes
-    assert "its mean is used" in note
+    assert "the mean angle is used" in note
     assert any(note in line for line in film_lines(swinging))
 
 
@@ -141,7 +141,7 @@ def test_faults_of_the_new_columns(tmp_path, text, faults):
 
 def test_an_area_of_another_wing_is_refused():
     small = Film("small", np.arange(20) / 20, {"area_fraction": np.full(20, 0.3)})
-    with pytest.raises(wb.InvalidInputError, match="mean of area over span"):
+    with pytest.raises(wb.InvalidInputError, match="mean ratio of area fraction to span fraction"):
         filmed_species(fit_film(small), PIGEON)
 
 

@@ -204,7 +204,7 @@ def test_arguments_are_checked(fit):
         fit.lift.interval(95)
     with pytest.raises(InvalidInputError, match="are not those of the fit"):
         fit.lift.covers({"a": 1.0})
-    with pytest.raises(InvalidInputError, match="does not take the parameters of start"):
+    with pytest.raises(InvalidInputError, match="does not take the parameters named in start"):
         CurveForm("f", lambda a, m: m * a, {"k": 1.0})
     with pytest.raises(InvalidInputError, match="gives no finite numbers at its starting values"):
         fit_curve(ALPHA, ALPHA, CurveForm("m/0", lambda a, m: np.full_like(a, np.inf), {"m": 1.0}))
@@ -237,7 +237,7 @@ def test_a_covariance_that_is_none_is_refused(model):
     cells = lines[row].strip(" [],").split(", ")
     lines[row] = f"  [-{cells[0]}, {', '.join(cells[1:])}],"
     model.write_text("\n".join(lines))
-    with pytest.raises(InvalidInputError, match="is not symmetric with variances >= 0"):
+    with pytest.raises(InvalidInputError, match="must be symmetric and positive semidefinite"):
         load_coefficients(model)
 
 

@@ -113,7 +113,7 @@ def test_a_window_that_still_moves_is_told():
     random = np.random.default_rng(7)
     noise = random.normal(size=len(late.time)) * 0.01
     late = dataclasses.replace(late, normal_force=1.0 + 2 * np.exp(-late.time / 8) + noise)
-    assert "C_L, C_D still moves within the window" in reduce_runs([late]).notes[0]
+    assert "still drifting within the window: C_L, C_D;" in reduce_runs([late]).notes[0]
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_a_window_that_still_moves_is_told():
         ({"speed": -1.0}, 20, "run, speed = -1.0: must be > 0 m/s"),
         ({"density": math.nan}, 20, "run, density = nan: must be finite"),
         ({"channel_width": 0.0}, 20, "channel_width = 0.0: must be > 0 m"),
-        ({"alpha_deg": 200.0}, 20, "alpha_deg = 200.0: must lie in -180 to 180 degrees"),
+        ({"alpha_deg": 200.0}, 20, "alpha_deg = 200.0: must lie between -180 and 180 degrees"),
         ({"seconds": 1.0}, 1, "must hold at least 32 samples; record longer"),
         ({"tare": ((0, 1),)}, 20, "tare = .*must be three pairs of finite numbers"),
         ({}, 0.0, "last = 0.0: must be > 0 s"),
@@ -141,7 +141,7 @@ def test_series_are_checked():
     turning = np.linspace(0, 40, len(good.time))
     with pytest.raises(InvalidInputError, match="but a run has one angle; write one file for each angle"):
         dataclasses.replace(good, alpha_deg=turning)
-    with pytest.raises(InvalidInputError, match=r"run, time\[1\] = 0.0: must be above the 0 s before it"):
+    with pytest.raises(InvalidInputError, match=r"run, time\[1\] = 0.0: must be above the time before it, 0 s"):
         dataclasses.replace(good, time=np.zeros_like(good.time))
     with pytest.raises(InvalidInputError, match=r"run, moment\[3\] = nan: must be finite"):
         dataclasses.replace(good, moment=np.where(np.arange(len(good.time)) == 3, np.nan, 0.0))

@@ -87,8 +87,8 @@ FAULTS = {
     "enormous": ("case.toml", TOML.replace("speed = 4.0", f"speed = {10**400}"), "speed", "must be finite"),
     "switch": ("case.toml", TOML.replace("mirrored = true", "mirrored = 1"), "mirrored", "must be true or false"),
     "wing": ("case.toml", TOML.replace("rigid", "scaly"), "case.toml, wing", "is not a known choice"),
-    "both": ("case.toml", TOML + "mean_force = [0.0, 1.0]\n", "case.toml, forces", "must have one of"),
-    "neither": ("case.toml", re.sub("forces = .*\n", "", TOML), "case.toml, forces", "must have one of"),
+    "both": ("case.toml", TOML + "mean_force = [0.0, 1.0]\n", "case.toml, forces", "exactly one of forces"),
+    "neither": ("case.toml", re.sub("forces = .*\n", "", TOML), "case.toml, forces", "exactly one of forces"),
     "mean": ("case.toml", TOML.replace('forces = "forces.csv"', "mean_force = [1.0]"), "mean_force", "two numbers"),
     "no file": ("case.toml", TOML.replace("strips.csv", "none.csv"), "case.toml, strips", "no such file"),
     "file number": (
@@ -115,8 +115,8 @@ FAULTS = {
     ),
     "half a velocity": ("strips.csv", STRIPS.replace(",vy_m_s", ",wy_m_s"), "column vy_m_s", "missing"),
     "twice": ("strips.csv", STRIPS.replace("y_m,z_m,chord", "y_m,y_m,chord"), "column 5", "appears twice"),
-    "order": ("strips.csv", swapped(STRIPS, 1, 10), "strips.csv row", "does not rise"),
-    "same time": ("strips.csv", STRIPS + STRIPS.splitlines()[-1], "strips.csv row 74", "does not rise"),
+    "order": ("strips.csv", swapped(STRIPS, 1, 10), "strips.csv row", "is not later than"),
+    "same time": ("strips.csv", STRIPS + STRIPS.splitlines()[-1], "strips.csv row 74", "is not later than"),
     "vanishes": ("strips.csv", without(STRIPS, 10), "strips.csv, strip 0", "has no row at"),
     "vanish": ("strips.csv", without(STRIPS, *range(10, 40, 3)), "strips.csv", "are missing in total"),
     "cell": ("strips.csv", with_cell(STRIPS, 7, "z_m", "high"), "strips.csv row 8, column z_m", "is not a number"),
@@ -131,11 +131,11 @@ FAULTS = {
     "strip": ("strips.csv", with_cell(STRIPS, 7, "strip", "1.5"), "row 8, column strip", "whole number"),
     "empty": ("strips.csv", "", "strips.csv row 1", "holds no table"),
     "head": ("strips.csv", STRIPS.splitlines()[0], "strips.csv", "holds no strips"),
-    "shorter": ("forces.csv", without(FORCES, 24), "forces.csv, column time_s", "must be equal to the 24 times"),
-    "half": ("forces.csv", without(FORCES, *range(1, 25, 2)), "forces.csv", "must be equal to the 24 times"),
-    "longer": ("forces.csv", FORCES + "9,1,1,0.1\n", "forces.csv", "must be equal to the 24 times"),
-    "other times": ("forces.csv", with_cell(FORCES, 7, "time_s", "0.0321"), "forces.csv", "there is none"),
-    "force order": ("forces.csv", swapped(FORCES, 3, 4), "forces.csv row 5", "does not rise"),
+    "shorter": ("forces.csv", without(FORCES, 24), "forces.csv, column time_s", "must be the same as the 24 times"),
+    "half": ("forces.csv", without(FORCES, *range(1, 25, 2)), "forces.csv", "must be the same as the 24 times"),
+    "longer": ("forces.csv", FORCES + "9,1,1,0.1\n", "forces.csv", "must be the same as the 24 times"),
+    "other times": ("forces.csv", with_cell(FORCES, 7, "time_s", "0.0321"), "forces.csv", "no row is at"),
+    "force order": ("forces.csv", swapped(FORCES, 3, 4), "forces.csv row 5", "is not later than"),
     "no force": (
         "forces.csv",
         FORCES.replace("fz_n,fx_n,fz_n_se", "fz_n_se,fx_n_se,fx_se"),
@@ -174,7 +174,7 @@ def test_zero_chords_are_listed_with_their_rows(tmp_path):
         text = with_cell(text, 5, column, "0")
     path = write_case(CASE, tmp_path / "case")
     (path.parent / "strips.csv").write_text(text)
-    with pytest.raises(InvalidInputError, match=r"strips\.csv row 6, column chord = 0.0: is the length"):
+    with pytest.raises(InvalidInputError, match=r"strips\.csv row 6, column chord = 0.0: the length"):
         read_strip_case(path)
     flat[1, 1] = 0.0
     with pytest.raises(InvalidInputError, match=r"chord\[1, 1\]"):
@@ -206,7 +206,7 @@ def test_files_that_are_none(tmp_path):
         ({"area": CASE.area[:, :2]}, "must have the shape"),
         ({"position": CASE.position[:, :, :2]}, "position"),
         ({"velocity": np.full_like(CASE.position, np.nan)}, "must be finite"),
-        ({"forces": {"fz": CASE.times[:-1]}, "errors": {}}, "as times"),
+        ({"forces": {"fz": CASE.times[:-1]}, "errors": {}}, "same shape as times"),
         ({"forces": {"fy": CASE.times}, "errors": {}}, "is not a force"),
         ({"forces": {"fx": CASE.times}}, "is not a force"),
         ({"errors": {"fz": -CASE.times - 1.0}}, "standard errors"),

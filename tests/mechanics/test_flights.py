@@ -118,7 +118,7 @@ def test_a_saved_flight_reads_back(tmp_path):
     flight = wb.simulate(model, beat, wb.State(u=10.0), beats=2, samples=SAMPLES)
     flight.save(tmp_path / "flight.nc")
     xr.testing.assert_identical(xr.load_dataset(tmp_path / "flight.nc", engine="h5netcdf"), flight.dataset)
-    with pytest.raises(wb.FileError, match="as an orbit: it is flight"):
+    with pytest.raises(wb.FileError, match="as an orbit: it is of kind 'flight'"):
         wb.load_orbit(tmp_path / "flight.nc")
 
 

@@ -159,7 +159,7 @@ def test_where_nothing_glides_ahead_it_says_so(capsys, tmp_path):
     record = json.loads(capsys.readouterr().out)
     assert record["speed"] == [None] * 3
     assert record["least_sink"] is None
-    assert "3 angles of attack have no steady forward glide" in record["warnings"]
+    assert "there is no steady forward glide at 3 angles of attack" in record["warnings"]
 
 
 @pytest.mark.parametrize(
@@ -173,7 +173,7 @@ def test_where_nothing_glides_ahead_it_says_so(capsys, tmp_path):
         ("--set air.gravity=0", "air.gravity = 0.0: must be > 0 m/s2; nothing glides without weight"),
         ("--payload nan", "payload = nan: must be finite"),
         ("--plot glide.txt", "is not a figure format"),
-        ("--plot glide.png -o glide.png", "is the file of --output too"),
+        ("--plot glide.png -o glide.png", "is also the file of --output"),
         ("--strips 0", "aero.strips = 0"),
     ],
 )

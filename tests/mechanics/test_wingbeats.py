@@ -205,7 +205,7 @@ def test_a_stroke_plane_is_free_only_where_it_matters():
         "free": (*pigeon.free, "stroke_plane_tilt"),
         "bounds": {"stroke_plane_tilt": (-0.5, 0.5)},
     }
-    with pytest.raises(wb.InvalidInputError, match="nothing but the body's pitch"):
+    with pytest.raises(wb.InvalidInputError, match="changes only the body's pitch"):
         wb.OrbitProblem(pigeon, **asked)
     assert "stroke_plane_tilt" in wb.OrbitProblem(pigeon.with_alternative("shoulder"), **asked).free
 
@@ -232,7 +232,7 @@ def test_tilting_the_stroke_plane_is_turning_the_wing():
         ({"sweep_amplitude": -0.1}, "must be >= 0"),
         ({"flap_harmonics": (0.1,)}, "pairs"),
         ({"flap_harmonics": 0.1}, "a list of numbers"),
-        ({"pitch_harmonics": (0.01,) * 16}, "up to 8"),
+        ({"pitch_harmonics": (0.01,) * 16}, "up to order 8"),
         ({"pitch_harmonics": (0.01, "x")}, "must be a number"),
         ({"span_harmonics": (0.0, 0.9)}, "makes the span vanish"),
         ({"chord_harmonics": (0.0, 1.1)}, "makes the chord vanish"),

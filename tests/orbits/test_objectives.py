@@ -211,7 +211,7 @@ def test_functions_of_ones_own(free):
     [
         (lambda beat: beat.power, "fails: AttributeError"),
         (lambda beat: float(beat.u[0]), "fails: ConcretizationTypeError"),
-        (lambda beat: beat.alpha.T, "one value or row for each phase"),
+        (lambda beat: beat.alpha.T, "for each phase a number or a row of numbers"),
         (lambda beat: "much", "fails: TypeError"),
     ],
 )
@@ -235,7 +235,7 @@ def test_a_function_that_gives_no_number_is_named():
         ("peak_power<=1.2.3", "must be a quantity"),
         ("frequency=1.2.3", "must be a quantity"),
         ("power_cost(1.2.3)<=3", "not known to wingbeat"),
-        ("peak_power<=30 deg", "which is in W"),
+        ("peak_power<=30 deg", "its unit is W"),
         ("<=30", "must be a quantity"),
     ],
 )

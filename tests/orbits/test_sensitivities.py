@@ -288,7 +288,7 @@ def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
     wrong = Comparison(bar, 7.4, 2.3, 0.1, 0.06, 148, 200)
     _print(wrong, Console())
     told = capsys.readouterr().out
-    assert "first order is a ranking only" in told
+    assert "first order (ranking only)" in told
     assert "largest shares of the variance: wing.shoulder.x (89%), wing.mass (11%)" in told
     assert "17" not in told
     assert "7.4 +- 2.3 Hz" in told

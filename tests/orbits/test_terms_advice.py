@@ -62,7 +62,7 @@ def test_a_try_that_the_inflow_refuses_does_not_end_the_others(monkeypatch):
     )
     monkeypatch.setattr(relaxed_problem, "is_closed", lambda *_: False)
     sinking = Change("climb", "=", 0.0, -6.0, 1.0, (1.5, 5.0))
-    with pytest.raises(wb.InvalidInputError, match="descends into its own wake"):
+    with pytest.raises(wb.InvalidInputError, match="is a descent into the wings' own wake"):
         with_change(problem, "climb", "=", sinking.moved(1.5))
     assert least_change(problem, sinking, problem.unknowns().lower, DEFAULTS) is None
     assert set(flown) == {-5.0}

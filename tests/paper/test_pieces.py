@@ -122,7 +122,7 @@ def test_pieces_of_two_machines_are_put_together(whole, tmp_path, capsys):
     assert main([*SAMPLE, "--only", "2", "-o", str(tmp_path)]) == 0
     assert "1 of 2 pieces are done; the page covers these" in " ".join(capsys.readouterr().err.split())
     page = (tmp_path / "assumptions.md").read_text()
-    assert "--piece 2`, of which 1 of 2 pieces are done (numerical" in page
+    assert "s per set. So far, 1 of 2 pieces are done." in page
     assert "Here we use 1 sets of assumptions" in page
     assert "s per set." in page
     last = (whole / "assumptions.csv").read_text().splitlines()

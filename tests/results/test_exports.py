@@ -156,7 +156,8 @@ def test_names_fit_into_matlab(result, tmp_path):
 
 @pytest.mark.parametrize("name", ["result.txt", "result", "result.csv.gz", "result.nc4", ".nc"])
 def test_another_suffix_is_refused_in_python(result, tmp_path, name):
-    with pytest.raises(wb.InvalidInputError, match=r"not a format for results.* end it in \.nc .*\.csv or \.mat"):
+    words = r"does not end in a suffix for results.* end the name in \.nc .*\.csv or \.mat"
+    with pytest.raises(wb.InvalidInputError, match=words):
         result[1].save(tmp_path / name)
     assert not list(tmp_path.iterdir())
 
@@ -168,7 +169,7 @@ def test_another_suffix_is_refused_before_anything_is_computed(words, tmp_path, 
     monkeypatch.setattr("wingbeat.aero.FormulaCoefficients.kernel", lambda _: pytest.fail("it computes"))
     monkeypatch.chdir(tmp_path)
     assert main([*words.split(), "-o", "out.xlsx"]) == 2
-    assert "--output = 'out.xlsx': is not a format for results" in capsys.readouterr().err
+    assert "--output = 'out.xlsx': does not end in a suffix for results" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

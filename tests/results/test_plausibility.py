@@ -142,7 +142,7 @@ def test_every_species_has_ranges_with_sources_that_survive_writing(tmp_path: An
     [
         (
             "strouhal = { low = 0.4, high = 0.2 }",
-            "plausible.strouhal = [0.4, 0.2]: has its low end above its high one",
+            "plausible.strouhal = [0.4, 0.2]: has a low end above its high end",
         ),
         ("strouhal = { high = 0.2, unit = 'deg' }", "plausible.strouhal.unit = 'deg': must be '1'"),
         ("strouhl = { high = 0.2 }", "did you mean strouhal?"),
@@ -197,7 +197,7 @@ def test_ranges_become_bounds_and_limits_that_follow_the_speed() -> None:
     [
         (["--flap-amplitude-max", "10"], "bounds.flap_amplitude"),
         (["--subject-to", "flap_amplitude=70 deg"], "wingbeat.flap_amplitude = 1.2217"),
-        (["--speed", "40"], "gives a Reynolds number of 2.67e+05, outside the plausible at most 1.2e+05"),
+        (["--speed", "40"], "gives a Reynolds number of 2.67e+05, outside the plausible range (at most 1.2e+05)"),
     ],
 )
 def test_what_leaves_nothing_plausible_is_refused(words: list[str], said: str, capsys: Any) -> None:
@@ -211,7 +211,7 @@ def test_a_study_searches_inside_what_is_plausible(tmp_path: Any) -> None:
     study = wb.plan_study(form, store=tmp_path / "x.study.sqlite")
     recipe = recipe_from(json.loads(json.dumps(study.plan.bases[0].recipe.inputs())))
     assert recipe.problem({"speed": 10.0}).bounds["frequency"] == (4.0, 13.0)
-    with pytest.raises(InvalidInputError, match="use 'plausible', or a table of pairs"):
+    with pytest.raises(InvalidInputError, match="use 'plausible', or a table of \\[lower, upper\\] pairs"):
         wb.plan_study(form | {"bounds": "likely"}, store=tmp_path / "x.study.sqlite")
 
 

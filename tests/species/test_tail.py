@@ -65,7 +65,10 @@ def test_a_vehicle_brings_its_tail_and_takes_it_along():
     [
         ({"tail.area": 0.004}, {"vehicle.tail.arm": "must be given for a tail", "vehicle.tail.lift_slope": "pi/2"}),
         (NUMBERS | {"tail.area": 0.0}, {"tail.area": "leave the tail out if there is none"}),
-        (NUMBERS | {"tail.lift_slope": -1.0}, {"tail.lift_slope": "must be > 0 1/rad; pi/2 times the aspect"}),
+        (
+            NUMBERS | {"tail.lift_slope": -1.0},
+            {"tail.lift_slope": "must be > 0 1/rad; for a slender tail, give pi/2 times"},
+        ),
         (NUMBERS | {"tail.drag_coefficient": -0.1}, {"tail.drag_coefficient": "must be >= 0"}),
         (NUMBERS | {"tail.arm": math.inf}, {"tail.arm": "must be finite"}),
         (NUMBERS | {"tail.are": 0.1}, {"tail.are": "did you mean tail.area"}),

@@ -128,7 +128,7 @@ def test_a_lost_answer_is_missed(cheap):
     with closing(sqlite3.connect(study.store)) as connection:
         connection.execute("DELETE FROM points WHERE rowid = 3")
         connection.commit()
-    assert "is damaged (11 of 12 results are left" in study.run("status", study.file)[2]
+    assert "is damaged (the 11 results in it are not the 12 that were written" in study.run("status", study.file)[2]
 
 
 def test_a_damaged_log_of_a_killed_driver_is_not_cut_off_in_silence(cheap):
@@ -187,7 +187,7 @@ def spoil(path, how):
         ("no database", ("is damaged or not a store", "nothing was deleted")),
         ("overwritten", ("is damaged or not a store", "nothing was deleted")),
         ("foreign", ("is a database, but not a store of a study",)),
-        ("other version", ("is of numerical version 0", f"this wingbeat of {NUMERICAL_VERSION}", "move it away")),
+        ("other version", ("numerical version 0", f"of version {NUMERICAL_VERSION}; old", "move the store away")),
     ],
 )
 def test_a_store_that_is_none_is_refused_and_left_as_it_is(cheap, how, words):

@@ -129,7 +129,7 @@ def test_every_kind_of_path_reaches_the_problem(path, value, told):
 
 FAULTS = [
     ({}, "species = nothing: must be given"),
-    ({"species": "pigeon"}, "speed = nothing: must be given; speed = 10.0, or under [vary]"),
+    ({"species": "pigeon"}, "speed = nothing: must be given; write speed = 10.0, or under [vary]"),
     ({"species": "pidgeon", "speed": 9.0}, "species = 'pidgeon': is not a built-in species; did you mean pigeon"),
     ({"species": 3, "speed": 9.0}, "species = 3: must be a text; put it in quotes"),
     ({"species": ["pigeon", "pigeon"], "speed": 9.0}, "names a value twice; keep one of them"),
@@ -176,7 +176,7 @@ VARY_FAULTS = [
     ({"aero.strips": {"grid": [2.5]}}, "must be a whole number from 1 to 1000"),
     (
         {"speed": {"list": [8.0, 9.0]}, "climb": {"list": [1.0]}},
-        "lists are combined row by row, so they must have equal lengths",
+        "has lists of unequal length, but lists are combined row by row",
     ),
 ]
 

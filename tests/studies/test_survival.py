@@ -214,7 +214,7 @@ def test_a_table_of_another_study_is_refused(cheap):
         code, _, err = study.run(*words)
         assert code == 2
         assert "holds the points of another study, or of this one before it was changed; run the study first" in err
-    assert "the study has changed since it was run" in study.run("status", study.file)[1]
+    assert "the study has changed since its last run" in study.run("status", study.file)[1]
     assert study.run()[0] == 0
     assert study.run("export", study.file, "-o", study.folder / "a.csv")[0] == 0
 
@@ -301,7 +301,7 @@ def test_a_folder_that_cannot_be_written_is_told(cheap, monkeypatch):
     code, _, err = study.run()
     study.folder.chmod(0o755)
     assert code == 2
-    assert "cannot write beside" in err
+    assert "cannot write in the folder of" in err
     assert "permission denied; copy the study to a folder that you can write to" in err
 
 

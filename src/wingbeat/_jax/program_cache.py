@@ -119,7 +119,7 @@ def _make(folder: Path) -> None:
 def _without(reason: str) -> None:
     """Log one warning that says why programs are not kept; Python prints it if no logging is set up."""
     logging.getLogger("wingbeat").warning(
-        "warning: compiled programs are not kept, so every start takes longer: %s; set WINGBEAT_CACHE to a folder "
+        "warning: compiled programs are not kept (%s), so every start takes longer; set WINGBEAT_CACHE to a folder "
         "of your own",
         reason,
     )

@@ -82,6 +82,10 @@ Series = Float[Any, "... samples"]
 StripSeries = Float[Any, "... samples strips"]
 Number = Float[Any, "..."]
 PitchTangents = Float[Any, "directions 4 samples"]
+# Derivatives of a field of a beat: by the free parameters, by the state at the same phase, and by all unknowns.
+FieldByFree = Float[Any, "free *rest"]
+FieldByState = Float[Any, "4 *rest"]
+FieldTangents = Float[Any, "directions *rest"]
 # Peaks of series in each quarter of the beat, and what they are interpolated from.
 SampledSeries = Float[Any, "samples *columns"]
 Quarters = Float[Any, "4 *columns"]

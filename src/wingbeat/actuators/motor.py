@@ -50,7 +50,7 @@ class Motor:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        fix = "60 / (2 pi) over the speed constant in rpm/V"
+        fix = "give 60 / (2 pi) divided by the speed constant in rpm/V"
         faults.number("motor.torque_constant", self.torque_constant, above=0, unit="N m/A", fix=fix)
         faults.number("motor.resistance", self.resistance, above=0, unit="ohm")
         faults.number("motor.gear_ratio", self.gear_ratio, above=0)
@@ -58,7 +58,9 @@ class Motor:
         faults.number("motor.no_load_current", self.no_load_current, at_least=0, unit="A")
         faults.number("motor.gear_efficiency", self.gear_efficiency, above=0, at_most=1)
         if self.crank not in (0, 1):
-            faults.add("motor.crank", self.crank, "must be 0 or 1", "1: a crank; 0: the motor reverses")
+            faults.add(
+                "motor.crank", self.crank, "must be 0 or 1", "give 1 for a crank, 0 for a motor that reverses"
+            )
         faults.raise_if_any()
 
 

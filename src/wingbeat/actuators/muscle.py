@@ -58,12 +58,14 @@ class Muscle:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix="the depressors of both sides")
+        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix="count the depressors of both sides")
         faults.number("muscle.elevator_share", self.elevator_share, above=0, at_most=2)
         faults.number("muscle.strain_per_angle", self.strain_per_angle, above=0, unit="1/rad")
-        faults.number("muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="lengths per second")
+        faults.number(
+            "muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="give lengths per second"
+        )
         faults.number("muscle.isometric_stress", self.isometric_stress, above=0, unit="Pa")
-        faults.number("muscle.curvature", self.curvature, above=0, fix="0.15 to 0.4 for fast muscle")
+        faults.number("muscle.curvature", self.curvature, above=0, fix="fast muscle has 0.15 to 0.4")
         faults.raise_if_any()
 
     @property

@@ -42,9 +42,9 @@ class Springs:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        faults.number("springs.stiffness", self.stiffness, at_least=0, unit="N m/rad", fix="of both sides together")
+        faults.number("springs.stiffness", self.stiffness, at_least=0, unit="N m/rad", fix="count both sides")
         faults.number("springs.rest_angle", self.rest_angle, at_least=-math.pi, at_most=math.pi, unit="rad")
-        fix = "one over the stiffness; 0 is rigid"
+        fix = "give one over the stiffness of the series springs, or 0 for rigid ones"
         faults.number("springs.series_compliance", self.series_compliance, at_least=0, unit="rad/(N m)", fix=fix)
         faults.raise_if_any()
 

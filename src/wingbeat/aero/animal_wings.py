@@ -48,24 +48,29 @@ _FEATHERED = {
     "onset_rounding_deg": Estimate(2.0, 1.0, 4.0, _ASSUMED),
 }
 _REVOLVING = _FEATHERED | {
-    "lift_slope": Estimate(3.28, 3.0, 3.9, "guess: the slope of dickinson, the only other revolving wing here"),
+    "lift_slope": Estimate(
+        3.28, 3.0, 3.9, "guess: the slope of dickinson, wingbeat's only other model of a revolving wing"
+    ),
     "lift_highest": Estimate(
-        1.65, 1.44, 1.80, "C_L of 1.64 at 43 degrees, pigeon; interval: from the study's card wing to a fly's wing"
+        1.65,
+        1.44,
+        1.80,
+        "gives a pigeon's C_L of 1.64 at 43 degrees; interval: from a card wing in the same study to a fly's wing",
     ),
     "lift_rounding": Estimate(0.25, 0.15, 0.5, "guess"),
     "drag_least": Estimate(
-        0.0944, 0.03, 0.13, "largest lift-to-drag ratio of 6.3, pigeon; interval: dried wings of other birds"
+        0.0944, 0.03, 0.13, "gives a pigeon's largest lift-to-drag ratio, 6.3; interval: dried wings of other birds"
     ),
     "drag_induced": Estimate(0.0531, 0.0, 0.0637, "guess: an ideal wing of aspect ratio 6"),
     "high_rise": Estimate(
         1.36,
         0.4,
         3.0,
-        "C_D of 0.87 at 43 degrees, geometric mean of 0.49 (lift-to-drag ratio 3.33) and 1.53 (force normal to "
-        "wing)",
+        "gives C_D of 0.87 at 43 degrees, the geometric mean of 0.49 (from a lift-to-drag ratio of "
+        "3.33) and 1.53 (from a force normal to the wing)",
     ),
 }
-_BEYOND_STALL = "C_D of 0.87 at 43 degrees, as feathered-revolving"
+_BEYOND_STALL = "gives C_D of 0.87 at 43 degrees, as feathered-revolving"
 _FLAPPING = _FEATHERED | {
     "lift_highest": _REVOLVING["lift_highest"],
     "lift_rounding": _REVOLVING["lift_rounding"],
@@ -75,17 +80,27 @@ _MEMBRANE = (
     _FEATHERED
     | {
         "zero_lift_deg": Estimate(
-            -8.9, -10.3, -7.4, "bats' camber, 6.5 to 9 %; a thin arc has zero lift at -2 camber rad"
+            -8.9,
+            -10.3,
+            -7.4,
+            "bats' camber, 6.5 to 9 %; the zero-lift angle of a thin arc is -2 times its camber, in radians",
         ),
         "lift_slope": Estimate(
-            4.1, 3.7, 4.7, "thin plate of aspect ratio 2, converted by lifting line; high end: theory"
+            4.1,
+            3.7,
+            4.7,
+            "thin plate of aspect ratio 2, converted to 6 by lifting line; high end: lifting-line theory alone",
         ),
         "lift_lowest": Estimate(-0.2, -0.75, -0.1, "guess: as feathered"),
         "lift_highest": Estimate(
             1.4, 0.75, 1.8, "guess: a thin plate's largest C_L, 0.75, plus 0.64 that camber adds"
         ),
-        "drag_least": Estimate(0.039, 0.015, 0.10, "guess: geometric mean of a thin plate and the plate of su-fan"),
-        "drag_induced": Estimate(0.0637, 0.0531, 0.0800, "guess: 1.2 times an ideal wing's at aspect ratio 6"),
+        "drag_least": Estimate(
+            0.039, 0.015, 0.10, "guess: geometric mean of a thin plate's and of su-fan's least drag"
+        ),
+        "drag_induced": Estimate(
+            0.0637, 0.0531, 0.0800, "guess: 1.2 times the value of an ideal wing of aspect ratio 6"
+        ),
     }
     | {
         name: _FEATHERED[name]._replace(basis="guess: as feathered")

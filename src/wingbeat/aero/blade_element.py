@@ -114,9 +114,12 @@ class BladeElement:
         faults.choice("aero.unsteady", self.unsteady, UNSTEADY)
         faults.choice("aero.inflow", self.inflow, INFLOWS)
         faults.number("aero.induced_factor", self.induced_factor, at_least=0, fix="1 is an ideal disc")
-        faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 is all of each term")
+        faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 applies each term in full")
         if self.share != 1 and self.unsteady == self.inflow == "none":
-            rule, fix = "has no effect without unsteady terms or inflow", "set unsteady or inflow, or leave it out"
+            rule, fix = (
+                "has no effect without unsteady terms or inflow",
+                "set unsteady or inflow, or leave share out",
+            )
             faults.add("aero.share", self.share, rule, fix)
         faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
@@ -124,7 +127,7 @@ class BladeElement:
                 "aero.hand_from",
                 self.hand_from,
                 "has no effect without a hand",
-                "give the coefficients of the hand: hand",
+                "set hand to the coefficients of the hand",
             )
         faults.number("aero.upstroke_factor", self.upstroke_factor, at_least=0, at_most=1, fix="1 is off")
         faults.raise_if_any()

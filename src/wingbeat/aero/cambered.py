@@ -112,7 +112,9 @@ class CamberedTerms:
         faults.number("terms.zero_lift_deg", self.zero_lift_deg, above=-45, below=45, unit="deg")
         for name in ("lift_slope", "lift_rounding", "lift_highest", "onset_rounding_deg", "drag_least"):
             faults.number(f"terms.{name}", getattr(self, name), above=0)
-        faults.number("terms.lift_lowest", self.lift_lowest, below=0, fix="lift from the other side is negative")
+        faults.number(
+            "terms.lift_lowest", self.lift_lowest, below=0, fix="it is C_L beyond the stall at negative lift"
+        )
         for name in ("drag_induced", "low_rise", "high_rise"):
             faults.number(f"terms.{name}", getattr(self, name), at_least=0)
         onsets = [
@@ -276,7 +278,7 @@ class CamberedCoefficients(CoefficientModel):
         if any(first >= then for first, then in itertools.pairwise(rising)):
             joins = f"{self.low_join_deg}, {self.high_join_deg}"
             rule = "must increase, lie between -90 and 90 degrees, and enclose the zero-lift angle"
-            faults.add("low_join_deg, high_join_deg", joins, rule, "give (lower, upper) of each")
+            faults.add("low_join_deg, high_join_deg", joins, rule, "give each as (lower, upper)")
         faults.raise_if_any()
 
     def __str__(self) -> str:

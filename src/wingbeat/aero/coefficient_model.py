@@ -40,7 +40,7 @@ def _centre_of_pressure(kernel: Kernel, alpha: Angles) -> Angles:
 def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
     """Note a fault unless an aspect ratio is a positive number, infinite, or None."""
     if given is not None and given != math.inf:
-        faults.number(where, given, above=0, fix="span over mean chord; inf for a section, none if unknown")
+        faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
 
 
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:

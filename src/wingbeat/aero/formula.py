@@ -98,8 +98,10 @@ class FormulaTerms:
         for name in ("constant", "amplitude", "rate", "phase_deg"):
             faults.number(f"terms.{name}", getattr(self, name))
         if self.decay_amplitude is not None or self.decay_rate is not None:
-            faults.number("terms.decay_amplitude", self.decay_amplitude, fix="give both decay terms or neither")
-            fix = "give both decay terms or neither; the term is exp(-decay_rate a), a in degrees"
+            faults.number(
+                "terms.decay_amplitude", self.decay_amplitude, fix="give decay_amplitude and decay_rate, or neither"
+            )
+            fix = "give decay_amplitude and decay_rate, or neither; a is in degrees in exp(-decay_rate a)"
             faults.number("terms.decay_rate", self.decay_rate, at_least=0, unit="1/deg", fix=fix)
         faults.raise_if_any()
         if self.decay_amplitude == 0:

@@ -188,7 +188,7 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
         if bad.size:
             angle = math.degrees(_SAMPLE_ANGLES[bad[0]])
             rule = f"has {what} of {float(found[bad[0]])} at {angle:g} degrees"
-            faults.add(_WHERE, name, rule, "it must be finite and smooth from -pi to pi radians")
+            faults.add(_WHERE, name, rule, "C_L and C_D must be finite and smooth from -pi to pi radians")
     faults.raise_if_any()
     return program
 

@@ -89,7 +89,7 @@ def check_descent(
     speed, climb = velocity
     if speed * speed + (climb + hover) ** 2 < hover * hover:
         rule = (
-            f"descends into its own wake (vortex ring): below {hover:.2g} m/s forward and between 0 and "
-            f"{2 * hover:.2g} m/s down, momentum theory gives no induced flow"
+            "is a descent into the wings' own wake (vortex ring), where momentum theory gives no induced flow. "
+            f"This happens only below {hover:.2g} m/s forward and between 0 and {2 * hover:.2g} m/s down"
         )
         faults.add("climb", climb, rule, "fly faster, or leave the inflow out")

@@ -167,7 +167,7 @@ def _covariance(
     """Return the names of the fitted terms and their covariance; note a fault unless it is a valid covariance."""
     nothing = (), np.zeros((0, 0))
     if not isinstance(fit, dict):
-        faults.add(where, fit, "must be a table", "with free = [...] and covariance = [[...], ...]")
+        faults.add(where, fit, "must be a table", "write free = [...] and covariance = [[...], ...] in it")
         return nothing
     _known(faults, where, fit, _FIT)
     free, rows = fit.get("free", []), fit.get("covariance", [])
@@ -190,5 +190,7 @@ def _covariance(
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
     invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
     if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):
-        faults.add(f"{where}.covariance", "", "is not symmetric with variances >= 0", "copy that of the fit")
+        faults.add(
+            f"{where}.covariance", "", "must be symmetric and positive semidefinite", "copy the matrix of the fit"
+        )
     return tuple(free), matrix

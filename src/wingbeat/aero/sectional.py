@@ -84,7 +84,7 @@ def _wing_angles(model: CoefficientModel, aspect_ratio: float, section: np.ndarr
     fine = np.linspace(-math.pi, math.pi, 4 * _CELLS + 1)
     there = fine - turned(fine)
     if not (np.diff(there) > 0).all():
-        rule = f"cannot be made sectional: its lift rises too fast for an aspect ratio of {aspect_ratio:g}"
+        rule = f"has no sectional coefficients: its lift rises too fast for an aspect ratio of {aspect_ratio:g}"
         raise InvalidInputError([Fault("aero.coefficients", model.name, rule, "check aspect_ratio")])
     alpha = np.interp(section, there, fine, period=2 * math.pi)
     # np.interp leaves angles in [-pi, pi] of a period apart; each pass divides what is left by 3 or more.

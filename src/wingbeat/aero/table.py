@@ -122,7 +122,7 @@ class TableCoefficients(CoefficientModel):
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
-                rule = f"must have the length of alpha_deg, {len(columns['alpha_deg'])}"
+                rule = f"must have as many numbers as alpha_deg, which has {len(columns['alpha_deg'])}"
                 faults.add(name, f"{len(column)} numbers", rule)
         faults.raise_if_any()
         check_columns(faults, columns, lambda i, name: f"{name}[{i}]")

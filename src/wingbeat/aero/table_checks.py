@@ -41,14 +41,14 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
             rule = f"must be above the {angles[i - 1]:g} before it"
             faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
         if abs(angle) > 180:
-            faults.add(where(i, "alpha_deg"), angle, "must lie in -180 to 180 degrees", "wrap the angle")
+            faults.add(where(i, "alpha_deg"), angle, "must lie between -180 and 180 degrees", "wrap the angle")
     for i, drag in enumerate(columns["c_d"]):
         if drag < 0:
             faults.add(
                 where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "reverse its sign"
             )
     if len(angles) < MIN_ROWS:
-        rule = f"has fewer than {MIN_ROWS} rows, which is too few for a cubic spline"
+        rule = f"must be at least {MIN_ROWS} for a cubic spline"
         faults.add("rows", len(angles), rule, "measure at more angles")
 
 
@@ -68,7 +68,7 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
     if is_whole_turn(angles):
         for name, column in columns.items():
             if name != "alpha_deg" and column[0] != column[-1]:
-                rule = f"must equal the {column[0]:g} of -180 degrees"
+                rule = f"must equal the value at -180 degrees, {column[0]:g}"
                 faults.add(where(len(angles) - 1, name), column[-1], rule, "repeat the row of -180 at 180")
     elif first < 0 and extension != "signed":
         rule = f"is negative, and the extension {extension} would ignore it"

@@ -140,7 +140,7 @@ class Influence:
             ):
                 tag(
                     "caption",
-                    "Change at the low and high end of each plausible range, by linear extrapolation: a ranking",
+                    "Change at the ends of each plausible range, extrapolated linearly: for ranking only",
                 )
                 with tag("thead"), tag("tr"):
                     tag("th", "Number", scope="col")

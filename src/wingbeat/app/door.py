@@ -97,7 +97,8 @@ class Door:
         if is_socket or scope["method"] not in ("GET", "HEAD", "OPTIONS"):
             for origin in headers.getlist("origin"):
                 if not _is_of(origin, host):
-                    return 403, f"The explorer accepts nothing from pages of another origin, here {origin[:100]!r}."
+                    why = "The explorer accepts nothing from pages of another origin"
+                    return 403, f"{why}; this request is from {origin[:100]!r}."
         if len(scope["path"]) > _LONGEST_PATH:
             return 414, f"The path of the address has more than {_LONGEST_PATH} characters."
         if not scope["path"].isprintable():

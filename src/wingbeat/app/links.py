@@ -96,7 +96,7 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
             table[path] = values if name == "bound" else values[0]
     elif name not in (*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file"):
         known = ", ".join((*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file", "limit", "bound", "set"))
-        faults.add(name[:60], text[:60], "is not part of a link", f"known are {known}")
+        faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {known}")
     elif name in plain:
         faults.add(name, text[:60], "is given twice", "keep one of them")
     elif name in _WORDS:
@@ -146,7 +146,7 @@ def from_plain(plain: Any) -> Scenario:
     if not isinstance(plain, dict) or not known <= {f.name for f in dataclasses.fields(Scenario)}:
         odd = sorted(str(name)[:40] for name in known - {f.name for f in dataclasses.fields(Scenario)})
         what = ", ".join(odd[:5]) if isinstance(plain, dict) else type(plain).__name__
-        faults.add("state", what, "is not a state of the explorer", "load a file that it saved")
+        faults.add("state", what, "is not a state of the explorer", "load a file that the explorer saved")
         faults.raise_if_any()
     given: dict[str, Any] = {}
     checks: dict[str, Callable[[Any], Any]] = {
@@ -191,7 +191,7 @@ def from_json(text: str, label: str) -> Scenario:
     except (ValueError, RecursionError):
         raise FileError(f"cannot read {label!r} as JSON; load a file that the explorer saved") from None
     if not isinstance(whole, dict) or whole.get("wingbeat_explorer") != _VERSION:
-        raise FileError(f"cannot read {label!r}: it is not a state of the explorer; load a file that it saved")
+        raise FileError(f"cannot read {label!r}: it is not a saved state; load a file that the explorer saved")
     return from_plain(whole.get("state"))
 
 

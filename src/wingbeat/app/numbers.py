@@ -90,7 +90,7 @@ class Numbers:
             values = {path: value for path, value in self._scenario.values.items() if path not in paths}
             self._change(values=values, **({"bounds": self._without(TAIL_TILT)} if part == "tail" else {}))
 
-        button(f"Add a bird's {part} of this mass", add, "quiet")
+        button(f"Add the {part} of a bird of this mass", add, "quiet")
         button(f"Remove the {part}", remove, "quiet")
 
     def _build_number(self, path: str) -> None:

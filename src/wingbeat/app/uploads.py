@@ -26,6 +26,8 @@ _MOST_OBJECTS = 400
 _MOST_ATTRIBUTE = 1_000_000
 # Many texts may share one place in a file of modest size, and all be unpacked.
 _MOST_TEXTS = 8
+# What the parts of a problem are called on the page, where their keys would not be understood.
+_SPOKEN = {"aero": "model of the air loads", "free": "choice of free parameters"}
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
@@ -165,7 +167,7 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
         odd = [part for part in parts if again[part] != inputs[part]]
         if not odd:
             return to_plain(scenario), ""
-        why_not = f"{odd[0].replace('_', ' ')} would not be the same"
+        why_not = f"the {_SPOKEN.get(odd[0], odd[0].replace('_', ' '))} would not be the same"
     return None, why_not
 
 

@@ -129,7 +129,7 @@ def _heard(
 ) -> None:
     def hear(event: Any) -> None:
         if isinstance(event.args, str) and len(event.args) > _LONGEST:
-            refuse(f"has {len(event.args)} characters; it may have at most {_LONGEST}")
+            refuse(f"the entry has {len(event.args)} characters; at most {_LONGEST} are allowed")
         elif isinstance(event.args, str):
             control.props._suspend_count += 1  # what the browser shows need not be sent back to it
             control.props["value"] = event.args

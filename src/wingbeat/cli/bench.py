@@ -39,7 +39,7 @@ def _print(found: dict[str, Any]) -> None:
 
     table = Table(box=None, show_header=False, padding=(0, 2))
     rows = [
-        ("equations of motion, 1024 flights at once", f"{found['rhs_ns']:.0f} ns"),
+        ("equations of motion, per flight, 1024 flights at once", f"{found['rhs_ns']:.0f} ns"),
         ("flight with derivatives", f"{found['jacobian_ms']:.2f} ms"),
     ]
     for animal in found["solve_ms"]:

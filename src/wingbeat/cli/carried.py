@@ -97,7 +97,7 @@ def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], be
         record: dict[str, Any] = {"body": "prescribed", "summary": told, "standard_errors": errors}
         print(json_format.dumps(record | {"kinematics": film_record(beat)}, indent=2, allow_nan=False))
         return
-    print("the body moves as filmed; it is not integrated")
+    print("the body moves as filmed; its motion is not integrated")
     for name, (label, series) in _NAMES.items():
         (factor, unit), error = for_people(NOMENCLATURE[series].unit), errors[name]
         print(f"{label}: {plus_minus(factor * told[name], None if error is None else factor * error)} {unit}")

@@ -21,7 +21,7 @@ _DEFAULT = LatticeOptions()
 
 
 def compare(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o`.")],
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o`.")],
     *,
     with_: Annotated[
         str, Parameter(name="--with", help="The other code: uvlm, the unsteady vortex lattice of PteraSoftware.")
@@ -83,7 +83,9 @@ def _print(record: dict[str, Any]) -> None:
         mark = " *" if all(row[term] == record[term] for term in ("unsteady", "inflow")) else ""
         table.add_row(Text(_name(row) + mark), *_cells(row))
     console.print(table)
-    console.print("* the loads of the file; lift delay: of the lattice's lift behind ours, as a share of a beat")
+    console.print(
+        "* the loads of the file; lift delay: how far the lattice's lift lags behind ours, as a share of a beat"
+    )
     for row in record["terms"]:
         if "refused" in row:
             console.print(f"- {_name(row)}: {row['refused']}", style="yellow", markup=False)

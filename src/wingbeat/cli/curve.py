@@ -52,7 +52,10 @@ def curve(
     power_limit: Annotated[
         float | None, Parameter(help="Sustainable power [W]; the speeds that need no more are printed.")
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Starts at the first and last speed; others get a third as many.")] = 6,
+    starts: Annotated[
+        Whole,
+        Parameter(help="Number of starts at the first and last speed; other speeds get a third as many."),
+    ] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,

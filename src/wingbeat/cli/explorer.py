@@ -25,9 +25,9 @@ def app(
     ] = None,
     open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
 ) -> int:
-    """Open the explorer in a browser: choose a problem, move sliders, and see it fly. Ctrl-C ends the explorer.
+    """Open the explorer in a browser: choose a problem, move sliders, and see the animal fly.
 
-    It needs the extra app: uv run --extra app wingbeat app.
+    Ctrl-C ends the explorer. It needs the extra app: uv run --extra app wingbeat app.
 
     Examples: wingbeat app; wingbeat app --port 0 --no-open
     """

@@ -54,7 +54,7 @@ def glide(
     payload: Payload = 0.0,
     json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
     output: Output = None,
-    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw the polar: .png, .pdf or .svg.")] = None,
 ) -> int:
     """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
 

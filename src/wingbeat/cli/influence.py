@@ -38,7 +38,7 @@ def print_influence(found: Sensitivities, bars: list[ErrorBar], console: Console
         swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
         table.add_row(Text(f"  {parameter.path}"), plausible, *swings)
     console.print()
-    heading = "change at the low and high end of each range, by linear extrapolation: a ranking"
+    heading = "change at the low and high end of each range, extrapolated linearly: for ranking only"
     console.print(Text(heading, style="bold"))
     console.print(table)
     console.print()

@@ -32,7 +32,8 @@ class ModelOptions:
         str,
         Parameter(
             help="Model of the flight: paper (as in Su et al. 2023), or animal (coefficients, tail, body drag, "
-            "air-load terms and muscle of its kind). Other options replace parts; they list paper's defaults."
+            "air-load terms and muscle of the animal's kind). Other options replace parts of the model; their "
+            "stated defaults are those of paper."
         ),
     ] = "paper"
     aero: Annotated[
@@ -46,7 +47,7 @@ class ModelOptions:
         Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored."),
     ] = None
     blend_width_deg: Annotated[
-        float | None, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg]; default 1.")
+        float | None, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees; default 1.")
     ] = None
     force_point: Annotated[
         str | None, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}; default quarter-chord.")
@@ -68,20 +69,21 @@ class ModelOptions:
         Parameter(help="Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),
     ] = None
     induced_factor: Annotated[
-        float | None, Parameter(help="Induced power of the inflow over that of an ideal disc; default 1.2.")
+        float | None, Parameter(help="Ratio of induced power to that of an ideal disc; default 1.2.")
     ] = None
     hand: Annotated[
         str | None,
         Parameter(
-            help="Coefficients of the hand, named as for --aero, which then applies to the arm; none (default): "
-            "--aero applies to the whole wing."
+            help="Coefficients of the hand; takes the same names as --aero. --aero then applies to the arm alone. "
+            "Default none: --aero applies to the whole wing."
         ),
     ] = None
     hand_from: Annotated[
-        float | None, Parameter(help="Span fraction where the hand of --hand begins; default 0.5.")
+        float | None, Parameter(help="Fraction of the span at which --hand begins; default 0.5.")
     ] = None
     upstroke_factor: Annotated[
-        float | None, Parameter(help="Factor on the loads where air meets the wing from above: 1 (default) to 0.")
+        float | None,
+        Parameter(help="Factor from 0 to 1 on lift and drag where air meets the wing from above; default 1."),
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:

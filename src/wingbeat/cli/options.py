@@ -43,7 +43,7 @@ Settings = Annotated[
 Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
 WithinPlausible = Annotated[
     bool,
-    Parameter(negative="", help="Stay within the plausible ranges of the species file: bounds, powers, forces."),
+    Parameter(negative="", help="Keep parameters, powers and forces within the species' plausible ranges."),
 ]
 WingsMayCross = Annotated[
     bool,
@@ -87,11 +87,11 @@ def unpacking(path: Path) -> Iterator[None]:
     try:
         yield
     except NotInFileError as error:
-        raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error}, in Python") from None
+        raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error} in Python") from None
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         reason = first_line(error)
         raise FileError(
-            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve it again"
+            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve the orbit again"
         ) from None
 
 
@@ -125,7 +125,7 @@ def check_files(faults: FaultList, output: Path | None = None, **figures: Path |
         check_figure_name(faults, option, figure)
         other = taken.setdefault(_real(figure), option)
         if other != option:
-            faults.add(option, str(figure), f"is the file of {other} too", "give each its own")
+            faults.add(option, str(figure), f"is also the file of {other}", "give each option its own file")
 
 
 def _real(path: Path) -> str:

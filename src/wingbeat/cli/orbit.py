@@ -70,7 +70,7 @@ def orbit(
         Parameter(
             help="Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
             "peak-flap-torque, body-pitch-range, metabolic-power, ...; default that of the model, "
-            "or positive-power if a film gives the frequency"
+            "or positive-power if a film gives the frequency."
         ),
     ] = None,
     subject_to: Annotated[
@@ -83,7 +83,10 @@ def orbit(
     ] = None,
     starts: Annotated[
         Whole | None,
-        Parameter(help="Number of starts; default 6, 12 for powers and limits, 24 for peaks and your own bounds."),
+        Parameter(
+            help="Number of starts. Default: 6; 12 with limits or if a power is minimised; 24 with your own bounds "
+            "or if a peak is minimised."
+        ),
     ] = None,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     wings_may_cross: WingsMayCross = False,
@@ -106,7 +109,7 @@ def orbit(
         bool, Parameter(negative="", help="Print what the result depends on most, and the prices of bounds.")
     ] = False,
     tornado: Annotated[
-        Path | None, Parameter(help="Draw the effect of every plausible range: .png, .pdf or .svg.")
+        Path | None, Parameter(help="Draw how far each plausible range moves the result: .png, .pdf or .svg.")
     ] = None,
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
@@ -130,7 +133,7 @@ def orbit(
         rule = "gives the wingbeat, so it cannot be combined with --within-plausible"
         faults.add("--kinematics", str(kinematics), rule, "leave out one of the two options")
     if model.model == "animal" and kinematics is not None:
-        fix = "give its parts instead, such as --aero feathered --inflow momentum"
+        fix = "give the parts of the model instead, such as --aero feathered --inflow momentum"
         faults.add("--model", model.model, "cannot be combined with a film, which gives the wingbeat", fix)
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")

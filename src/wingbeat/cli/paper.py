@@ -40,9 +40,9 @@ def paper(
         Path | None,
         Parameter(help="claims.json of an earlier run: the page says what changed and why."),
     ] = None,
-    sets: Annotated[int | None, Parameter(help=f"Sets of assumptions to sample; default {_SETS}.")] = None,
+    sets: Annotated[int | None, Parameter(help=f"How many sets of assumptions to sample; default {_SETS}.")] = None,
     seed: Annotated[int | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
-    piece: Annotated[int | None, Parameter(help=f"Sets in each piece that is saved; default {_PIECE}.")] = None,
+    piece: Annotated[int | None, Parameter(help=f"How many sets each saved piece has; default {_PIECE}.")] = None,
     only: Annotated[
         str | None, Parameter(help="Pieces that this run solves, such as 1-10 or 3,5; default all.")
     ] = None,
@@ -136,14 +136,14 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     if stop.level:
         return exit_of(stop)
     done = len(pieces.finished())
-    so_far = "" if done == len(pieces) else f", of which {done} of {len(pieces)} pieces are done"
+    so_far = "" if done == len(pieces) else f" So far, {done} of {len(pieces)} pieces are done."
     judged, seconds = pieces.joined()
     heading = (
-        f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}`{so_far} "
+        f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}` "
         f"(numerical version {NUMERICAL_VERSION}) solved a [study](studies.md) for each animal, coefficient model "
-        f"and choice of trims, with {STARTS} starts per orbit, one of them from the orbit at the previous speed "
-        f"if there is one ({SURENESS}). The orbits took {seconds / 3600:.1f} core-hours, "
-        f"{seconds / len(judged.sets):.2f} s per set."
+        f"and choice of trims, with {STARTS} starts per orbit. One of the starts is the orbit at the previous "
+        f"speed, if there is one. A check of the starts: {SURENESS}. The orbits took "
+        f"{seconds / 3600:.1f} core-hours, {seconds / len(judged.sets):.2f} s per set.{so_far}"
     )
     if so_far:
         say(f"{done} of {len(pieces)} pieces are done; the page covers these")

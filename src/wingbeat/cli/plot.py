@@ -17,7 +17,7 @@ from wingbeat.results.curve import curve_from
 
 
 def plot(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page: .png, .pdf or .svg.")],
     power: Annotated[bool, Parameter(negative="", help="Draw the parts of an orbit's power.")] = False,

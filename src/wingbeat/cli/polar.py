@@ -32,7 +32,7 @@ def polar(
         Parameter(help="Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag."),
     ] = "mirrored",
     blend_width_deg: Annotated[
-        float, Parameter(help="Half width of the blends at 0, 90 and 180 degrees [deg], above 0, at most 3.")
+        float, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees: above 0, at most 3.")
     ] = 1.0,
     csv: Annotated[bool, Parameter(negative="", help="Print CSV.")] = False,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object of lists.")] = False,
@@ -107,7 +107,7 @@ def _print_table(model: CoefficientModel, columns: Columns, about: float) -> Non
     from rich.text import Text
 
     # As Text, for in a plain string rich would take [deg] for markup.
-    caption = f"C_M nose-up about {about:g} chords from the leading edge"
+    caption = f"C_M: nose-up positive, about an axis {about:g} chords from the leading edge"
     table = Table(title=Text(_title(model)), caption=Text(caption), min_width=min(len(caption), 78))
     for heading in ("alpha [deg]", "C_L", "C_D", "C_N", "C_M", "x_cp [chords]"):
         table.add_column(Text(heading), justify="right")

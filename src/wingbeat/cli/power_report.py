@@ -22,7 +22,7 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
             ("remaining mean positive power", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
         ]
     return {
-        "mean power, by what becomes of negative work": [("negative work", _watts(account["braking"])), *costs],
+        "mean power, by what happens to negative work": [("negative work", _watts(account["braking"])), *costs],
         "parts of the hinge power: mean, minimum, maximum": _spreads(account["shares"]),
         "what the power of all actuators is spent on: mean, minimum, maximum": _spreads(account["spent"]),
         "springs at the flap hinges": springs,

@@ -16,11 +16,14 @@ MAX_NOTES = 10
 
 
 def reduce(
-    runs: Annotated[list[Path], Parameter(help="CSV files, one for each run at one angle.", negative=())],
+    runs: Annotated[list[Path], Parameter(help="CSV files, one per run; each run is at one angle.", negative=())],
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
-    last: Annotated[float, Parameter(help="Steady time at the end of each record, which is averaged [s].")] = 20.0,
+    last: Annotated[
+        float,
+        Parameter(help="Length of the steady part at the end of each record [s]; only this part is averaged."),
+    ] = 20.0,
 ) -> None:
     """Turn load-cell records into coefficients with errors; repeated runs of one point are pooled.
 

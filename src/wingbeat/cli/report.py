@@ -70,7 +70,7 @@ def flight_summary(dataset: xr.Dataset, path: str | PathLike[str]) -> dict[str, 
         ends = [{name: float(reached[name][i]) for name in STATE_NAMES} if len(phase) else None for i in (0, -1)]
     except (KeyError, ValueError) as error:
         raise FileError(
-            f"cannot read {os.fspath(path)!r} as a flight: it is damaged ({error}); fly it again"
+            f"cannot read {os.fspath(path)!r} as a flight: it is damaged ({error}); run `wingbeat simulate` again"
         ) from None
     beats = float(phase[-1]) if len(phase) else 0.0
     return {"completed": not lost.any(), "beats": beats, **about, "start": ends[0], "end": ends[1], **power}

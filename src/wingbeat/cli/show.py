@@ -18,7 +18,7 @@ from wingbeat.results.storage import parse_attributes
 
 
 def show(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o`, `simulate -o` or `curve -o`.")],
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     power: Annotated[bool, Parameter(negative="", help="Print the parts of an orbit's power.")] = False,
     json: Annotated[bool, Parameter(negative="", help="Print JSON alone: SI units and radians.")] = False,

@@ -46,7 +46,7 @@ def simulate(
     beats: Annotated[Whole, Parameter(help="Number of wingbeats.")] = 5,
     samples: Annotated[Whole, Parameter(help="Samples per wingbeat.")] = 128,
     u: Annotated[
-        float | None, Parameter(help="Initial forward velocity [m/s]; default 10 or that of --from.")
+        float | None, Parameter(help="Initial forward velocity [m/s]; default: 10, or the orbit's with --from.")
     ] = None,
     w: Annotated[float | None, Parameter(help="Initial upward velocity [m/s].")] = None,
     body_pitch_deg: Annotated[float | None, Parameter(help="Initial body pitch, nose up [deg].")] = None,
@@ -55,7 +55,7 @@ def simulate(
     set_: Settings = None,
     kinematics: Kinematics = None,
     plot_kinematics: Annotated[
-        Path | None, Parameter(help="Draw the film, its spline and its band: .png, .pdf or .svg.")
+        Path | None, Parameter(help="Draw the film, the fitted spline and its 95 % band: .png, .pdf or .svg.")
     ] = None,
     from_: Annotated[
         Path | None,

@@ -101,11 +101,10 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
     for key, value in size.items():
         option = f"--{key.replace('_', '-')}"
         if kind is None and value is not None:
-            faults.add(
-                option, value, "needs the kind of animal for its scaling laws", "add --kind bird, bat or robot"
-            )
+            rule = "needs the kind of animal, which sets the scaling laws"
+            faults.add(option, value, rule, "add --kind bird, bat or robot")
         elif kind is not None and value is None:
-            faults.add(option, None, "must be given", f"the laws of a {kind} need mass, span and area")
+            faults.add(option, None, "must be given", f"the scaling laws of a {kind} need mass, span and area")
     faults.raise_if_any()
     if kind is None:
         return template()
@@ -187,7 +186,7 @@ def _print_list(everyone: list[Species]) -> None:
     console.print(table)
     if outside:
         names = ", ".join(outside)
-        line = f"warning: at {_SPEED:g} m/s these are outside Su et al.'s Reynolds numbers, 2e4 to 5e4: {names}"
+        line = f"warning: outside Su et al.'s Reynolds numbers (2e4 to 5e4) at {_SPEED:g} m/s: {names}"
         console.print(line, style="yellow")
     console.print(
         "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."
@@ -246,7 +245,8 @@ def _free_table(animal: Species) -> Table:
     from wingbeat.nomenclature import plain_unit
     from wingbeat.species_schema import Number, display
 
-    table = _table("free parameters, and limits along the path", "quantity", "bounds>r", "unit", "reason")
+    title = "free parameters, and limits that hold throughout the wingbeat"
+    table = _table(title, "quantity", "bounds>r", "unit", "reason")
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
     for path, limits in (bounds | animal.path_bounds).items():
         name, shown = display(path, Number(0.0, plain_unit(path), range=limits))

@@ -51,7 +51,7 @@ def run(
     processes: Annotated[
         Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; default: as many as cores.")
     ] = None,
-    timeout: Annotated[float, Parameter(help="Longest time for one point [s].")] = 600.0,
+    timeout: Annotated[float, Parameter(help="Time limit for each point [s].")] = 600.0,
     dask: Annotated[
         str | None,
         Parameter(help="A Dask cluster instead of processes: tcp://HOST:PORT, or local:N.", show_default=False),
@@ -185,7 +185,7 @@ def _print_summary(asked: Study, summary: Summary) -> None:
     if summary.kept:
         print(f"  {summary.kept} results of points that are no longer in the study are kept")
     if summary.changed:
-        print("  the study has changed since it was run: these are the previous points")
+        print("  the study has changed since its last run: this summary is of the previous points")
     troubled = summary.count(*STATUSES[1:])
     for row in asked.uncertified(_LISTED) if troubled else []:
         where = ", ".join(

@@ -34,7 +34,7 @@ def terms(
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
-    shares: Annotated[str, Parameter(help="Shares of the terms, 0 for none and 1 for all, start:stop:step.")] = (
+    shares: Annotated[str, Parameter(help="Shares of the terms, start:stop:step; 0 applies none, 1 all.")] = (
         "0:1:0.25"
     ),
     within_plausible: WithinPlausible = False,
@@ -46,11 +46,14 @@ def terms(
         list[str] | None,
         Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
     ] = None,
-    starts: Annotated[Whole, Parameter(help="Starts at the first and last share; others get a third as many.")] = 6,
+    starts: Annotated[
+        Whole,
+        Parameter(help="Number of starts at the first and last share; other shares get a third as many."),
+    ] = 6,
     seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw the trace: .png, .pdf or .svg.")] = None,
 ) -> int:
     """Find the best wingbeats, and changes of family, while the share of a term of the air loads rises from 0 to 1.
 
@@ -74,7 +77,7 @@ def terms(
         subject_to=subject_to or (),
     )
     check_outputs(None, plot)
-    with progress_bar(f"{problem.species.name} along the share of the terms") as progress:
+    with progress_bar(f"{problem.species.name} at each share of the terms") as progress:
         found = trace_terms(problem, row, starts, seed, progress)
     record = found.record()
     if plot:
@@ -100,7 +103,7 @@ def _print(record: dict[str, Any]) -> None:
     for point in record["points"]:
         table.add_row(*_cells(point))
     console.print(table)
-    console.print("power: mean of all actuators; the columns beside it show what it is spent on")
+    console.print("power: mean total of all actuators; the columns to its right show what it is spent on")
     for mark in record["marks"]:
         console.print(f"share {mark['lower']:g} to {mark['upper']:g}: {mark['what']}")
     told = "one family of wingbeats is best" if record["same_family"] else "no single family of wingbeats is best"

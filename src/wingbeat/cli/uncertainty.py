@@ -27,7 +27,9 @@ def uncertainty(
     model: ModelOptions = DEFAULT_MODEL,
     minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
-    share: Annotated[float, Parameter(help="Share of every plausible range to sample, around the value.")] = 1.0,
+    share: Annotated[
+        float, Parameter(help="Fraction of every plausible range to sample, around the parameter's value.")
+    ] = 1.0,
     seed: Annotated[Whole, Parameter(help="Seed of the samples.")] = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
@@ -85,7 +87,7 @@ def _print(one: Comparison, console: Console) -> None:
         line += (("  mean over the ranges", f"{bar.value + bar.shift:.4g}{unit}"),)
     else:
         ranking = ranked_in_words(bar).removeprefix(f"{name} ")
-        line = ((f"{name}, first order is a ranking only", ranking),)
+        line = ((f"{name}, first order (ranking only)", ranking),)
     rows = (
         *line,
         (

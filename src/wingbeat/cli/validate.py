@@ -36,8 +36,8 @@ def validate(
     case: Annotated[
         str | None,
         Parameter(
-            help="A strip-motion case (.toml), an animal whose flights were measured, or a file of such flights "
-            "(.toml). The strip-motion cases of the package if left out."
+            help="A strip-motion case (.toml), an animal whose flights were measured, or a file of measured "
+            "flights (.toml). If left out: the strip-motion cases of the package."
         ),
     ] = None,
     /,
@@ -47,7 +47,7 @@ def validate(
         Parameter(
             negative=(),
             help="Coefficients: su-fan, dickinson, ..., a table (.csv) or a fit (.toml); repeat for several. "
-            "All models if left out.",
+            "If left out: all models.",
         ),
     ] = None,
     extension: Annotated[
@@ -57,26 +57,28 @@ def validate(
     unsteady: Annotated[
         str | None,
         Parameter(
-            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake. A row "
-            "for each if left out."
+            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake. If "
+            "left out: a row for each."
         ),
     ] = None,
     inflow: Annotated[
-        str | None, Parameter(help="Induced flow: none or momentum. A row for each if left out.")
+        str | None, Parameter(help="Induced flow: none or momentum. If left out: a row for each.")
     ] = None,
     induced_factor: Annotated[
-        float | None, Parameter(help="Induced power of the inflow over that of an ideal disc; default 1.2.")
+        float | None, Parameter(help="Ratio of induced power to that of an ideal disc; default 1.2.")
     ] = None,
     model: Annotated[
         str | None, Parameter(help="Whole flights: the model, animal or paper; default animal.")
     ] = None,
     draws: Annotated[
         Whole | None,
-        Parameter(help="Whole flights: draws of the animal's numbers for the band; default 0, no band."),
+        Parameter(
+            help="Whole flights: number of random draws of the animal's numbers for the band; default 0, no band."
+        ),
     ] = None,
     seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw it: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, Parameter(help="Draw the comparison: .png, .pdf or .svg.")] = None,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
     ] = None,
@@ -110,7 +112,7 @@ def validate(
     whole = case is not None and is_whole_flights(case)
     for name, value in (loads if whole else flights).items():
         if value is not None:
-            faults.add(name, value, f"does not apply to {'whole flights' if whole else 'measured motions'}")
+            faults.add(name, value, f"does not apply to {'whole flights' if whole else 'strip-motion cases'}")
     faults.raise_if_any()
     if case is not None and whole:
         return validate_flights(case, model or "animal", draws or 0, seed or 0, json, plot, output)
@@ -135,7 +137,7 @@ def validate(
             _print(one)
         if case is None:
             animals = ", ".join(measured_animals())
-            plain_console().print(f"Whole flights, compared by `wingbeat validate ANIMAL`: {animals}")
+            plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")
     for path in (plot, output, *pictures):
         if path is not None:
             print(f"wrote {path}", file=sys.stderr)
@@ -169,17 +171,18 @@ def _print(found: Validation) -> None:
         console.print(table)
     console.print(f"* recommended: {found.reason}")
     said = found.to_dict()
-    for axis in ("fz", "fx"):
+    for axis, label in (("fz", "upward force"), ("fx", "forward force")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            console.print(f"best sine at the beat's frequency, {axis}: rms {sine['rms']:.3f}")
+            console.print(f"{label}: the best sine at the beat's frequency has an rms of {sine['rms']:.3f}")
         if noise is not None:
-            console.print(f"standard error of the measurement, {axis}: rms {noise:.3f}")
+            console.print(f"{label}: the standard error of the measurement has an rms of {noise:.3f}")
     for note in found.notes:
         console.print(f"- {note}", style="yellow")
     console.print(
-        "mean, peak: computed force / measured force; rms: difference / weight; about mean: rms of the difference "
-        "/ rms of the measurement, both without their means; lag: share of a beat, positive if computed is late; "
+        "mean, peak: computed force / measured force\nrms: rms of the difference / weight\n"
+        "about mean: rms of the difference / rms of the measurement, after each force's mean is subtracted\n"
+        "lag: fraction of a beat, positive if the computed force is late\n"
         "wake: thin-aerofoil with the lag of the wake\n"
     )
 

@@ -18,11 +18,14 @@ _SUFFIXES = (".html", ".gif")
 
 
 def view(
-    file: Annotated[Path, Parameter(help="A file of `orbit -o` or `simulate -o`.")],
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o` or `simulate -o`.")],
     other: Annotated[Path | None, Parameter(help="A second file to compare with.")] = None,
     *,
     output: Annotated[
-        Path, Parameter(name=["--output", "-o"], help="The page, .html, or the animated picture, .gif.")
+        Path,
+        Parameter(
+            name=["--output", "-o"], help="The file to write: .html for a page, .gif for an animated picture."
+        ),
     ],
 ) -> None:
     """Show a saved flight in motion: wings, air loads and time series at every phase of the beat.

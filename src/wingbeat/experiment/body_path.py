@@ -100,7 +100,7 @@ def fit_body_path(
             phase, values = film.seen(name)
             covered = float(np.ptp(phase))
             if covered < _SHORTEST:
-                rule = f"is seen in {covered:.2g} beats: too little to separate travel from periodic motion"
+                rule = f"covers only {covered:.2g} beats: too little to separate travel from periodic motion"
                 faults.add(f"{film.name}, column {name}", f"{len(phase)} frames", rule, "film a whole wingbeat")
             travel, law = fit_travel(phase, values - values.mean())
             series = law.coefficients

@@ -52,16 +52,16 @@ class LiftForm(BoxForm):
         low, high = float(alpha_deg.min()), float(alpha_deg.max())
         if max(-low, high) > FARTHEST_DEG:
             rule = f"reaches beyond {FARTHEST_DEG:g} degrees, where the form cambered does not hold"
-            fix = f"leave these rows out (--alpha-min -{FARTHEST_DEG:g} --alpha-max {FARTHEST_DEG:g})"
-            faults.add("alpha_deg", f"{low:g} to {high:g}", f"{rule} and the model is a plate", fix)
+            fix = f"leave out the other rows (--alpha-min -{FARTHEST_DEG:g} --alpha-max {FARTHEST_DEG:g})"
+            faults.add("alpha_deg", f"{low:g} to {high:g}", f"{rule}: there the model is a plate", fix)
         for side, words, where in ((-1, "negative", "below"), (1, "positive", "above")):
             count = len(np.unique(np.round(alpha_deg[side * values > 0], 6)))
             if count >= LEAST_ANGLES:
                 continue
             rule = f"is {words} at {count or 'none'} of the angles between {low:g} and {high:g} degrees"
-            few = ", too few for that side of the wing"
+            few = ", too few to fit that side of the wing"
             rule += few if count else ", so the table shows one side of the wing only"
-            fix = f"measure {LEAST_ANGLES} angles or more {where} zero lift, or choose a mirrored form: dickinson"
+            fix = f"measure {LEAST_ANGLES} angles or more {where} zero lift, or choose a mirrored form (dickinson)"
             faults.add(label, f"{values.min():g} to {values.max():g}", rule, fix)
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:

@@ -81,8 +81,8 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
         if len(found) >= count:
             return found[:count]
     faults = FaultList()
-    rule = "is so wide that few samples give a valid formula: the data do not determine this form"
-    faults.add(label, "covariance", rule, "choose a form with fewer parameters")
+    rule = "few random draws from it give a valid formula: the data do not determine this form"
+    faults.add(f"{label}, covariance", "too wide", rule, "choose a form with fewer parameters")
     raise InvalidInputError(faults.faults)
 
 

@@ -125,7 +125,8 @@ class Film:
             return []
         phase, values = self.seen(name)
         if len(values) < _FEWEST:
-            faults.add(where, f"{len(values)} frames", f"must be seen in at least {_FEWEST}", "film more frames")
+            rule = f"must be seen in at least {_FEWEST} frames"
+            faults.add(where, f"{len(values)} frames", rule, "film more frames")
             return []
         place = np.sort(phase % 1.0)
         gaps = np.diff(np.append(place, place[0] + 1.0))
@@ -140,7 +141,7 @@ class Film:
                 f"{where}: no angle exceeds {largest:.2g} degrees; if these are radians, multiply them by 57.29578"
             )
         if FILMED.get(name) == "deg" and name not in _WRAPPED and largest > 180:
-            faults.add(where, largest, "must lie in -180 to 180 degrees", "wrap the angle")
+            faults.add(where, largest, "must lie between -180 and 180 degrees", "wrap the angle")
         if name in WHOLE and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
             faults.add(
@@ -205,7 +206,7 @@ def read_film(path: str | Path) -> Film:
     sheet, faults = read_sheet(path), FaultList()
     names, constants = _names(faults, sheet), _constants(faults, sheet)
     if "time" in names and "frequency" not in constants:
-        fix = "add the line '# frequency = ...' [Hz] above the table, or give phases"
+        fix = "add the line '# frequency [Hz] = ...' above the table, or give phases"
         faults.add(f"{sheet.file}, frequency", "", "is missing: it converts times to phases", fix)
     if set(names) & set(BODY) and "time" not in names:
         rule = "has the path of a body but no times"
@@ -238,7 +239,8 @@ def _names(faults: FaultList, sheet: Sheet) -> list[str]:
         names.append(name)
     where = f"{sheet.file} row {sheet.header_row}"
     if len(set(names) & set(_CLOCKS)) != 1:
-        faults.add(where, ",".join(sheet.header), "must have one of phase and time", "phase in beats, time in s")
+        rule = "must name exactly one of phase and time"
+        faults.add(where, ",".join(sheet.header), rule, "phase in beats, time in s")
     if not set(names) & set(FILMED):
         fix = f"any of {', '.join(FILMED)}"
         faults.add(where, ",".join(sheet.header), "has no filmed column", fix)

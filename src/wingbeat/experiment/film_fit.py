@@ -165,8 +165,8 @@ class FilmedBeat:
         error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
         faults = FaultList()
         if not 0.5 < mean <= 1.0 + _NOISE * error:
-            rule = "the mean of area over span must be above 0.5 and at most 1"
-            fix = "divide by the area of the fully spread wing of the species file"
+            rule = "the mean ratio of area fraction to span fraction must be above 0.5 and at most 1"
+            fix = "divide the areas by that of the fully spread wing of the species file"
             faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
         faults.raise_if_any()
 
@@ -182,8 +182,8 @@ class FilmedBeat:
         swing = float(np.ptp(law.curve(np.linspace(0.0, 1.0, 97))[0]))
         return (
             *self.film.notes,
-            f"{self.film.name}, column stroke_plane_deg: it varies by {swing:.2g} degrees over the beat, more than "
-            "its noise; the stroke plane of a wingbeat is fixed, so its mean is used",
+            f"{self.film.name}, column stroke_plane_deg: the angle varies by {swing:.2g} degrees over the beat, "
+            "more than the noise; a wingbeat has a fixed stroke plane, so the mean angle is used",
         )
 
     @property

@@ -91,8 +91,8 @@ class CurveForm:
         try:
             inspect.signature(self.function).bind(np.zeros(1), **self.start)
         except (TypeError, ValueError) as error:
-            rule = f"does not take the parameters of start ({error})"
-            faults.add("function", self.formula, rule, "give its arguments these names")
+            rule = f"does not take the parameters named in start ({error})"
+            faults.add("function", self.formula, rule, "give the function's arguments the names in start")
         faults.raise_if_any()
 
     @property
@@ -158,8 +158,8 @@ class CurveForm:
         """
         del values, label
         if self.only_positive and len(alpha_deg) and alpha_deg.min() < 0:
-            rule = f"is below 0, where {self.formula} does not hold"
-            fix = "fit from 0 up (--alpha-min 0), or choose dickinson"
+            rule = f"is below 0, where the formula {self.formula} does not hold"
+            fix = "fit from 0 up (--alpha-min 0), or choose the form dickinson"
             faults.add("alpha_deg", float(alpha_deg.min()), rule, fix)
 
 

@@ -17,7 +17,17 @@ from wingbeat.files import read_text
 MAX_BYTES = 1 << 26
 # Forty bad cells tell as much as forty thousand.
 MAX_CELL_FAULTS = 40
-_SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "°": "deg", "degrees": "deg", "seconds": "s"}
+_SAME = {
+    "n·m": "n m",
+    "n*m": "n m",
+    "nm": "n m",
+    "n.m": "n m",
+    "°": "deg",
+    "degrees": "deg",
+    "seconds": "s",
+    "-": "",
+    "1": "",
+}
 
 
 class Heading(NamedTuple):
@@ -59,8 +69,9 @@ def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> 
     plain = re.sub(r"\s*/\s*", "/", plain)
     if _SAME.get(plain, plain) == wanted.lower():
         return
-    fix = f"convert the column to {wanted} and write [{wanted}]" if wanted else "write it without a unit"
-    faults.add(where, unit, f"is not the unit in which the column is read, [{wanted or '-'}]", fix)
+    rule = f"is not the expected unit, [{wanted}]" if wanted else "is a unit, but this quantity has none"
+    fix = f"convert the numbers to {wanted} and write [{wanted}]" if wanted else "leave the brackets out"
+    faults.add(where, unit, rule, fix)
 
 
 def read_sheet(path: str | Path) -> Sheet:
@@ -121,7 +132,7 @@ def parse_numbers(
             break
         cells = _cells(text)
         if len(cells) != len(names):
-            rule = f"has {len(cells)} cells where {len(names)} columns are named"
+            rule = f"has {len(cells)} cells, but the header names {len(names)} columns"
             faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
             continue
         for k, (name, cell) in enumerate(zip(names, cells, strict=True)):

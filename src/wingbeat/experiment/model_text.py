@@ -14,10 +14,11 @@ from wingbeat.experiment.regression import CurveFit
 
 _HEAD = """\
 # Coefficients of a wing strip, fitted by `wingbeat fit`. Give this file in place of a model's name:
-# wingbeat polar THIS.toml, wingbeat orbit pigeon --speed 12 --aero THIS.toml. Angles a in degrees."""
+# wingbeat polar THIS.toml, wingbeat orbit pigeon --speed 12 --aero THIS.toml. Angles of attack a are in degrees."""
 _CAMBERED = """\
-# The formulas hold between the joins, where the wing was measured; beyond them it is a plate (su-fan). Drag's
-# onsets are counted from zero_lift_deg, and slope and rises are per radian."""
+# The formulas hold between the joins, where the wing was measured; beyond the joins the wing is a plate (su-fan).
+# ramp(x) is max(x, 0) with its corner rounded. The onsets of drag are counted from zero_lift_deg. The slope and the
+# rises are per radian."""
 
 
 def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:

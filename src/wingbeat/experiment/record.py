@@ -74,7 +74,8 @@ class LoadCellRun:
         for name in (*COLUMN_UNITS, "tare"):
             object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=np.float64))
         if np.shape(self.tare) != (3, 2) or not np.isfinite(self.tare).all():
-            faults.add(f"{self.name}, tare", self.tare, "must be three pairs of finite numbers", "before and after")
+            rule = "must be three pairs of finite numbers"
+            faults.add(f"{self.name}, tare", self.tare, rule, "give the readings before and after the run")
         object.__setattr__(self, "alpha_deg", np.broadcast_to(self.alpha_deg, np.shape(self.time)))
         _check_series(faults, self)
         faults.raise_if_any()
@@ -108,12 +109,12 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     steps = np.diff(run.time)
     if steps.min() <= 0:
         first = int(np.argmin(steps > 0)) + 1
-        rule = f"must be above the {run.time[first - 1]:g} s before it"
+        rule = f"must be above the time before it, {run.time[first - 1]:g} s"
         faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop duplicates")
     alpha = np.asarray(run.alpha_deg)
     if np.abs(alpha).max() > 180:
         worst = float(alpha[np.argmax(np.abs(alpha))])
-        faults.add(f"{run.name}, alpha_deg", worst, "must lie in -180 to 180 degrees", "wrap the angle")
+        faults.add(f"{run.name}, alpha_deg", worst, "must lie between -180 and 180 degrees", "wrap the angle")
     elif (spread := float(alpha.std())) > MAX_TURN_DEG:
         rule = f"moves with a standard deviation of {spread:.2g} degrees, but a run has one angle"
         faults.add(f"{run.name}, alpha_deg", float(alpha.mean()), rule, "write one file for each angle")
@@ -208,13 +209,14 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
         except ValueError:
             values = ()
         if len(values) != wanted:
-            rule = "must be two numbers, before and after" if wanted == 2 else "must be one number"
-            faults.add(where, text, rule, f"write it in {units[name]}; the unit goes in brackets before the =")
+            rule = "must be two numbers, before and after the run" if wanted == 2 else "must be one number"
+            fix = f"give only numbers, in {units[name]}; the unit goes in brackets before the ="
+            faults.add(where, text, rule, fix)
             continue
         found[name] = values
     for name, unit in CONSTANT_UNITS.items():
         if not any(split_unit(key).name == name for key in sheet.constants):
-            faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} = ...' [{unit}]")
+            faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} [{unit}] = ...'")
     return found
 
 
@@ -231,5 +233,5 @@ def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
         return
     faults = FaultList()
     rule = f"is the largest of {len(distinct)} angles, which looks like a sweep in radians"
-    faults.add(where, largest, rule, "write degrees (radians times 57.29578), and go beyond 4 degrees")
+    faults.add(where, largest, rule, "write degrees (radians times 57.29578); a sweep in degrees must go beyond 4")
     raise InvalidInputError(faults.faults)

@@ -129,7 +129,7 @@ def _means(runs: list[LoadCellRun], alpha_deg: list[float], loads: NDArray[np.fl
 
 def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
     faults = FaultList()
-    fix = "give the seconds at the end of the record that are steady"
+    fix = "give the length of the steady part at the end of the record"
     if faults.number("last", last, above=0, unit="s", fix=fix):
         step = run.duration / len(run.time)
         if last > run.duration + step:
@@ -162,7 +162,7 @@ def _unsteady(names: list[str], series: NDArray[np.float64]) -> list[tuple[str, 
     notes: list[tuple[str, ...]] = []
     for name, row in zip(names, drifts, strict=True):
         moved = [label for label, drifting in zip(QUANTITIES, row, strict=False) if drifting]
-        text = f"{name}: {', '.join(moved)} still moves within the window; give a smaller --last"
+        text = f"{name}: still drifting within the window: {', '.join(moved)}; give a smaller --last"
         notes.append((text,) if moved else ())
     return notes
 

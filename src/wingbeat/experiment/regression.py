@@ -247,7 +247,7 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     faults = FaultList()
     if not a.shape == y.shape == errors.shape or a.ndim != 1:
         shapes = f"{a.shape}, {y.shape}, {errors.shape}"
-        faults.add(label, shapes, "angles, values and errors must be lists of one length")
+        faults.add(label, shapes, "angles, values and errors must be lists of equal length")
         faults.raise_if_any()
     for name, column in (("alpha_deg", a), (label, y), (f"{label}_se", errors)):
         if not np.isfinite(column).all():
@@ -294,7 +294,7 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
         x = np.clip([start[name] for name in names], *bounds)
         if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
             faults = FaultList()
-            faults.add(label, form.formula, "gives no finite numbers at its starting values", "change its start")
+            faults.add(label, form.formula, "gives no finite numbers at its starting values", "change these")
             faults.raise_if_any()
         tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
         found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
@@ -320,16 +320,16 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
     for name, value in fit.parameters.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
-            notes.append(f"{fit.label}: {name} reached the limit of its fit, {value:g}; the form does not fit")
+            notes.append(f"{fit.label}: {name} reached its limit in the fit, {value:g}; choose another form")
     limits = fit.interval()
     loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
         text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
-        notes.append(f"{text}; the data do not determine this form; use the curve within its range only")
+        notes.append(f"{text}; the data do not determine this form; use the curve only where it was measured")
     if fit.condition > ILL_CONDITIONED:
         notes.append(
-            f"{fit.label}: ill-conditioned ({fit.condition:.1e}): its parameters cannot be separated; "
-            "measure over more angles or choose a form with fewer"
+            f"{fit.label}: ill-conditioned (condition number {fit.condition:.1e}): the data do not separate the "
+            "parameters; measure over more angles, or choose a form with fewer parameters"
         )
     return tuple(notes)
 

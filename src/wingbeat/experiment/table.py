@@ -195,6 +195,6 @@ def _check_rows(faults: FaultList, sheet: Sheet, columns: Columns) -> None:
         elif name in ("reynolds", "runs"):
             bad, rule, fix = column <= 0, "must be > 0", "was the stream at rest?"
         elif name == "alpha_deg":
-            bad, rule, fix = np.abs(column) > 180, "must lie in -180 to 180 degrees", "wrap the angle"
+            bad, rule, fix = np.abs(column) > 180, "must lie between -180 and 180 degrees", "wrap the angle"
         for i in np.flatnonzero(bad):
             faults.add(f"{sheet.file} row {sheet.rows[i][0]}, column {name}", float(column[i]), rule, fix)

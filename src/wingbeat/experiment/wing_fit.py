@@ -83,7 +83,8 @@ class WingFit:
         """
         if self.centre is None:
             faults = FaultList()
-            faults.add("x_cp", self.name, "was not fitted", "give a table with the column x_cp")
+            rule = "this model has no centre of pressure"
+            faults.add("x_cp", self.name, rule, "fit a table with the column x_cp, by a form that uses it")
             raise InvalidInputError(faults.faults)
         a = np.deg2rad(alpha_deg)
         normal = self.lift.predict(alpha_deg) * np.cos(a) + self.drag.predict(alpha_deg) * np.sin(a)
@@ -216,7 +217,7 @@ def fit_wing(
         usable = known & (table.alpha_deg >= 0) if chosen.centre.only_positive else known
         if usable.sum() < len(chosen.centre.names) + 2:
             notes.append(
-                f"x_cp: {usable.sum()} usable rows are too few for its form; the model has no centre of pressure"
+                f"x_cp: only {usable.sum()} usable rows, too few for a fit; the model has no centre of pressure"
             )
         else:
             centre = _fit(table, "x_cp", chosen.centre, usable)

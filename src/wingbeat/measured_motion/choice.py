@@ -219,15 +219,15 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
     said += f", reduced frequency {regime.reduced_frequency:.2g}"
     why = "the model of its kind" + (" in slow flight" if wanted.endswith("-revolving") else "")
     if wanted == _PLATE:
-        why = "above a Reynolds number of 10000, the plate's polar"
+        why = "polar of a plate, Reynolds number above 10000"
     elif wanted == _REVOLVING:
-        why = "below a Reynolds number of 10000, a revolving wing's polar"
+        why = "polar of a revolving wing, Reynolds number below 10000"
     parts = [f"{said}: {wanted} ({why})"]
     if aero.coefficients.name != wanted:
         parts.append(f"this model is not among the rows; {aero.coefficients.name} is the nearest one")
     parts.append(_unsteady_reason(regime, aero.coefficients, attached))
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
-        parts.append("the chosen rows do not offer these terms")
+        parts.append("no row of this model has this choice of terms")
     if aero.coefficients.aspect_ratio is None:
         parts.append("no momentum inflow (the polar includes induced flow)")
     elif aero.inflow != "none":

@@ -92,7 +92,7 @@ class Validation:
         """Notes for the reader."""
         start = ()
         if self.case.period is None and any(row.unsteady == THIN_AEROFOIL_WAKE for row in self.rows):
-            start = ("the motion does not repeat: we take the wake before its first time as that of steady flight",)
+            start = ("the motion does not repeat, so the wake at the first time is taken as that of steady flight",)
         return (*self.case.notes, *self.motion.notes, *start)
 
     def to_dict(self) -> dict[str, Any]:

@@ -63,10 +63,10 @@ def _matched(
     falls = np.flatnonzero(np.diff(given) <= 0) + 1
     for i in falls[:LISTED]:
         where = f"{sheet.file} row {sheet.rows[i][0]}, column time_s"
-        faults.add(where, float(given[i]), "does not rise above the time before it", "sort the rows by time")
+        faults.add(where, float(given[i]), "is not later than the previous time", "sort the rows by time")
     if len(falls) or not len(given):
         if not len(given):
-            faults.add(sheet.file, "0 rows", "holds no forces", "one row for each time of the strips")
+            faults.add(sheet.file, "0 rows", "holds no forces", "write one row for each time of the strips")
         return None
     low, high = (end if bound is None else bound for bound, end in zip(window, times[[0, -1]], strict=True))
     slack = _SAME_TIME * float(np.diff(times).min()) if len(times) > 1 else 0.0
@@ -79,7 +79,7 @@ def _matched(
     rows = len(given) if window == (None, None) else int(((given >= low - slack) & (given <= high + slack)).sum())
     if rows != judged.sum() or not found[judged].all():
         lacking = times[judged & ~found]
-        rule = f"must be equal to the {judged.sum()} times of the strips"
-        rule += f"; at {lacking[0]:g} s there is none" if len(lacking) else ""
+        rule = f"must be the same as the {judged.sum()} times of the strips"
+        rule += f", but no row is at {lacking[0]:g} s" if len(lacking) else ""
         faults.add(f"{sheet.file}, column time_s", f"{rows} times", rule, "interpolate the forces to these times")
     return np.where(found, nearest, -1) if len(faults.faults) == before else None

@@ -89,8 +89,9 @@ def _rung(model: CoefficientModel, step: str, flow: str, induced_factor: float) 
     if step != THIN_AEROFOIL_WAKE:
         return Rung(BladeElement(model, unsteady=step, inflow=flow, induced_factor=induced_factor))
     if model.aspect_ratio is None:
-        rule = f"needs a polar measured in straight flow, with its aspect ratio, and {model.name} states none"
-        fix = "use thin-aerofoil; a revolving wing keeps its leading-edge vortex and sheds no straight wake"
+        rule = "needs a polar that was measured in straight flow and states its aspect ratio"
+        rule += f"; {model.name} states none"
+        fix = "use thin-aerofoil: a revolving wing keeps its leading-edge vortex and sheds no straight wake"
         raise InvalidInputError([Fault("unsteady", step, rule, fix)])
     aero = BladeElement(model, unsteady="thin-aerofoil", inflow=flow, induced_factor=induced_factor)
     return Rung(aero, has_wake=True)

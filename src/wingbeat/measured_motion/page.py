@@ -11,7 +11,7 @@ _HEAD = """# Air loads on measured motions
 
 `uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It takes
 measured motions of wings, computes the air loads on the wings' strips, and compares the computed forces with the
-measured ones. For a case of your own, write `wingbeat validate my_case.toml`; `wingbeat validate --help` and the
+measured ones. For a case of your own, run `wingbeat validate my_case.toml`; `wingbeat validate --help` and the
 docstring of `wb.read_strip_case` describe its files.
 
 ## What is compared
@@ -21,8 +21,8 @@ docstring of `wb.read_strip_case` describe its files.
   one with it. Rows with inflow or lag need a model that states its aspect ratio.
 - **Recommended.** The rule below chooses one row from the Reynolds number, the reduced frequency, the kind of wing
   and the motion. It never sees the measured force, so the recommended row is not always the closest.
-- **mean** is the computed mean force divided by the measured mean force, and **peak** the computed largest force
-  divided by the measured largest force.
+- **mean** is the computed mean force divided by the measured mean force, and **peak** is the largest computed force
+  divided by the largest measured force.
 - **rms** is the root mean square of the difference between the two forces, divided by the weight. For **rms about
   mean**, we first subtract from each force its own mean, and then divide the rms of the difference by the rms of
   the measurement.
@@ -39,10 +39,10 @@ docstring of `wb.read_strip_case` describe its files.
    insects and hummingbirds alike ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)). The
    rule chooses `dickinson`, a polar of revolving wings. It already includes induced flow.
 3. Above this Reynolds number, the rule chooses the model named after the kind of wing if there is one, and
-   otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model of
-   revolving wings of this kind.
-4. Above a reduced frequency of 0.1 the rule adds rotation and added mass (Leishman 2006, Principles of Helicopter
-   Aerodynamics, draws the line between 0.05 and 0.2).
+   otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
+   measured on revolving wings of this kind.
+4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
+   (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
 5. Above the same reduced frequency it also adds the lag of the wake if the theory applies. The theory assumes a
    straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions must therefore be
    met: the polar was measured in straight flow and states an aspect ratio; the speed is at least twice the induced
@@ -75,7 +75,7 @@ the result is Theodorsen's lift with his C(k). In a motion that repeats, the sta
 the wake starts as in steady flight.
 
 The lag is that of a wing section, like rotation and added mass. A whole wing lags less than its sections: [air
-loads](air_loads.md) says what that means for the robot.
+loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## Whole flights
 
@@ -124,10 +124,10 @@ def _section(found: Validation, figure: str) -> str:
     for axis, force in (("fz", "upward"), ("fx", "forward")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            text = f"The best sine differs from the measured {force} force by an rms of {sine['rms']:.2f} weights"
+            text = f"The best sine has an rms of {sine['rms']:.2f} for the {force} force"
             about = sine["rms_about_mean"]
-            text += "." if about is None else f"; its rms about mean is {about:.2f}."
-            text += "" if noise is None else f" The measurement's own standard error is {noise:.2f} weights."
+            text += "." if about is None else f" and an rms about mean of {about:.2f}."
+            text += "" if noise is None else f" The standard error of the measurement is {noise:.2f} of the weight."
             lines += [text, ""]
     lines += [f"Note: {note}." for note in found.notes]
     lines += [""] * bool(found.notes)

@@ -121,7 +121,7 @@ def _check_keys(faults: FaultList, given: dict[str, Any], file: str) -> None:
     if ("forces" in given) == ("mean_force" in given):
         both = "both" if "forces" in given else "none"
         fix = "give the file of the forces, or their mean [fx, fz] in N"
-        faults.add(f"{file}, forces", both, "must have one of forces and mean_force", fix)
+        faults.add(f"{file}, forces", both, "exactly one of forces and mean_force must be given", fix)
     if "mean_force" in given:
         check_mean_force(faults, f"{file}, mean_force", given["mean_force"])
     if "wing" in given and given["wing"] not in WINGS:
@@ -138,5 +138,7 @@ def _table(faults: FaultList, given: dict[str, Any], key: str, path: Path, read:
     except InvalidInputError as error:
         faults.faults.extend(error.faults)
     except FileError as error:
-        faults.add(f"{path.name}, {key}", name, str(error), "the file must lie beside it")
+        faults.add(
+            f"{path.name}, {key}", name, str(error), f"give the file's path relative to the folder of {path.name}"
+        )
     return None

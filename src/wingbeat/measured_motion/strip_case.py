@@ -168,7 +168,7 @@ class StripCase:
             notes.append(f"the times cover {beats:.2f} beats, {rule}")
         whole = self.period is not None and bool(self.inside.all())
         if not whole and self.mean_force is not None and abs(covered - round(covered)) > 0.1:
-            notes.append(f"{covered:.2f} beats are compared: their mean is not that of whole beats")
+            notes.append(f"{covered:.2f} beats are compared, so the computed mean is not that of whole beats")
         if self.density > 10:
             notes.append("the fluid is not air, but the Reynolds number is computed with the viscosity of air")
         return notes

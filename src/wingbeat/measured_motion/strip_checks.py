@@ -45,7 +45,7 @@ ARRAY_LIMITS = {
     "times": Limits(-1e7, 1e7, "s", "in seconds"),
     "position": _POSITIONS,
     "chord": Limits(-1e3, 1e3, "m", "in metres"),
-    "area": Limits(1e-14, 1e4, "m2", "in square metres; leave out a strip that has no area at any time"),
+    "area": Limits(1e-14, 1e4, "m2", "give square metres, and leave out a strip that has no area at any time"),
     "velocity": _SPEEDS,
     "rear_velocity": _SPEEDS,
 }
@@ -61,7 +61,7 @@ def check_scalars(faults: FaultList, values: Mapping[str, Any], where: Callable[
             number = {"at_least": limits.least, "at_most": limits.most, "unit": limits.unit, "fix": limits.fix}
             faults.number(where(name), value, **number)
         elif name == "name" and not (isinstance(value, str) and value.strip() and value.isprintable()):
-            faults.add(where(name), value, "must be a text of one line", 'for example name = "pigeon, slow"')
+            faults.add(where(name), value, "must be one line of text", 'for example name = "pigeon, slow"')
         elif name in ("mirrored", "periodic") and not isinstance(value, bool):
             faults.add(where(name), value, "must be true or false", "without quotes")
 
@@ -96,7 +96,7 @@ def check_arrays(
     chord = arrays["chord"]
     assert chord is not None
     length = np.sqrt((chord * chord).sum(-1))
-    rule = f"is the length [m] of a chord, and must be at least {_SHORTEST_CHORD:g}"
+    rule = f"the length of a chord must be at least {_SHORTEST_CHORD:g} m"
     fix = "leave out a strip that has no chord at any time"
     _list(faults, length < _SHORTEST_CHORD, length, "chord", where, rule, fix)
 
@@ -105,17 +105,23 @@ def check_steps(faults: FaultList, times: NDArray[np.float64], frequency: float,
     """Note times that do not rise, and steps that are too wide to resolve a beat or far narrower than others."""
     steps = np.diff(times)
     falls = np.append(False, steps <= 0)
-    _list(
-        faults, falls, times, "times", where, "does not rise above the time before it [s]", "sort the rows by time"
-    )
+    _list(faults, falls, times, "times", where, "must be later than the previous time [s]", "sort the rows by time")
     if falls.any():
         return
     wide = np.append(False, steps * frequency > _WIDEST)
-    rule = f"comes more than {_WIDEST:g} beats after the time before it [s]"
-    _list(faults, wide, times, "times", where, rule, "is frequency in Hz and time in s? if so, fill the gap")
+    rule = f"the step from the previous time must be at most {_WIDEST:g} beats"
+    _list(
+        faults,
+        wide,
+        times,
+        "times",
+        where,
+        rule,
+        "check that frequency is in Hz and time in s; if they are, fill the gap",
+    )
     close = np.append(False, steps < _NARROWEST * steps.max())
-    rule = f"comes less than {_NARROWEST:g} of the widest step after the time before it [s]"
-    _list(faults, close, times, "times", where, rule, "drop one of the two")
+    rule = f"the step from the previous time must be at least {_NARROWEST:g} of the widest step"
+    _list(faults, close, times, "times", where, rule, "drop one of the two times")
 
 
 def _list(
@@ -143,7 +149,7 @@ def check_window(
     if not all([faults.number(where(name), value, unit="s") for name, value in given.items()]):
         return
     if given["start"] >= given["end"]:
-        faults.add(where("start"), given["start"], f"must be below {given['end']:g} s, the end", "exchange them")
+        faults.add(where("start"), given["start"], f"must be below the end, {given['end']:g} s", "exchange them")
         return
     held = int(((times >= given["start"]) & (times <= given["end"])).sum())
     if held < FEWEST:
@@ -164,9 +170,11 @@ def check_measured(faults: FaultList, case: Any) -> None:
             if name not in ("fx", "fz") or (kind == "errors" and name not in case.forces):
                 faults.add(place, name, "is not a force that was measured", "use fx (forward) and fz (up)")
             elif np.shape(values) != case.times.shape:
-                faults.add(place, np.shape(values), f"must have the shape {case.times.shape}, as times")
+                faults.add(place, np.shape(values), f"must have the same shape as times, {case.times.shape}")
             elif not (np.abs(values[case.inside]) <= _LARGEST_FORCE).all():
-                faults.add(place, "not finite or beyond 1e7 N", "must be finite from `start` to `end`")
+                faults.add(
+                    place, "not finite or beyond 1e7 N", "must be finite and within 1e7 N from `start` to `end`"
+                )
             elif kind == "errors" and (values[case.inside] < 0).any():
                 faults.add(place, "below 0", "must be standard errors", "give their absolute values")
 

@@ -149,7 +149,9 @@ def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
     if case.velocity is not None:
         mean = float(case.mean(case.velocity[..., 0] @ _shares(case)))
         if case.speed > 0 and abs(mean) < abs(mean - case.speed):
-            note = f"the given velocities advance at {mean:.2g} m/s and not at the speed, {case.speed:g} m/s"
+            note = (
+                f"the given velocities are {mean:.2g} m/s forward on average, but the speed is {case.speed:g} m/s"
+            )
             return case.velocity, (f"{note}: are they velocities through still air?",)
         return case.velocity, ()
     times = case.times[:, None]
@@ -161,8 +163,8 @@ def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
     drift = np.zeros(3) if not moves else np.array([case.speed, 0.0, 0.0])
     at_rest = case.position - times[..., None] * drift
     rates = smoothed_slopes(case.times, at_rest, case.frequency, case.period)[1]
-    frame = "advance with the animal" if moves else "do not advance: the speed is added, as in a wind tunnel"
-    notes = ("velocities are rates of change of the positions" + (f", which {frame}" if case.speed > 0 else ""),)
+    frame = "advance with the animal" if moves else "do not advance, so the speed is added, as in a wind tunnel"
+    notes = ("velocities are computed from the positions" + (f", which {frame}" if case.speed > 0 else ""),)
     return rates + np.array([case.speed, 0.0, 0.0]), notes
 
 

@@ -90,7 +90,7 @@ def read_strips(faults: FaultList, sheet: Sheet) -> StripTable | None:
 def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray[np.int64] | None:
     """Return the row of each time and strip, shape (times, strips); None if some are missing."""
     if not len(time):
-        faults.add(sheet.file, "0 rows", "holds no strips", "one row for each time and strip")
+        faults.add(sheet.file, "0 rows", "holds no strips", "write one row for each time and strip")
         return None
     before = len(faults.faults)
     odd = np.flatnonzero((strip != np.round(strip)) | (np.abs(strip) > 1e6))
@@ -103,8 +103,8 @@ def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray
     falls = (np.diff(strip[order]) == 0) & (np.diff(time[order]) <= 0)
     for i in order[1:][falls][:LISTED]:
         where = f"{sheet.file} row {sheet.rows[i][0]}, column time_s"
-        rule = f"does not rise above the previous time of strip {strip[i]:g}"
-        faults.add(where, float(time[i]), rule, "sort the rows by time; one row for each time and strip")
+        rule = f"is not later than the previous time of strip {strip[i]:g}"
+        faults.add(where, float(time[i]), rule, "sort the rows by time, and keep one row for each time and strip")
     if falls.any():
         return None
     times, at = np.unique(time, return_inverse=True)
@@ -118,7 +118,7 @@ def _grid(faults: FaultList, sheet: Sheet, time: Array, strip: Array) -> NDArray
     missing = np.argwhere(grid < 0)
     for i, k in missing[:LISTED]:
         rule = f"has no row at {times[i]:g} s; a strip needs a row at every time"
-        fix = "give the strip a row at each time, or leave it out at all times"
+        fix = "add the missing rows, or leave out the whole strip"
         faults.add(f"{sheet.file}, strip {names[k]:g}", f"{(grid[:, k] >= 0).sum()} rows", rule, fix)
     if len(missing) > LISTED:
         rule = "are missing in total: the table must have a row for every strip at every time"

@@ -15,7 +15,7 @@ BEAT = (
     Term("peak_power", "W", "largest hinge power, both wings", short="hinge power, peak"),
     Term("mean_actuator_power", "W", "mean actuator power, both wings", short="actuator power, mean"),
     Term("peak_actuator_power", "W", "largest actuator power, both wings", short="actuator power, peak"),
-    Term("positive_power_per_mass", "W kg-1", "mean positive hinge power over the whole mass"),
+    Term("positive_power_per_mass", "W kg-1", "mean positive hinge power divided by the whole mass"),
     Term("minimum_power_speed", "m s-1", "speed of minimum power"),
     Term("power_cost", "W", "mean hinge power with a share of the negative work recovered"),
     Term("spring_power", "W", "mean positive hinge power with springs at the flap hinges"),
@@ -25,24 +25,28 @@ BEAT = (
     Term(
         "peak_activation",
         "1",
-        "largest share of its fibres that a flight muscle must use; above 1, it is too weak",
+        "largest share of its fibres that a flight muscle must use; above 1, the muscle is too weak",
         short="largest activation",
     ),
-    Term("muscle_power_per_mass", "W kg-1", "mean positive power of the flap hinges' muscles over their mass"),
-    Term("muscle_work_per_mass", "J kg-1", "positive work per beat of the flap hinges' muscles over their mass"),
-    Term("muscle_efficiency", "1", "mean positive power of the muscles over their metabolic power"),
+    Term(
+        "muscle_power_per_mass", "W kg-1", "mean positive power of the flap hinges' muscles divided by their mass"
+    ),
+    Term(
+        "muscle_work_per_mass", "J kg-1", "positive work per beat of the flap hinges' muscles divided by their mass"
+    ),
+    Term("muscle_efficiency", "1", "mean positive power of the muscles divided by their metabolic power"),
     Term(
         "electrical_power",
         "W",
-        "mean electrical power of the motor, and positive power of the pitch hinges; no power is returned",
+        "mean positive electrical power of the motor plus mean positive power of the pitch hinges",
     ),
     Term("peak_motor_torque", "N m", "largest absolute value of the motor's torque"),
     Term("rms_motor_torque", "N m", "root mean square of the motor's torque"),
     Term("peak_motor_speed", "rad s-1", "largest absolute value of the motor's speed"),
     Term("peak_motor_voltage", "V", "largest absolute value of the voltage at the motor's terminals"),
     Term("rms_motor_current", "A", "root mean square of the motor's current"),
-    Term("cost_of_transport", "1", "mean positive power over weight times speed", short="cost of transport"),
-    Term("peak_force_over_weight", "1", "largest air load on the whole vehicle over its weight"),
+    Term("cost_of_transport", "1", "mean positive power divided by weight times speed", short="cost of transport"),
+    Term("peak_force_over_weight", "1", "largest air load on the whole vehicle divided by its weight"),
     Term("peak_flap_torque", "N m", "largest absolute value of the flap torque, both wings"),
     Term("peak_pitch_torque", "N m", "largest absolute value of the wing pitch torque, both wings"),
     Term(
@@ -87,7 +91,7 @@ ANSWER = (
     Term("starts", "1", "number of starts"),
     Term("distinct_optima", "1", "number of distinct optima found"),
     Term("starts_at_best", "1", "number of starts that ended at the best optimum"),
-    Term("active_bounds", "", "bounds that the orbit is at"),
+    Term("active_bounds", "", "bounds and limits that the orbit has reached"),
     Term("failed_balance", "", "balances that fail, and by how much"),
     Term("relaxations", "", "smallest single changes that give an orbit"),
     Term("plausibility", "", "numbers of the orbit that have plausible ranges, with these ranges"),
@@ -97,7 +101,7 @@ ANSWER = (
     Term("warnings", "", "what to know before trusting the orbit"),
     Term("solve_seconds", "s", "time to solve"),
     Term("version", "", "version of wingbeat"),
-    Term("optimum", "", "rank at its speed, 0 the best"),
+    Term("optimum", "", "rank of the optimum at its speed; 0 is the best"),
     Term("family", "", "number of the family of orbits, -1 if none"),
     Term(
         "continued",

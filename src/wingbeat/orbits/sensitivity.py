@@ -68,7 +68,7 @@ class OptimumSlopes:
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
-            rule = "is no isolated optimum, so its derivatives do not exist or depend on the direction"
+            rule = "is not an isolated optimum, so its derivatives do not exist or depend on the direction"
             fix = "try a neighbouring speed, or free more parameters of the wingbeat"
             raise InvalidInputError([Fault("orbit", problem.species.name, rule, fix)])
         self._at, self._free, self._active = found, newton.free, newton.active

@@ -56,7 +56,8 @@ def printed_sign(evidence: Evidence) -> TestResult:
     """Return the forward speed that the periodicity condition gives with the sign as printed [m/s]."""
     orbit = evidence.orbit("pigeon", "su-fan")
     x = orbit.dataset["x"].values
-    return float(x[0] - x[-1]) * orbit.wingbeat.frequency, False
+    speed = float(x[0] - x[-1]) * orbit.wingbeat.frequency
+    return speed, speed > 0.0
 
 
 def stable(evidence: Evidence) -> TestResult:

@@ -115,7 +115,7 @@ ASKED_OTHERWISE = {
         for by in ("usherwood", "pennycuick")
     },
     "gains-at-speed": _REFERENCE,
-    "bat-closer-at-speed": "the same test; its words now say that the paper gives the 6 Hz",
+    "bat-closer-at-speed": "the same test; the claim now says that its 6 Hz for bats come from the paper",
     "less-pitching-pigeon": _SEPARATELY,
     "less-pitching-bat": _SEPARATELY,
     "animals-reynolds": "judged at each speed, no longer only at 10 m/s",

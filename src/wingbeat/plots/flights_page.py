@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _LOOKS: dict[str, dict[str, Any]] = {
     "measured": {"color": VERMILION, "hatch": "", "alpha": 0.35, "label": "measured"},
     "estimated": {"color": ORANGE, "hatch": "////", "alpha": 0.25, "label": "estimated with a model"},
-    "law": {"color": GREEN, "hatch": "....", "alpha": 0.15, "label": "law of other animals"},
+    "law": {"color": GREEN, "hatch": "....", "alpha": 0.15, "label": "law fitted to other animals"},
 }
 _LETTERS = 30  # of a line of an axis label
 _LINE = 0.05  # m/s: half of the width of a stripe at a single speed
@@ -71,7 +71,7 @@ def _draw(axes: Axes, prediction: Prediction, name: str) -> None:
     dress(axes, "speed [m/s]", textwrap.fill(name_of(name) + unit, _LETTERS))
     axes.tick_params(labelbottom=True)
     if np.isfinite(low).any():
-        label = "80 % of the draws of the animal's numbers"
+        label = "middle 80 % of the random draws"
         axes.fill_between(speeds, low, high, color=BLUE, alpha=0.15, linewidth=0, label=label)
     axes.plot(speeds, values, "-o", color=BLUE, markersize=3, label="predicted", zorder=3)
     failed = ~np.isfinite(values)

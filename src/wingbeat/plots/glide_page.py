@@ -75,6 +75,6 @@ def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
     aero = json.loads(about["aero"])
     count, all_ = int(dataset["trimmed"].sum()), dataset.sizes["angle_of_attack"]
-    trimmed = "trimmed" if count == all_ else f"trimmed without a tail in {count} of {all_}"
+    trimmed = "trimmed" if count == all_ else f"trimmed without a tail at {count} of {all_} angles"
     name = about["species"]
     return f"{name[:1].upper()}{name[1:]} gliding, wings held still, {aero['coefficients']}; {trimmed}"

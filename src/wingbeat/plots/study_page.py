@@ -50,9 +50,8 @@ def study_page(
     """
     faults = FaultList()
     if not varied:
-        faults.add(
-            "varied", list(varied), "has no number to draw against", "vary one in the study, or read its table"
-        )
+        fix = "vary a number in the study, or read the study's table"
+        faults.add("varied", list(varied), "has no number to draw against", fix)
     for name in (*varied, quantity):
         if name not in frame or frame[name].dtype.kind not in "fiu":
             faults.add("quantity" if name == quantity else "varied", name, "is not a numeric column of the table")

@@ -27,7 +27,7 @@ def terms_page(record: dict[str, Any]) -> Figure:
         figure = new_figure(PAGE, 66.0)
         terms = " and ".join(record["aero"][name] for name in ("unsteady", "inflow") if name in record["aero"])
         name = record["species"]
-        title = f"{name[:1].upper()}{name[1:]} at {record['speed']:.4g} m/s: from none to all of {terms}"
+        title = f"{name[:1].upper()}{name[1:]} at {record['speed']:.4g} m/s: the share of {terms} rises from 0 to 1"
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         frequency, amplitude, power = figure.subplots(1, 3)
         runs = _runs(record)

@@ -36,7 +36,7 @@ def tornado_page(found: Sensitivities) -> Figure:
         problem = found.problem
         figure.suptitle(
             f"{problem.species.name} at {problem.speed:g} m/s, minimum {problem.minimise.name.replace('_', ' ')}: "
-            "effect of each plausible range, a first-order ranking (largest change: 1)",
+            "first-order effect of each plausible range, relative to the largest effect",
             fontsize=8,
         )
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]

@@ -116,7 +116,7 @@ def _read(about: dict[str, Any], name: str) -> Any:
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
     phase, reached = dataset["phase"].values, flown(dataset)
-    first = f"Flight of {phase[-1]:g} beats from {float(dataset['u'][0]):.4g} m/s, {frequency}"
+    first = f"Flight of {phase[-1]:g} beats, starting at {float(dataset['u'][0]):.4g} m/s, {frequency}"
     if reached.all():
         return [(first, _TITLE)]
     end = phase[reached][-1] if reached.any() else 0.0
@@ -127,5 +127,5 @@ def _note(dataset: xr.Dataset) -> str:
     """Return the line below the panels."""
     mean = mean_power(dataset)
     power = "" if mean is None else f" c: mean hinge power {mean:.3g} W."
-    strips = f"h, i: force on one of the {dataset.sizes['station']} equal strips of a wing, sum of both wings."
+    strips = f"h, i: force on one of {dataset.sizes['station']} equal strips, both wings together."
     return f"Downstroke shaded.{power} g: effective angle. {strips}"

@@ -54,8 +54,8 @@ class Curve(Saveable):
 
     def __repr__(self) -> str:
         data = self._dataset
-        what = f"minimum {data.attrs['objective']} at {data.sizes['speed']} speeds, {len(self.gaps)} of them gaps"
-        return f"<Curve {data.attrs['species']}: {what}>"
+        what = f"minimum {data.attrs['objective']} at {data.sizes['speed']} speeds"
+        return f"<Curve {data.attrs['species']}: {what}, {len(self.gaps)} without an orbit>"
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -212,8 +212,8 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     try:
         curve = Curve(dataset)
         if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
-            raise ValueError("the inputs are not those of its solution")
+            raise ValueError("the inputs do not match their hash")
         curve.record()
     except (LookupError, ValueError, TypeError, AttributeError) as error:
-        raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve it again") from None
+        raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve the curve again") from None
     return curve

@@ -122,7 +122,7 @@ def glide_polar(
     """
     faults = FaultList()
     angles = np.radians(DEFAULT_ALPHA_DEG) if angles_of_attack is None else np.asarray(angles_of_attack, float)
-    fix = "increasing, above 0, at most pi/2"
+    fix = "give increasing angles, above 0 and at most pi/2"
     inside = angles.ndim == 1 and angles.size > 0 and (angles > 0).all() and (angles <= 0.5 * math.pi).all()
     if not inside or not (np.diff(angles) > 0).all():
         faults.add("angles_of_attack", angles.tolist(), "must be angles of attack in radians", fix)
@@ -165,13 +165,13 @@ def glide_warnings(polar: GlidePolar) -> list[str]:
     notes = list(polar.species.warnings)
     found = [glide for glide in polar.glides if math.isfinite(glide.speed)]
     if len(found) < len(polar.glides):
-        notes.append(f"{len(polar.glides) - len(found)} angles of attack have no steady forward glide")
+        notes.append(f"there is no steady forward glide at {len(polar.glides) - len(found)} angles of attack")
     untrimmed = [glide for glide in found if not glide.trimmed]
     if untrimmed:
         moments = [glide.tail_moment for glide in untrimmed]
         notes.append(
-            f"{len(untrimmed)} of {len(found)} glides are not trimmed: a tail would need to supply "
-            f"{min(moments):.2g} to {max(moments):.2g} N m (nose up positive); their body stays along the path"
+            f"{len(untrimmed)} of {len(found)} glides are not trimmed: the body stays along the path, and a tail "
+            f"would need to supply {min(moments):.2g} to {max(moments):.2g} N m (nose up positive)"
         )
     coefficients, wing, air = polar.aero.coefficients, polar.species.vehicle.wing, polar.species.air
     low, high = coefficients.reynolds_range or (0.0, math.inf)

@@ -153,7 +153,7 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     if record.get("optimality") is not None:
         rows.append(("optimality (largest KKT residual)", f"{record['optimality']:.1e}"))
     if "starts" in record:
-        rows.append(("starts, and those at this optimum", f"{record['starts']}, {record.get('starts_at_best')}"))
+        rows.append(("starts, of which at this optimum", f"{record['starts']}, {record.get('starts_at_best')}"))
         rows.append(("distinct optima found", str(record.get("distinct_optima"))))
     rows.append(("at the bound of", ", ".join(record.get("active_bounds") or []) or "nothing"))
     return rows

@@ -53,8 +53,8 @@ SUFFIXES = (".nc", *_WRITERS)
 def check_result_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
     """Note a fault unless the suffix of a file name is that of a format for results."""
     if _suffix(path) not in SUFFIXES:
-        fix = "end it in .nc (NetCDF, which wingbeat reads again), .csv or .mat"
-        faults.add(where, os.fspath(path), "is not a format for results", fix)
+        fix = "end the name in .nc (NetCDF, which wingbeat can read again), .csv or .mat"
+        faults.add(where, os.fspath(path), "does not end in a suffix for results", fix)
 
 
 def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:

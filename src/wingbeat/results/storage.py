@@ -60,7 +60,7 @@ def parse_attributes(
     FileError : the attributes are not those of an orbit.
     """
     if attributes.get(KIND) != "orbit":
-        kind = attributes.get(KIND, "not from wingbeat")
+        kind = f"of kind {str(attributes[KIND])!r}" if KIND in attributes else "not from wingbeat"
         raise FileError(f"cannot read {os.fspath(path)!r} as an orbit: it is {kind}; {_GIVE}")
     try:
         # Other attributes come from other programs, such as `history`.
@@ -68,11 +68,12 @@ def parse_attributes(
         record = {name: _decode(name, value) for name, value in own.items()}
         inputs = record.pop("inputs")
         if attributes["inputs_hash"] != inputs_hash(inputs):
-            raise ValueError("the inputs are not those of its solution")
+            raise ValueError("the inputs do not match their hash")
         return record, inputs
     except (KeyError, ValueError, TypeError, AttributeError) as error:
         raise FileError(
-            f"cannot read {os.fspath(path)!r} as an orbit: its attributes are damaged ({error}); solve it again"
+            f"cannot read {os.fspath(path)!r} as an orbit: its attributes are damaged ({error}); "
+            "solve the orbit again"
         ) from None
 
 

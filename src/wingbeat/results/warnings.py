@@ -100,10 +100,10 @@ def rivals(solution: Solution) -> list[str]:
     here, there = (
         values[place] * (math.degrees(1.0) if angle else 1.0) for values in (solution.unknowns, other.unknowns)
     )
-    unit = " degrees" if angle else ""
+    unit = "" if not angle else " degrees/s" if name == "pitch_rate" else " degrees"
     return [
-        f"other optima within 1 % of the best: {len(others)}; they differ most in {name}, "
-        f"{there:.3g} against {here:.3g}{unit}"
+        f"other optima within 1 % of the best: {len(others)}; the most different one has {name} = "
+        f"{there:.3g}{unit}, against {here:.3g}{unit} here"
     ]
 
 
@@ -189,7 +189,7 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
     if share > _MENTION:
         notes.append(
             f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
-            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)} applies"
+            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)}"
         )
     return notes + guessed(coefficients)
 
@@ -198,14 +198,15 @@ def guessed(coefficients: CoefficientModel) -> list[str]:
     """Warn if the coefficients are in part a guess."""
     if getattr(coefficients, "grade", "") != "C":
         return []
-    return [f"the coefficients of {coefficients.name} are in part a guess; wb.aero.WING_ESTIMATES says which"]
+    name = coefficients.name
+    return [f"the coefficients of {name} are in part a guess; wb.aero.WING_ESTIMATES marks the guessed numbers"]
 
 
 def _beyond(coefficients: CoefficientModel) -> str:
-    """Return in words where the coefficients beyond the angles of the fit come from."""
+    """Say where the coefficients beyond the angles of the fit come from."""
     if isinstance(coefficients, CamberedCoefficients):
-        return "the join to a plate, or the plate itself,"
-    return f"the extension '{coefficients.extension}'"
+        return "the coefficients pass into those of a flat plate"
+    return f"the extension '{coefficients.extension}' applies"
 
 
 def _outside(values: np.ndarray, low: float, high: float) -> float:

@@ -46,7 +46,7 @@ class LatticeOptions:
         for name, least, most in (("chordwise", 2, 40), ("spanwise", 2, 80), ("steps", 16, 1000)):
             value = getattr(self, name)
             if faults.whole(name, value, least, most) and value % 2:
-                faults.add(name, value, "must be even", "a lattice with half as many is flown too")
+                faults.add(name, value, "must be even", "a second lattice, with half this number, is flown too")
         faults.whole("beats", self.beats, 2, 20, "the first beat starts from rest and is never compared")
         faults.raise_if_any()
 

@@ -110,7 +110,7 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
         case "float_type" if isinstance(value, int) and not isinstance(value, bool):
             return "is too large a number", ""
         case "float_type" if isinstance(value, str):
-            return "must be a number", "take it out of the quotes; its unit goes into unit = ..."
+            return "must be a number", "write the number without quotes; its unit goes into unit = ..."
         case "float_type":
             return "must be a number", ""
         case "finite_number":

@@ -70,7 +70,8 @@ class RangeTable(BaseModel):
     unit: str = ""
     source: str = ""
     speeds: _Pair | None = Field(
-        default=None, description="lowest and highest flight speed at which it applies [m/s]; all if not given"
+        default=None,
+        description="lowest and highest flight speed at which this range applies [m/s]; all speeds if not given",
     )
 
 

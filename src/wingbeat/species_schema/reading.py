@@ -211,7 +211,8 @@ def _note_missing(raw: dict[str, Any], faults: FaultList) -> None:
                 names = " or ".join(key.spellings)
                 faults.add(names, NOTHING, "must be given", f"{key.meaning} [{key.unit}]")
     if all(_leaf(raw, path) is None for path in ("vehicle.mass", "vehicle.body.mass")):
-        faults.add("vehicle.mass", NOTHING, "must be given", "or vehicle.body.mass, without the wings [kg]")
+        fix = "or give vehicle.body.mass, the mass without the wings [kg]"
+        faults.add("vehicle.mass", NOTHING, "must be given", fix)
 
 
 def _bounds(
@@ -225,7 +226,7 @@ def _bounds(
             if (limits := _range(path, pair, path, faults)) is None:
                 continue
             if limits[0] == limits[1]:
-                faults.add(path, pair, "leaves no room between its bounds", "widen them, or take it out of free")
+                faults.add(path, pair, "has equal lower and upper bounds", "widen them, or leave the parameter out")
             bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
             written[key.name] = (path, pair)
     return bounds
@@ -241,7 +242,7 @@ def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
             ends = [table.get(end) for end in ("low", "high")]
             low, high = (to_si(end, path) if has_shape("number", end) else None for end in ends)
             if low is not None and high is not None and low > high:  # type: ignore[operator]
-                faults.add(path, ends, "has its low end above its high one", "swap the two")
+                faults.add(path, ends, "has a low end above its high end", "swap the two")
             speeds = _range(f"{path}.speeds", table.get("speeds"), f"{path}.speeds", faults)
             found[key.name] = Range(low, high, key.unit, _line(table.get("source")), speeds)  # type: ignore[arg-type]
     return found
@@ -260,7 +261,7 @@ def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, 
 def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -> None:
     expected = "deg" if path.endswith("_deg") else key.unit
     if isinstance(unit, str) and unit and _tidy(unit) != _tidy(expected):
-        faults.add(f"{where}.unit", unit, f"must be {expected!r}", "convert the value; files hold SI units")
+        faults.add(f"{where}.unit", unit, f"must be {expected!r}", "give the value in this unit")
 
 
 def _tidy(unit: str) -> str:

@@ -134,7 +134,7 @@ class DaskEngine:
             self._watch(batch, future)
         except KilledWorker:
             if batch == self._alone:
-                return Ended(batch, [], "", "crashed", "the Dask workers of this batch died", told=False)
+                return Ended(batch, [], "", "crashed", "the Dask workers that ran this batch died", told=False)
             self._suspects.append(batch)
         except ClusterError:
             raise
@@ -201,7 +201,7 @@ class DaskEngine:
                     others.setdefault(f"{package} {version}, not {ours.get(package)}", []).append(name)
         for what, who in others.items():
             whose = who[0] if len(who) == 1 else f"{who[0]} and {len(who) - 1} more Dask workers"
-            self._told(f"{whose}: {what}; results agree within their certificates' tolerance only")
+            self._told(f"{whose}: {what}; results then agree only within the tolerance of the certificates")
         return met
 
 

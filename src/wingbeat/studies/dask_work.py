@@ -120,7 +120,7 @@ def solve_batch(order: bytes) -> Ended:
                 if not process.false_starts:  # else no point is to blame
                     return ended._replace(worker=f"{here} {ended.worker}")
     except WorkerError:
-        fix = "see the log of that worker"
+        fix = "see the log of the Dask worker there"
         raise ClusterError(f"on {here} no solver process can be started; {fix}") from None
 
 
@@ -135,5 +135,5 @@ def _solve(asked: Order, process: LocalProcesses) -> Ended:
 
 def other_numbers(who: str, theirs: int, ours: int) -> str:
     """Return the message that refuses a worker of another numerical version."""
-    fix = "its results cannot be mixed with these: install the same wingbeat there"
+    fix = "results of two versions cannot be mixed: install the same wingbeat there"
     return f"{who} has a wingbeat of numerical version {theirs}, but this process has version {ours}; {fix}"

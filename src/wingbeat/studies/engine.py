@@ -192,7 +192,7 @@ class LocalProcesses:
         if not worker.ready and how == "crashed":
             self.false_starts += 1
             if self.false_starts >= _STARTS:
-                raise WorkerError("no worker process can be started; see its message above")
+                raise WorkerError("no worker process can be started; see the error message above")
         text = f"no result within {self._timeout:g} s" if how == "timeout" else f"its process ended with {ending}"
         self._end(worker, how, text)
 

@@ -167,7 +167,8 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
         elif fault["type"] == "extra_forbidden":
             fix = suggest(str(loc[-1]), _known(loc[:-1]))
         elif fault["type"] == "literal_error":
-            rule, fix = "is not a known choice", f"use {fault.get('ctx', {}).get('expected')}, or a table of pairs"
+            rule = "is not a known choice"
+            fix = f"use {fault.get('ctx', {}).get('expected')}, or a table of [lower, upper] pairs"
         elif fault["type"] == "int_type":
             rule = WHOLE
         elif fault["type"] == "list_type":
@@ -226,15 +227,15 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         faults.add(
             "vary",
             lengths,
-            "lists are combined row by row, so they must have equal lengths",
-            "or give grid instead of list",
+            "has lists of unequal length, but lists are combined row by row",
+            "make them equally long, or give grid instead of list",
         )
     if ranged and form.sample is None:
         fix = 'add [sample] with method = "sobol" and n = 256'
         faults.add("sample", NOTHING, f"must be given, since {ranged[0]} has a range", fix)
     if form.sample is not None:
         if not ranged:
-            fix = "give a parameter range = [lowest, highest], or leave sample out"
+            fix = "write range = [lowest, highest] for a parameter, or leave sample out"
             faults.add("sample", form.sample.method, "has no range to sample", fix)
         faults.choice("sample.method", form.sample.method, METHODS)
         for name, count, least in (("n", form.sample.n, 1), ("seed", form.sample.seed, 0)):
@@ -282,5 +283,5 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
             faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")
     if form.speed is None and "speed" not in form.vary:
         faults.add(
-            "speed", NOTHING, "must be given", "speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
+            "speed", NOTHING, "must be given", "write speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
         )

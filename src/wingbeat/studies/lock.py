@@ -56,7 +56,7 @@ def only_one(store: Path) -> Iterator[None]:
         except OSError as error:
             reason = system_reason(error)
             fix = "copy the study to a folder that you can write to"
-            raise FileError(f"cannot write beside {str(store)!r}: {reason}; {fix}") from None
+            raise FileError(f"cannot write in the folder of {str(store)!r}: {reason}; {fix}") from None
         try:
             _take(descriptor)
         except OSError:

@@ -189,7 +189,7 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     lists = {name: values for name in _TOP if (values := getattr(form, name)) is not None}
     combinations = math.prod(map(len, lists.values()))
     if combinations > 10_000:
-        rule = "combinations of the top level are more than 10000"
+        rule = "combinations of the lists above [vary] are more than 10000"
         faults.add("file", combinations, rule, "vary numbers under [vary] instead")
         faults.raise_if_any()
     bases: dict[str, Base] = {}
@@ -204,7 +204,7 @@ def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     plan = Plan(form, tuple(bases.values()))
     if len(plan) > MOST_POINTS:
         rule = f"points are more than {MOST_POINTS}"
-        faults.add("vary", len(plan), rule, "vary less, or split it into several studies")
+        faults.add("vary", len(plan), rule, "vary less, or split the study")
         faults.raise_if_any()
     return plan
 

@@ -67,7 +67,7 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
     except OSError as error:
         reason = system_reason(error)
         fix = "copy the study to a folder that you can write to"
-        raise FileError(f"cannot write beside {str(path)!r}: {reason}; {fix}") from None
+        raise FileError(f"cannot write in the folder of {str(path)!r}: {reason}; {fix}") from None
     finally:
         with suppress(OSError):
             _remove(fresh)

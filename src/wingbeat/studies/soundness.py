@@ -124,8 +124,9 @@ def _check_kind(connection: sqlite3.Connection, path: Path) -> None:
         raise _Damaged("its own description does not match its digest")
     if about["form"] != FORM or about["numerical_version"] != str(NUMERICAL_VERSION):
         raise FileError(
-            f"the store {str(path)!r} is of numerical version {theirs}, this wingbeat of {NUMERICAL_VERSION}; its "
-            "results cannot be mixed with new ones: move it away, or continue with the wingbeat that made it"
+            f"the store {str(path)!r} is of numerical version {theirs}, but this wingbeat is of version "
+            f"{NUMERICAL_VERSION}; old and new results cannot be mixed: move the store away, or continue with the "
+            "wingbeat that made it"
         )
 
 
@@ -162,10 +163,10 @@ def _check_tables(connection: sqlite3.Connection, about: dict[str, str]) -> None
         keys = ", ".join(damaged[:3]) + (", ..." if len(damaged) > 3 else "")
         raise _Damaged(f"{len(damaged)} of {expected.rows} results do not match their digests, key {keys}")
     if found != expected:
-        raise _Damaged(f"{found.rows} of {expected.rows} results are left, or they differ from those written")
+        raise _Damaged(f"the {found.rows} results in it are not the {expected.rows} that were written")
     for table in PLAN_TABLES:
         if digest_of(connection, table) != about.get(table, digest_of_nothing()):
-            raise _Damaged("the points of the study in it do not match their digest")
+            raise _Damaged("the stored points of the study do not match their digest")
 
 
 def digest_of(connection: sqlite3.Connection, table: str) -> str:

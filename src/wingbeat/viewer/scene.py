@@ -65,7 +65,7 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
         faults.add("flights", len(flights), "must be 1 or 2", "give one, or two to compare")
     for label, dataset in flights:
         if dataset.sizes.get("phase", 0) > MOST_SAMPLES:
-            rule = f"are more samples than the {MOST_SAMPLES} that the viewer shows"
+            rule = f"samples are too many: the viewer shows at most {MOST_SAMPLES}"
             faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples per beat")
     faults.raise_if_any()
     return {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
@@ -75,8 +75,8 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
     if dataset.attrs.get(KIND) not in ("orbit", "flight") or "strip_corner" not in dataset:
         known = dataset.attrs.get(KIND)
         kind = f"of kind {str(known)!r}" if known else "not from wingbeat"
-        way = "give a file of `orbit -o` or `simulate -o` of this version"
-        raise FileError(f"cannot show {label!r}: it is {kind}, without the corners of its strips; {way}")
+        way = "give a file that `orbit -o` or `simulate -o` of this version wrote"
+        raise FileError(f"cannot show {label!r}: it is {kind} and does not hold the corners of the strips; {way}")
     reached = flown(dataset)
     if reached.sum() < 2:
         raise FileError(
@@ -114,7 +114,7 @@ def tail_of(dataset: xr.Dataset) -> np.ndarray | None:
 def _summary(dataset: xr.Dataset, frequency: float) -> str:
     about = dataset.attrs
     if about[KIND] != "orbit":
-        return f"simulated from {float(dataset['u'][0]):.3g} m/s, {frequency:.3g} Hz"
+        return f"simulated, starting at {float(dataset['u'][0]):.3g} m/s, {frequency:.3g} Hz"
     climb = climb_text(about["climb"])
     loads = json.loads(about["aero"])["coefficients"]
     status = "" if about["status"] == "converged" else f"; NOT CERTIFIED ({about['status']})"

@@ -9,8 +9,8 @@ from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import Flown, Prediction
 
 _FIT = (
-    "Nothing is fitted to these measurements. The polars of the wings are fitted to measured wings "
-    "([animal wings](animal_wings.md)), and laws give what the species file lacks ([models](models.md))."
+    "Nothing is fitted to the measurements below. The polars of the wings are fitted to measured wings "
+    "([animal wings](animal_wings.md)), and scaling laws give what the species file lacks ([models](models.md))."
 )
 
 
@@ -21,12 +21,12 @@ _SUMMARY = """## What the comparisons say
   predicted power is too high. Curves of power are U-shaped. The predicted minimum is at 9 m/s for the cockatiel
   (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
 - **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
-  speed, the predictions for pigeon and zebra finch are a little more than half of the live animals' frequency. No
+  speed, the predictions for pigeon and zebra finch are about half of the live animals' frequency. No
   single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
-- **The predicted alcids beat twice as fast as measured**, with amplitudes near the measured ones. Alcids have small
-  wings. To carry the weight at 16 m/s without flapping, the murre and the puffins need a mean lift coefficient of
-  1.0 to 1.25, and our gliding wings stall at 1.4. Perhaps the birds flew faster than the 14 to 18.6 m/s that the
-  authors of the measurements assume. We have not tested that.
+- **The predicted murre and puffins beat twice as fast as measured**, with smaller amplitudes. Their wings are
+  small. To carry the weight at 16 m/s without flapping, they need a mean lift coefficient of 1.0 to 1.25, and our
+  gliding wings stall at 1.4. Perhaps the puffins flew faster than the 14 to 18.6 m/s that the authors of the
+  measurements assume. We have not tested that.
 - **The predicted muscle is too efficient**: its efficiency is 0.5, and the measured or estimated one 0.06 to 0.11.
   Measured metabolic power includes the rest of the body and the recovery of the muscle, and ours does not."""
 
@@ -63,8 +63,9 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     option, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
     parts = [
         f"# Whole flights: {common_name}",
-        f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It flies the animal at "
-        f"each speed by the model `{prediction.model}`, which minimises the {objective}. {_FIT}",
+        f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It computes the "
+        f"animal's flight at each speed with the model `{prediction.model}`, which minimises the "
+        f"{objective}. {_FIT}",
         f"![Power, frequency and flap amplitude against speed, with measured values]({figure})",
         "## Compared with measurements",
         _score_table(compared(prediction)),
@@ -100,7 +101,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
         [
             "# Whole flights against measurements",
             "`python validation/whole_flights.py` writes this page and those of the animals. Each animal is flown "
-            f"by the model `animal` at the speeds of its measurements. {_FIT}",
+            f"with the model `animal` at the speeds of its measurements. {_FIT}",
             f"**{agree} of {len(known)} comparisons agree.** {_how_to_read()}",
             "| animal | quantity | basis | measured | at [m/s] | predicted | agrees |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(rows),
@@ -113,14 +114,18 @@ def _how_to_read() -> str:
     by_factor: dict[float, list[str]] = {}
     for name, words in _IN_SHORT.items():
         by_factor.setdefault(AGREES[name], []).append(words)
-    factors = "; ".join(f"{factor:g} for {', '.join(names)}" for factor, names in by_factor.items())
+    factors = " or ".join(f"{factor:g} ({_listed(names)})" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]
     return (
         "A prediction agrees if, at every speed, it is within the measured range or outside it by at most a factor "
-        f"({factors}). If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
+        f"of {factors}. If the range begins at 0, its upper end is a limit, and no factor applies. The speed of "
         f"minimum power agrees if it is at most {near:g} m/s outside the range. *Basis*: a *measured* number comes "
         "from the animal, an *estimated* one also from somebody's model, and a *law* was fitted to other animals."
     )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join(", ".join(names).rsplit(", ", 1))
 
 
 def _score_table(scores: Iterable[Score]) -> str:
@@ -159,9 +164,9 @@ def _band(one: Flown, name: str) -> str:
 
 def _due_text(flown: Sequence[Flown]) -> str:
     lines = [
-        "The table names the numbers of the animal that are most correlated with a quantity over the draws, and "
-        "the square of the rank correlation of each. A better measurement of the first number would narrow the "
-        "band most.",
+        "For each quantity, the table names the numbers of the animal that are most correlated with it over the "
+        "draws. After each number stands the square of its rank correlation. A better measurement of the first "
+        "number would narrow the band most.",
         "",
         "| speed [m/s] | quantity | depends on |",
         "| --- | --- | --- |",

@@ -53,7 +53,7 @@ TABLES = {
     "missing.csv": ["missing.csv|no such file or directory; check the path"],
     "folder.csv": ["folder.csv|it is not a file|give the path"],
     "empty.csv": ["empty.csv row 1 = '': the file is empty; the first row must read alpha_deg,c_l,c_d"],
-    "head.csv": ["has fewer than 4 rows|measure at more angles"],
+    "head.csv": ["must be at least 4 for a cubic spline|measure at more angles"],
     "sorted.csv": ["sorted.csv row 4, column alpha_deg = 10.0: must be above the 20 before it; sort the rows"],
     "column.csv": [
         "column.csv row 1, column c_d = 'alpha_deg,c_l,drag': the column is missing; the first row must read",
@@ -105,15 +105,15 @@ OUTPUTS = {
     "-o folder": "cannot write 'folder': it is a folder; give the path of a file",
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
-    "-o kept.png": "--output = 'kept.png': is not a format for results; end it in .nc",
-    "-o orbit": "--output = 'orbit': is not a format for results|.csv or .mat",
+    "-o kept.png": "--output = 'kept.png': does not end in a suffix for results; end the name in .nc",
+    "-o orbit": "--output = 'orbit': does not end in a suffix for results|.csv or .mat",
 }
 FIGURES = {
     "--plot page.txt": "--plot = 'page.txt': is not a figure format; end it in .png, .pdf, .svg",
     "--plot page": "--plot = 'page': is not a figure format",
     "--plot missing/page.png": "cannot write 'missing/page.png': no such file or directory",
     "--plot kept.png/page.png": "cannot write 'kept.png/page.png': not a directory",
-    "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is the file of --plot too; give each its own",
+    "--tornado kept.png --plot ./kept.png": "--tornado = 'kept.png': is also the file of --plot; give each option",
 }
 FLIGHTS = {
     "--beats 0": ["beats = 0: must be a whole number from 1 to 10000"],

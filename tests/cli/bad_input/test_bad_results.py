@@ -83,12 +83,13 @@ def test_inputs_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, caps
     for changed in ("", "{", "[]", "{}", "null", json.dumps(inputs | {"vehicle": {}}), None):
         attributes = good | {"inputs": changed} if changed is not None else {"wingbeat_kind": "orbit"}
         xr.Dataset(attrs=attributes).to_netcdf("changed.nc", engine="h5netcdf")
-        refuse(capsys, f"{command} changed.nc", "cannot read 'changed.nc' as an orbit: its |damaged|solve it again")
+        words = "cannot read 'changed.nc' as an orbit: its |damaged|solve the orbit again"
+        refuse(capsys, f"{command} changed.nc", words)
     for name, value in (("air", {"density": -1.0}), ("speed", "fast"), ("free", ["colour"]), ("bounds", {"x": 1})):
         xr.Dataset(attrs=good | {"inputs": json.dumps(inputs | {name: value})}).to_netcdf(
             "changed.nc", engine="h5netcdf"
         )
-        refuse(capsys, f"{command} changed.nc", "damaged (the inputs are not those of its solution)")
+        refuse(capsys, f"{command} changed.nc", "damaged (the inputs do not match their hash)")
 
 
 @pytest.mark.parametrize(

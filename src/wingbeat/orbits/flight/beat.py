@@ -21,6 +21,9 @@ from wingbeat.orbits.flight.shooting import STEPS, Flown
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import (
+        FieldByFree,
+        FieldByState,
+        FieldTangents,
         Free,
         Number,
         Pair,
@@ -222,11 +225,25 @@ def _part(
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
-    directions = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
     # The barrier keeps each direction from computing the tables again.
-    tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(directions)))
-    found, change = jax.linearize(lambda table, a: _series(model, table, a, mean_velocity), tables, path)
-    return found, jax.vmap(change)(table_tangents, tangents)
+    tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(jnp.eye(len(free)))))
+    found, by_table = jax.linearize(lambda table: _series(model, table, path, mean_velocity), tables)
+    by_path = jax.linearize(lambda at: _series(model, tables, at, mean_velocity), path)[1]
+    own = jax.vmap(by_table)(table_tangents)
+    by_state = jax.vmap(by_path)(jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, len(phase))))
+    return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)
+
+
+def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
+    """Return a field's derivatives: its own by the free parameters, and those through the path.
+
+    A sample depends on the path at its own phase alone, so its derivatives by the four states are a linear map.
+    """
+    change = jnp.concatenate([jnp.zeros((4, *own.shape[1:])), own])
+    if own.ndim == 1:  # a number
+        return change
+    places = (slice(None), slice(None), *[None] * (own.ndim - 2))
+    return change + sum(tangents[:, j][places] * by_state[j] for j in range(4))
 
 
 def beat_reader(

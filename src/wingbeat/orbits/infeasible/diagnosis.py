@@ -59,7 +59,7 @@ def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
     words = [str(d) for d in deficits if abs(d.share) >= least]
     place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
     limits = ", ".join(str(c) for c in problem.subject_to)
-    return f"{place}{f' with {limits}' if limits else ''} {' and '.join(words)}"
+    return f"{place}{f' with {limits}' if limits else ''}, {' and '.join(words)}"
 
 
 def least_changes(

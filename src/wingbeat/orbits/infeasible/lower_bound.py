@@ -58,8 +58,8 @@ def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxatio
 def words_of_raise(problem: OrbitProblem, change: Relaxation) -> str:
     """Return the message for an orbit certified only at a raised bound: why starts failed, and what to do."""
     return (
-        f"the lowest frequency is between its lower bound, {change.old:g} Hz, and {change.new:g} Hz, "
-        "the lowest frequency at which an orbit was certified. The wings hardly need to beat here: the optimum is "
-        "at the lower bound of frequency, and more starts will hardly help. Raise that bound "
+        f"no orbit was certified below {change.new:g} Hz, but the lower bound of frequency is {change.old:g} Hz. "
+        "The wings hardly need to beat here: the optimum is at the lower bound of frequency, and more starts will "
+        "hardly help. Raise that bound "
         f"({change.text}), minimise a power, or see `wingbeat glide {problem.species.name}`"
     )

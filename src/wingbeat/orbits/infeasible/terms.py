@@ -92,7 +92,7 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
     if name == UNSTEADY:
         return f"without the unsteady terms {closes}: rotation, added mass and couples make the difference"
     if name == UPSTROKE:
-        return f"with upstroke_factor 1 in place of {problem.aero.upstroke_factor:g} {closes}"
+        return f"with upstroke_factor 1 in place of {problem.aero.upstroke_factor:g}, {closes}"
     if name == HAND:
         return f"with the arm's coefficients from root to tip, without those of the hand, {closes}"
     return f"without the tail {closes}"

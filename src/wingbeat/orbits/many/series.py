@@ -51,8 +51,10 @@ def find_series(
     faults = FaultList()
     for i, problem in enumerate(problems):
         if problem.free != problems[0].free:
-            fix = f"give all problems the free parameters of the first: {', '.join(problems[0].free)}"
-            faults.add(f"problems[{i}].free", problem.free, "differs from the free parameters of the others", fix)
+            fix = f"give all problems the same free parameters: {', '.join(problems[0].free)}"
+            faults.add(
+                f"problems[{i}].free", problem.free, "differs from the free parameters of the first problem", fix
+            )
     check_processes(faults, processes)
     faults.raise_if_any()
     asked = {"starts": starts, "seed": seed, "most_starts": most_starts, "advise": advise, "options": options}

@@ -68,7 +68,7 @@ def parse_constraint(text: str) -> Constraint:
     name, sign, number, degrees = found.groups()
     quantity = named_quantity(name)
     if degrees and quantity.unit != "rad":
-        faults.add("constraint", text, f"has degrees for {name}, which is in {quantity.unit}", "leave out deg")
+        faults.add("constraint", text, f"gives {name} in degrees, but its unit is {quantity.unit}", "leave out deg")
     faults.raise_if_any()
     limit = math.radians(float(number)) if degrees else float(number)
     return Constraint(quantity, limit, sign == "<=")

@@ -108,7 +108,7 @@ class OutputFunctions:
     def _joined(self, beat: Beat, values: list[np.ndarray]) -> np.ndarray:
         for name, value in zip(self._names, values, strict=True):
             if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in jax.tree.leaves(beat)):
-                fix = "its function must be finite for every flight"
+                fix = "the quantity's function must be finite for every flight"
                 raise InvalidInputError([Fault(f"quantity {name}", float(value.flat[0]), "is not finite", fix)])
         return np.concatenate([value.ravel() for value in values]) / self._scale
 
@@ -143,7 +143,8 @@ def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) 
             rule = f"needs a {quantity.needs}, and the vehicle has none"
             faults.append(Fault("quantity", quantity.name, rule, _FIXES[quantity.needs]))
             continue
-        where, fix = f"quantity {quantity.name}", "it must be JAX-compatible Python; `Beat` documents its argument"
+        where = f"quantity {quantity.name}"
+        fix = "write the function in JAX-compatible Python; `Beat` documents the function's argument"
         try:
             found = _given_by(quantity.of, strips, drive)
         except Exception as error:  # whatever a user's function raises
@@ -152,6 +153,6 @@ def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) 
             continue
         shape = getattr(found, "shape", None)
         if shape is None or shape[:1] not in ((), (_SAMPLES,)) or len(shape) > 2:
-            rule = "must give a number, or one value or row for each phase"
+            rule = "must give one number, or for each phase a number or a row of numbers"
             faults.append(Fault(where, shape if shape is not None else type(found).__name__, rule, fix))
     return faults

@@ -43,13 +43,14 @@ def drawn_in(
         if pair[0] < pair[1]:
             drawn[name] = pair
         else:
-            rule = f"does not overlap with the plausible {_words(species.plausible_range(name, 0.0))}"
+            rule = f"does not overlap with the plausible range ({_words(species.plausible_range(name, 0.0))})"
             faults.add(f"bounds.{name}", bounds[name], rule, f"widen the bounds, or {_WAY_OUT}")
     for name in JUDGED:
         if name in FREE_NAMES and name not in free:
             value, known = parameter(species.wingbeat, name), species.plausible_range(name, 0.0)
             if _outside(value, known):
-                faults.add(f"wingbeat.{name}", value, f"is fixed outside the plausible {_words(known)}", _WAY_OUT)
+                rule = f"is fixed outside the plausible range ({_words(known)})"
+                faults.add(f"wingbeat.{name}", value, rule, _WAY_OUT)
     return drawn
 
 
@@ -67,7 +68,7 @@ def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList
         if name == "reynolds":
             reynolds = air.reynolds(speed, species.vehicle.wing.mean_chord)
             if speed > 0 and _outside(reynolds, known):
-                rule = f"gives a Reynolds number of {reynolds:.3g}, outside the plausible {_words(known)}"
+                rule = f"gives a Reynolds number of {reynolds:.3g}, outside the plausible range ({_words(known)})"
                 faults.add("speed", speed, rule, _WAY_OUT)
             continue
         for end, at_most in ((known.low, False), (known.high, True)):

@@ -242,8 +242,8 @@ class OrbitProblem:
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if self.minimise.parameter and self.minimise.parameter not in free:
-            rule = f"fixes {self.minimise.parameter}, which is the objective"
-            faults.add("free", free, rule, "minimise something else")
+            rule = f"leaves out {self.minimise.parameter}, which is the objective"
+            faults.add("free", free, rule, "free it too, or minimise something else")
         asked: Bounds = self.bounds
         for name, pair in asked.items():
             if name not in (*PATH_NAMES, *free):

@@ -124,7 +124,8 @@ def PowerCost(returned: float = 0.0) -> Quantity:
     'power_cost(0.3)'
     """
     faults = FaultList()
-    faults.number("returned", returned, at_least=-1, at_most=1, fix="0: negative work is lost; 1: it is returned")
+    fix = "0 means that negative work is lost, 1 that it is returned"
+    faults.number("returned", returned, at_least=-1, at_most=1, fix=fix)
     faults.raise_if_any()
     return Quantity(
         f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), plain_unit("power_cost")

@@ -38,8 +38,9 @@ def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> N
     """
     ahead, _, above = vehicle.wing.shoulder
     if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
-        rule = "changes nothing but the body's pitch while the shoulder sits at the body's centre of mass"
-        faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave it fixed")
+        rule = "changes only the body's pitch: the shoulder is at the body's centre of mass, and there is no tail"
+        faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
     if "tail_tilt" in free and vehicle.tail is None:
         rule = "changes nothing: there is no tail"
-        faults.add("free", "tail_tilt", rule, "set tail.area, tail.arm and tail.lift_slope, or leave it fixed")
+        fix = "set tail.area, tail.arm and tail.lift_slope, or leave tail_tilt fixed"
+        faults.add("free", "tail_tilt", rule, fix)

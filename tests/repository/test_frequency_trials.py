@@ -1,0 +1,41 @@
+"""The page on what sets the frequency: its script prints its words, and theory of the wake gives its numbers."""
+
+import re
+
+import numpy as np
+from scipy.special import hankel2
+
+import wingbeat as wb
+from tests.helpers.places import ROOT
+
+PAGE = (ROOT / "docs" / "frequency_trials.md").read_text()
+
+
+def test_the_script_prints_the_words_of_the_page(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "validation"))
+    import frequency_trials
+
+    before, after = frequency_trials.TEXT.split("{table}")
+    assert PAGE.startswith(before)
+    assert PAGE.endswith(after)
+    rows = [line.split(" | ")[0].removeprefix("| ") for line in PAGE.splitlines() if line.startswith("| ")]
+    assert rows[1:] == [trial.name for trial in frequency_trials.trials()]
+
+
+def share_of_plunge(reduced_frequency):
+    """Return the share of the power that becomes thrust in plunge, (F^2 + G^2) / F with C(k) = F + i G."""
+    one, zero = hankel2(1, reduced_frequency), hankel2(0, reduced_frequency)
+    lag = one / (one + 1j * zero)
+    return abs(lag) ** 2 / lag.real
+
+
+def test_shares_of_thrust_are_those_of_garrick():
+    chord = wb.load_species("pigeon").vehicle.wing.mean_chord
+    said = " ".join(PAGE.split())
+    for speed, shares in (
+        (12.0, "{:.2f} of the power becomes thrust at 30 Hz and 12 m/s, and {:.2f} at 5 Hz"),
+        (10.0, "At 10 m/s the shares are {:.2f} at 17 Hz and {:.2f} at 8 Hz"),
+    ):
+        frequencies = [float(one) for one in re.findall(r"(\d+) Hz", shares)]
+        found = [share_of_plunge(np.pi * frequency * chord / speed) for frequency in frequencies]
+        assert shares.format(*found) in said

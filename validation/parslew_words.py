@@ -1,0 +1,245 @@
+"""The page and the figure of `parslew.py`, from the table of its flights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pandas as pd
+
+from wingbeat.plots import save_figure
+from wingbeat.style import FIRST, GREY, PAGE, SECOND, drawing, dress, legend_below, letter_panels, new_figure
+from wingbeat.whole_flights import read_measured_flights
+
+# What the words of the abstracts are taken to mean.
+NEAR_VERTICAL = 20.0  # deg
+FLEXED = 0.1  # least share of the span that a flexed wing retracts
+EXTENDED = 0.05  # largest share of the span that an extended wing retracts
+GRADUAL = 0.25  # largest change of the frequency from one speed to the next
+FLEXING_COSTS = 0.1, 0.3  # "20 % more power", within ten percentage points
+PANELS = {
+    "power_per_mass": ("positive power [W/kg]", "positive_power_per_mass"),
+    "frequency": ("wingbeat frequency [Hz]", "frequency"),
+    "from_vertical_deg": ("stroke plane from vertical [deg]", ""),
+    "retraction": ("span retracted on the upstroke [-]", ""),
+}
+TEXT = """# Another predictive model of a pigeon
+
+`python validation/parslew.py` writes this page. Parslew and Crowther (2010, J Biomech 43:3191,
+doi 10.1016/j.jbiomech.2010.07.018) and Parslew (2015, J R Soc Interface 12:20140953, doi 10.1098/rsif.2014.0953)
+predict how a pigeon flies with the least mechanical power. Theirs is the model closest to ours: it optimises the
+motion of wings with several segments, with air loads and inertia.
+
+**We could read only the two abstracts, not the papers.** So we have neither their speeds nor their curves of power
+and frequency, and this page does not say how far they are from measurements. It tests whether our pigeon does what
+the abstracts say of theirs.
+
+## How we flew
+
+The pigeon of the model [`animal`](models.md), but at least mean positive power, as in their model, and with tilt of
+the stroke plane and span retraction free. *Frequency limited* means at most {highest:g} Hz, the highest frequency
+measured on pigeons. Without this limit the model spends the least power on fast, small strokes
+([muscles](muscles.md)). {certified} of {count} flights are certified.
+
+![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
+
+*Lines: our flights in cruise. Shaded: measured on pigeons ([sources](flight_pigeon.md)).*
+
+## Statement by statement
+
+| statement of the abstracts | our reading | frequency limited | frequency free |
+| --- | --- | --- | --- |
+{statements}
+
+So {sums}. A retraction of {most:g} is the most that we allow. In hover with the frequency free, the stroke plane is
+horizontal ({hover:.0f} degrees from vertical) and the wing stays spread, as the abstract says of hummingbirds.
+
+Power in hover and climb:
+
+| flight | frequency limited [W/kg] | frequency free [W/kg] |
+| --- | --- | --- |
+{powers}
+
+The comparison is of two models, not of a model with pigeons. For that, see [whole flights](whole_flights.md).
+"""
+
+
+class Statement(NamedTuple):
+    """A statement of the abstracts, what we take it to mean, and its test, which returns words and a verdict."""
+
+    words: str
+    reading: str
+    test: Callable[[pd.DataFrame], tuple[str, bool | None]]
+
+
+def _rows(table: pd.DataFrame, flight: str) -> pd.DataFrame:
+    found = table[(table["flight"] == flight) & table["power_per_mass"].notna()]
+    return found if flight == "hover" else found[found["held"].isna() | (flight == "cruise, spread")]
+
+
+def _ends(values: pd.Series, form: str) -> str:
+    low, high = f"{values.min():{form}}", f"{values.max():{form}}"
+    return low if low == high else f"{low} to {high}"
+
+
+def _vertical(table: pd.DataFrame) -> tuple[str, bool | None]:
+    rows = _rows(table, "cruise")
+    angles = rows["from_vertical_deg"]
+    near = angles.abs() <= NEAR_VERTICAL
+    at = ", ".join(f"{speed:g}" for speed in rows["speed"][near])
+    words = f"{_ends(angles, '.0f')} degrees; near-vertical at {at or 'no speed'}{' m/s' if at else ''}"
+    return words, bool(near.all()) if len(angles) else None
+
+
+def _flexed(table: pd.DataFrame) -> tuple[str, bool | None]:
+    free, spread = _rows(table, "cruise"), _rows(table, "cruise, spread")
+    both = free.merge(spread, on="speed", suffixes=("", "_spread"))
+    saved = 1 - both["power_per_mass"] / both["power_per_mass_spread"]
+    words = f"retracts {_ends(free['retraction'], '.2f')} of the span"
+    words += f"; this saves {_ends(100 * saved, '.0f')} % of the power"
+    return words, bool((free["retraction"] >= FLEXED).all()) if len(free) else None
+
+
+def _gradual(table: pd.DataFrame) -> tuple[str, bool | None]:
+    rows = _rows(table, "cruise").sort_values("speed")
+    jumps = (rows["frequency"].pct_change().abs()).dropna()
+    return f"at most {100 * jumps.max():.0f} %", bool((jumps <= GRADUAL).all()) if len(jumps) else None
+
+
+def _hover(table: pd.DataFrame) -> dict[float, float]:
+    rows = _rows(table, "hover")
+    return {held: power for held, power in zip(rows["held"].fillna(-1.0), rows["power_per_mass"], strict=True)}
+
+
+def _extended(table: pd.DataFrame) -> tuple[str, bool | None]:
+    rows = _rows(table, "hover")
+    free = rows[rows["held"].isna()]["retraction"]
+    if not len(free):
+        return "no flight found", None
+    return f"retracts {free.iloc[0]:.2f}", bool(free.iloc[0] <= EXTENDED)
+
+
+def _costly(table: pd.DataFrame) -> tuple[str, bool | None]:
+    powers = _hover(table)
+    if 0.0 not in powers or len(powers) < 2:
+        return "no flight found", None
+    more = {held: power / powers[0.0] - 1 for held, power in powers.items() if held > 0.0}
+    words = ", ".join(f"{100 * cost:+.0f} % with {held:g} of the span retracted" for held, cost in more.items())
+    low, high = FLEXING_COSTS
+    return words, any(low <= cost <= high for cost in more.values())
+
+
+def _steep(table: pd.DataFrame) -> tuple[str, bool | None]:
+    rows = _rows(table, "climb").sort_values("climb")
+    if len(rows) < 2:
+        return "too few flights found", None
+    cost = rows["power_per_mass"] / rows["climb"]
+    slow, fast = (f"{cost.iloc[end]:.0f} J/kg per metre at {rows['climb'].iloc[end]:g} m/s" for end in (0, -1))
+    words = f"{slow} of climb, {fast}"
+    return words, bool((cost.diff().dropna() < 0).all())
+
+
+STATEMENTS = (
+    Statement(
+        "The cheapest way to cruise has a near-vertical stroke plane (2015).",
+        f"at most {NEAR_VERTICAL:g} degrees from vertical at every speed",
+        _vertical,
+    ),
+    Statement(
+        "It has a flexed-wing upstroke (2015).",
+        f"the wing retracts at least {FLEXED:g} of its span at every speed",
+        _flexed,
+    ),
+    Statement(
+        "Kinematics vary gradually with speed (2010).",
+        f"the frequency changes by at most {100 * GRADUAL:.0f} % over 2 m/s",
+        _gradual,
+    ),
+    Statement(
+        "The cheapest hover has an extended-wing upstroke (2015).",
+        f"the wing retracts at most {EXTENDED:g} of its span",
+        _extended,
+    ),
+    Statement(
+        "In hover, flexing the wings costs 20 % more power (2015).",
+        f"{100 * FLEXING_COSTS[0]:.0f} to {100 * FLEXING_COSTS[1]:.0f} % more at one of the two retractions flown",
+        _costly,
+    ),
+    Statement(
+        "The cheapest way to reach an altitude is to climb as steeply as possible (2015).",
+        "power divided by the rate of climb falls as the climb steepens, at 8 m/s forward",
+        _steep,
+    ),
+)
+
+
+def _told(test: Callable[[pd.DataFrame], tuple[str, bool | None]], table: pd.DataFrame) -> str:
+    words, holds = test(table)
+    verdict = "cannot be tested" if holds is None else "**yes**" if holds else "**no**"
+    return f"{verdict}: {words}"
+
+
+def _sum(name: str, table: pd.DataFrame) -> str:
+    verdicts = [one.test(table)[1] for one in STATEMENTS]
+    told = [verdict for verdict in verdicts if verdict is not None]
+    return f"{sum(told)} of {len(told)} statements hold with the frequency {name}"
+
+
+def _powers(limited: pd.DataFrame, free: pd.DataFrame) -> Iterator[str]:
+    def power(table: pd.DataFrame, row: pd.Series) -> str:
+        same = (table["flight"] == row["flight"]) & (table["climb"] == row["climb"])
+        held = table["held"].isna() if pd.isna(row["held"]) else table["held"] == row["held"]
+        value = table[same & held]["power_per_mass"].iloc[0]
+        return "none found" if pd.isna(value) else f"{value:.0f}"
+
+    for _, row in limited[limited["flight"].isin(["hover", "climb"])].iterrows():
+        held = "retraction free" if pd.isna(row["held"]) else f"{row['held']:g} of the span retracted"
+        name = f"hover, {held}" if row["flight"] == "hover" else f"climb of {row['climb']:g} m/s at 8 m/s forward"
+        yield f"| {name} | {power(limited, row)} | {power(free, row)} |"
+
+
+@drawing()
+def draw(limited: pd.DataFrame, free: pd.DataFrame, path: Path) -> None:
+    """Draw the flights in cruise against speed, with what was measured on pigeons."""
+    figure = new_figure(PAGE, 0.75 * PAGE)
+    panels = figure.subplots(2, 2, sharex=True).ravel()
+    measured = read_measured_flights("pigeon").measurements
+    for axes, (column, (label, name)) in zip(panels, PANELS.items(), strict=True):
+        for table, look, words in ((limited, FIRST, "frequency limited"), (free, SECOND, "frequency free")):
+            rows = _rows(table, "cruise").sort_values("speed")
+            axes.plot(rows["speed"], rows[column], marker="o", markersize=3, **look, label=words)
+        for one in measured:
+            if one.quantity == name and one.basis == "measured" and one.speeds is not None:
+                (first, last), (low, high) = one.speeds, one.values
+                wide = max(0.5 * (0.3 - (last - first)), 0.0)
+                face = {"color": GREY, "alpha": 0.35, "linewidth": 0, "label": "measured on pigeons"}
+                axes.fill_between([first - wide, last + wide], low, high, **face)
+        dress(axes, "speed [m/s]", label)
+        axes.tick_params(labelbottom=True)
+        axes.set_ylim(0 if name else None)
+    letter_panels(panels)
+    legend_below(figure, panels)
+    save_figure(figure, path)
+
+
+def page(table: pd.DataFrame, figure: Path, highest: float) -> str:
+    """Draw the figure, and return the page."""
+    limited, free = (table[table["live"] == live] for live in (True, False))
+    draw(limited, free, figure)
+    statements = "\n".join(
+        f"| {one.words} | {one.reading} | {_told(one.test, limited)} | {_told(one.test, free)} |"
+        for one in STATEMENTS
+    )
+    spread = _rows(free, "hover")
+    return TEXT.format(
+        sums=" and ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
+        most=table["retraction"].max(),
+        hover=spread[spread["held"].isna()]["from_vertical_deg"].iloc[0],
+        highest=highest,
+        certified=int(table["power_per_mass"].notna().sum()),
+        count=len(table),
+        figure=figure.name,
+        statements=statements,
+        powers="\n".join(_powers(limited, free)),
+    )

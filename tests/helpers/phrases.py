@@ -19,6 +19,10 @@ def spaced(count):
     return f"{count:,}".replace(",", " ")
 
 
+def worded(count):
+    return WORDS.get(int(count), spaced(int(count)))
+
+
 def percent(share):
     return f"{100 * share:.0f}"
 

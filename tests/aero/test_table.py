@@ -219,12 +219,12 @@ def test_every_fault_of_a_table_is_told_at_once(tmp_path):
     ("first", "extension", "fix"),
     [
         (0, "signed", "use mirrored"),
-        (0, "signed-drag", "use mirrored"),
+        (0, "signed-drag", "has no effect on a table; use mirrored"),
         (-45, "signed", "add rows down to -90, or drop the negative rows and use mirrored"),
         (-45, "mirrored", "drop the negative rows, or add rows down to -90 and use signed"),
         (-90, "mirrored", "drop the negative rows, or use signed"),
         (-90, "clipped-drag", "drop the negative rows, or use signed"),
-        (-90, "signed-drag", "drop the negative rows, or use signed"),
+        (-90, "signed-drag", "drop the negative rows and use mirrored, or use signed"),
     ],
 )
 def test_extensions_that_do_not_fit_the_range(tmp_path, first, extension, fix):

@@ -37,7 +37,7 @@ def test_lift_and_drag_of_a_steady_plate_are_those_of_a_lifting_line():
     assert moment.sum(axis=(0, 1, 2))[1] == pytest.approx(-0.25 * chord * -up, rel=0.05)
 
 
-def test_lift_of_a_slender_wing_that_heaves_is_theodorsen_s():
+def test_lift_of_a_long_wing_that_heaves_is_theodorsen_s():
     """Theodorsen 1935, NACA report 496: lift pi rho b^2 h'' + 2 pi rho U b C(k) h', downward h."""
     speed, chord, height, frequency = 10.0, 0.2, 0.004, 5.0
     wing = dataclasses.replace(PIGEON.wing, semi_span=3.0, chord=chord, shoulder=(0.0, 0.0, 0.0))

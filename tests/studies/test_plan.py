@@ -164,10 +164,7 @@ VARY_FAULTS = [
     ({"speed": {"grid": [9.0, -1.0]}}, "vary.speed.grid[1] = -1.0: must be >= 0 and <= 100 m/s"),
     ({"speed": {"grid": [9.0, 9]}}, "vary.speed.grid = [9.0, 9]: names a value twice"),
     ({"speed": {"grid": ["fast"]}}, "vary.speed.grid[0] = 'fast': must be a number"),
-    (
-        {"speed": {"relative": [1.0]}},
-        "vary.speed.relative = [1.0]: needs a value other than zero to be relative to",
-    ),
+    ({"speed": {"relative": [1.0]}}, "vary.speed.relative = [1.0]: needs a value other than zero"),
     ({"aero.unsteady": {"relative": [1.0]}}, "relative = [1.0]: would multiply a word; use grid"),
     ({"speed": {"range": [9.0, 6.0]}}, "vary.speed.range = [9.0, 6.0]: must be [lowest, highest]"),
     ({"speed": {"range": [6.0, 9.0]}}, "sample = nothing: must be given, since speed has a range"),

@@ -73,7 +73,8 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
     elif first < 0 and extension != "signed":
         rule = f"is negative, and the extension {extension} would ignore it"
         more = "use signed" if first <= -90 else "add rows down to -90 and use signed"
-        faults.add(at_first, first, rule, f"drop the negative rows, or {more}")
+        drop = "drop the negative rows" + (" and use mirrored" if extension == "signed-drag" else "")
+        faults.add(at_first, first, rule, f"{drop}, or {more}")
     elif first > -90 and extension.startswith("signed"):
         rule = "the extension signed needs the table to begin at -90 degrees or below"
         if extension == "signed-drag":

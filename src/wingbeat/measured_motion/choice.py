@@ -227,7 +227,7 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
         parts.append(f"this model is not among the rows; {aero.coefficients.name} is the nearest one")
     parts.append(_unsteady_reason(regime, aero.coefficients, attached))
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
-        parts.append(f"no row of {aero.coefficients.name} has these unsteady terms")
+        parts.append(f"no row of {aero.coefficients.name} has this choice of unsteady terms")
     if aero.coefficients.aspect_ratio is None:
         parts.append("no momentum inflow (the polar includes induced flow)")
     elif aero.inflow != "none":

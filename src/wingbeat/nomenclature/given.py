@@ -194,7 +194,12 @@ WINGBEAT = (
         "angle by which the hand drops below the arm at mid-upstroke",
     ),
     Term("wrist", "1", "span fraction of the wrist"),
-    Term("pitch_phase", "rad", "phase lead of wing pitch over flap, beyond a quarter of a wingbeat"),
+    Term(
+        "pitch_phase",
+        "rad",
+        "phase lead of wing pitch over flap, beyond a quarter of a wingbeat",
+        short="phase lead of wing pitch",
+    ),
     Term("downstroke_fraction", "1", "share of the wingbeat taken by the downstroke"),
     Term(
         "sweep_mean",

@@ -306,7 +306,7 @@ def how_sure(sets, holds):
     errors = np.sqrt((share * (1 - share))[open_ones] / pieces.count())
     away = ((pieces.mean() - share[open_ones]).abs() / errors).to_numpy()
     assert len(away) == 20
-    assert 2.5 < away.max() < 4.3  # "as expected": of 440 normal deviations, the largest is 3.2 give or take 0.4
+    assert 2.5 < away.max() < 4.3  # "as expected": of 520 normal deviations, the largest is 3.2 give or take 0.4
     return [
         f"With {spaced(told.min())} to {spaced(told.max())} sets behind each claim's overall share",
         f"at most {short(100 * error.max(), 1)} percentage points",

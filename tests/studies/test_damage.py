@@ -122,6 +122,18 @@ def test_a_damaged_head_costs_no_answer(cheap, place, words):
     assert study.points() == kept
 
 
+def test_a_name_in_the_schema_that_is_no_longer_text_is_refused(cheap):
+    study = cheap(SPEEDS)
+    assert study.run()[0] == 0
+    before = table(study)
+    damage(study.store, study.store.read_bytes().index(b"sqlite_autoindex_") + 17, 0x80)
+    code, _, err = study.run("status", study.file)
+    assert code == 2
+    assert "is damaged (its schema is not text)" in err
+    assert study.run("salvage", study.file)[0] == 0
+    assert table(study) == before
+
+
 def test_a_lost_answer_is_missed(cheap):
     study = cheap(SPEEDS)
     assert study.run()[0] == 0

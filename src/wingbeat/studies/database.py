@@ -104,3 +104,5 @@ def in_words(path: Path) -> Iterator[None]:
         if "locked" in told or "busy" in told:
             raise FileError(f"the store {str(path)!r} is in use by another program; close that program") from None
         raise refusal(path, told) from None
+    except UnicodeDecodeError:  # raised in place of an error of SQLite that quotes the damaged bytes
+        raise refusal(path, "its schema is not text") from None

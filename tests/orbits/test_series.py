@@ -48,6 +48,15 @@ def test_following_an_answer_finds_it_again_and_only_what_is_better(row):
     assert search_near(row[0], found.unknowns, below=0.9 * found.objective) is None
 
 
+def test_an_orbit_that_its_certificate_makes_no_better_is_not_returned(row, monkeypatch):
+    found = next(find_orbits(row[:1], starts=1))
+    below = 1.001 * found.objective
+    assert search_near(row[0], found.unknowns, below).objective < below
+    raised = dataclasses.replace(found, wingbeat=dataclasses.replace(found.wingbeat, frequency=1.01 * below))
+    monkeypatch.setattr("wingbeat.orbits.solve.certified_optimum", lambda *given: raised)
+    assert search_near(row[0], found.unknowns, below) is None
+
+
 def test_a_row_in_which_nothing_flies_is_data(row):
     bounds = {"flap_amplitude": (np.radians(5), np.radians(6))}
     hopeless = [wb.OrbitProblem(p.species, speed=p.speed, bounds=bounds) for p in row[:2]]

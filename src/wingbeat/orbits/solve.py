@@ -221,14 +221,17 @@ def search_near(
     ----------
     problem : the orbit problem.
     start : unknowns to start from, clipped to their bounds.
-    below : an optimum is certified only if its objective is less than this.
+    below : only an orbit with an objective less than this is returned.
     options : of the solvers.
     """
     begun = time.perf_counter()
     candidate = refine(Transcription(problem, options), start)
     if not (candidate.is_optimum and candidate.objective < below):
         return None
-    return certified_optimum(candidate, time.perf_counter() - begun)
+    found = certified_optimum(candidate, time.perf_counter() - begun)
+    # The certifier moves the orbit and may raise its objective: whoever repeats this until nothing improves would
+    # never end.
+    return found if found is not None and found.objective < below else None
 
 
 def find_optima(

@@ -75,7 +75,7 @@ def many(reference: Path) -> None:
     series = [
         orbit
         for first in range(0, len(problems), len(SPEEDS))
-        for orbit in wb.solve_series(problems[first : first + len(SPEEDS)])
+        for orbit in wb.solve_orbits(problems[first : first + len(SPEEDS)], in_order=True)
     ]
     report("series", known, dict(zip(names, map(value_of, series), strict=True)), begun)
     begun = time.process_time()

@@ -19,6 +19,10 @@ from wingbeat.cli import main
 def test_a_visit(visit, capsys, tmp_path):
     page = visit()
     solved(page, "pigeon at 10 m/s, su-fan")
+    closes, plausible = page.locator(".badge").all()
+    assert closes.inner_text().startswith("Certified: closes to ")
+    assert plausible.inner_text().startswith("Plausible: no: ")
+    assert "good" not in f"{closes.get_attribute('class')} {plausible.get_attribute('class')}".split()
     page.get_by_label("Animal", exact=True).select_option("bat")
     enter(page, "Speed [m/s]", "8")
     page.get_by_role("button", name="Solve", exact=True).click()

@@ -9,6 +9,7 @@ import wingbeat as wb
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.many.series import find_series
+from wingbeat.orbits.solution import Optimum, families
 from wingbeat.orbits.solve import find_orbit, search_near
 from wingbeat.orbits.status import Status
 
@@ -55,6 +56,26 @@ def test_an_orbit_that_its_certificate_makes_no_better_is_not_returned(row, monk
     raised = dataclasses.replace(found, wingbeat=dataclasses.replace(found.wingbeat, frequency=1.01 * below))
     monkeypatch.setattr("wingbeat.orbits.solve.certified_optimum", lambda *given: raised)
     assert search_near(row[0], found.unknowns, below) is None
+
+
+def test_a_row_makes_as_many_starts_as_single_orbits_do(row, monkeypatch):
+    asked = []
+
+    def counted(problem, starts=None, seed=0, *rest, **given):
+        asked.append((starts, given["most_starts"]))
+        return find_orbit(problem, 1, threads=1)
+
+    monkeypatch.setattr("wingbeat.orbits.many.series.find_orbit", counted)
+    wb.solve_orbits(row[:2], in_order=True)
+    assert asked == [(None, None)] * 2
+
+
+def test_optima_closer_than_a_twentieth_are_one_family():
+    apart = wb.SearchOptions().same_optimum
+    assert apart == 0.05
+    optima = [Optimum(1.0 + i, np.array([place, 0.0])) for i, place in enumerate((0.0, 0.098, 0.102))]
+    found = families(optima, np.array([2.0, 1.0]), apart)
+    assert [(one.objective, one.starts) for one in found] == [(1.0, 2), (3.0, 1)]
 
 
 def test_a_row_in_which_nothing_flies_is_data(row):

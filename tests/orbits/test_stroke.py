@@ -116,13 +116,20 @@ def test_wings_that_may_cross_on_request_do_and_draw_a_warning(tmp_path, capsys)
     orbit = wb.load_orbit(saved)
     assert orbit.dataset["strip_corner"].values[..., 1].min() < -0.04
     assert orbit.problem.wings_may_cross is True
+    # So does whoever loads it.
+    assert main(["show", str(saved)]) == 0
+    assert "passes through the plane of symmetry" in " ".join(capsys.readouterr().out.split())
+    assert main(["simulate", "--from", str(saved), "--beats", "1", "--json"]) == 0
+    told = capsys.readouterr()
+    assert "warning: each wing passes through the plane of symmetry" in told.err
+    assert json.loads(told.out)["completed"]
 
 
 def test_a_stroke_that_is_held_is_flown_and_draws_a_warning():
     beat = dataclasses.replace(PIGEON.wingbeat, flap_mean=-0.6, flap_amplitude=1.3)
     held = wb.OrbitProblem(PIGEON.with_record(beat), speed=12.0, free=("frequency",))
     assert not StrokeLimits(held, DEFAULTS.search.plane_clearance).names
-    notes = crossing(held, beat)
+    notes = crossing(held.vehicle, held.aero.strips, beat, held.bounds["flap"])
     assert "through the plane of symmetry" in notes[0]
     assert "-109 to 40 degrees" in notes[1]
 

@@ -188,3 +188,15 @@ def test_the_commands_write_tables_and_say_that_they_read_netcdf(suffix, tmp_pat
         message = capsys.readouterr().err
         assert f"cannot read '{path}': wingbeat reads results from .nc files; {suffix} is for other" in message
         assert "Traceback" not in message
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["orbit pigeon --speed 10 --starts 1", "curve pigeon --speeds 10:11:1 --starts 1", "simulate pigeon --beats 1"],
+)
+def test_every_command_writes_what_its_suffix_says(words, tmp_path, capsys):
+    for suffix, begins in ((".csv", b"# "), (".mat", b"MATLAB 5.0"), (".nc", b"\x89HDF")):
+        path = tmp_path / f"out{suffix}"
+        assert main([*words.split(), "-o", str(path)]) == 0
+        assert path.read_bytes().startswith(begins)
+    capsys.readouterr()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json as json_format
 import math
+import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -29,6 +30,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
+from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
 from wingbeat.plots import film_page, save_figure
@@ -36,6 +38,7 @@ from wingbeat.results.flight import Flight
 from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.record import beat_mean
+from wingbeat.results.warnings import crossing
 
 _BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate", "json", "output")
 
@@ -93,6 +96,7 @@ def simulate(
         orbit = load_orbit(from_)
         with unpacking(from_):
             flown_by, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+            reach = orbit.problem.bounds["flap"]
         start = start._replace(**disturbed)
     else:
         assert species is not None
@@ -100,16 +104,18 @@ def simulate(
         if kinematics is not None:
             beat = fit_film(read_film(kinematics))
             animal = filmed_species(beat, animal)
-            if beat.film.shows_body:
-                check_outputs(output, plot_kinematics)
-                flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
-                if output:
-                    flown.save(output)
-                if plot_kinematics:
-                    save_figure(film_page(beat), plot_kinematics)
-                report_carried(flown, errors, beat, json)
-                return EXIT_GOOD
-        wingbeat, start = animal.wingbeat, State(u=10.0)._replace(**disturbed)
+        wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
+        if beat is not None and beat.film.shows_body:
+            check_outputs(output, plot_kinematics)
+            flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
+            if output:
+                flown.save(output)
+            if plot_kinematics:
+                save_figure(film_page(beat), plot_kinematics)
+            report_carried(flown, errors, beat, json)
+            _warn(flown.model, wingbeat, reach)
+            return EXIT_GOOD
+        start = State(u=10.0)._replace(**disturbed)
         velocity = float(start.u), float(start.w)
         flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     check_outputs(output, plot_kinematics)
@@ -129,7 +135,14 @@ def simulate(
         _print(rows, flight.completed)
         for line in film_lines(beat) if beat else []:
             print(line)
+    _warn(flown_by, wingbeat, reach)
     return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
+
+
+def _warn(model: FlightModel, wingbeat: Wingbeat, flap: tuple[float, float]) -> None:
+    """Say on standard error if the prescribed wings cross, or flap beyond the range of the shoulder."""
+    for note in crossing(model.vehicle, model.strips, wingbeat, flap):
+        print(f"warning: {note}", file=sys.stderr)
 
 
 def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[float | None]:

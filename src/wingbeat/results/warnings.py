@@ -53,7 +53,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
             "no flying animal we know of does"
         )
-    notes += crossing(problem, solution.wingbeat)
+    notes += crossing(problem.vehicle, problem.aero.strips, solution.wingbeat, problem.bounds["flap"])
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
         notes += at_lower_bound(solution)
         return notes
@@ -107,23 +107,28 @@ def rivals(solution: Solution) -> list[str]:
     ]
 
 
-def crossing(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
+def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[float, float]) -> list[str]:
     """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range.
 
     The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
+
+    Parameters
+    ----------
+    vehicle, strips, wingbeat : what flies.
+    flap : lowest and highest flap angle that the shoulder allows [rad].
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
-    leading, trailing = map(np.asarray, lateral_corners(problem.vehicle, wingbeat, phase, problem.aero.strips))
+    leading, trailing = map(np.asarray, lateral_corners(vehicle, wingbeat, phase, strips))
     pitch_axis = 0.75 * leading + 0.25 * trailing
-    nearest = np.minimum(leading, trailing) if has_room(problem.vehicle) else pitch_axis
+    nearest = np.minimum(leading, trailing) if has_room(vehicle) else pitch_axis
     across, notes = -float(nearest.min()), []
-    if across > _ACROSS * problem.vehicle.wing.semi_span:
+    if across > _ACROSS * vehicle.wing.semi_span:
         notes.append(
             f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
             "where it meets the other wing: no animal can do this"
         )
     angles = np.asarray(flap_angles(wingbeat, phase))
-    low, high = problem.bounds["flap"]
+    low, high = flap
     if max(low - angles.min(), angles.max() - high) > _PAST:
         least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])
         reach = f"the shoulder allows {low:.0f} to {high:.0f}"

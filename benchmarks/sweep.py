@@ -91,7 +91,7 @@ def value_of(orbit: wb.Orbit) -> float | None:
 
 
 def studied() -> dict[str, float | None]:
-    """Return the objective of each case by a study with one process for each objective."""
+    """Return the objective of each case by a study for each of the two objectives, with one process."""
     found: dict[str, float | None] = {}
     for objective in ("frequency", "mean_positive_power"):
         with tempfile.TemporaryDirectory() as folder:
@@ -102,8 +102,8 @@ def studied() -> dict[str, float | None]:
             table = Path(folder) / "cases.csv"
             study.export(table)
             for row in csv.DictReader(table.open()):
-                name = f"{row['species']} {row['aero']} {float(row['speed']):g} {objective}"
-                found[name] = float(row[objective]) if row["status"] == "converged" else None
+                name = f"{row['species']} {row['aero.coefficients']} {float(row['speed']):g} {objective}"
+                found[name] = float(row["objective_value"]) if row["status"] == "converged" else None
     return found
 
 

@@ -16,8 +16,8 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import os
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -71,17 +71,17 @@ def many(reference: Path) -> None:
     """Print the misses of series, batches and studies at the 48 cases."""
     known = json.loads(reference.read_text())
     names, problems = zip(*((name, made()) for name, made in animals()), strict=True)
-    begun = time.process_time()
+    begun = spent()
     series = [
         orbit
         for first in range(0, len(problems), len(SPEEDS))
         for orbit in wb.solve_orbits(problems[first : first + len(SPEEDS)], in_order=True)
     ]
     report("series", known, dict(zip(names, map(value_of, series), strict=True)), begun)
-    begun = time.process_time()
+    begun = spent()
     batch = wb.solve_orbits(problems)
     report("batch", known, dict(zip(names, map(value_of, batch), strict=True)), begun)
-    begun = time.process_time()
+    begun = spent()
     report("studies", known, studied(), begun)
 
 
@@ -107,6 +107,11 @@ def studied() -> dict[str, float | None]:
     return found
 
 
+def spent() -> float:
+    """Return the core-seconds so far, of this process and of those that have ended."""
+    return sum(os.times()[:4])
+
+
 def report(way: str, known: dict[str, float], found: dict[str, float | None], begun: float) -> None:
     """Print which cases a way of solving misses, and what it cost."""
     misses = 0
@@ -115,7 +120,7 @@ def report(way: str, known: dict[str, float], found: dict[str, float | None], be
         if best is not None and (value is None or value > (1 + MISS) * best):
             misses += 1
             print(f"{way}, {name}: {value}, best {best:.4f}", flush=True)
-    seconds = time.process_time() - begun
+    seconds = spent() - begun
     print(f"{way}: {misses} of {len(found)} answers miss; {seconds / len(found):.3f} core-seconds each", flush=True)
 
 

@@ -18,7 +18,7 @@ FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "
 PANELS = (
     ("A", "measured airspeed [m/s]", "predicted speed [m/s]", (3, 30)),
     ("B", "Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]", (0.2, 1.9)),
-    ("C", "Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]", (0.2, 4.6)),
+    ("C", "Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]", (0.13, 4.6)),
     (
         "D",
         "Reynolds number of chord and measured airspeed [-]",

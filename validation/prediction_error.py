@@ -3,8 +3,8 @@
     python validation/prediction_error.py [--sets 1000] [--processes 2] [--folder FOLDER]
 
 Every set draws all numbers of a pigeon or a cockatiel, of its wing's coefficients and the speed within their
-ranges. The model ``animal`` flies it once. FOLDER keeps every flight: a run that was stopped resumes. The results
-go to ``data/prediction_error.csv``, and the page is written from them; with ``--page`` nothing is flown.
+ranges. FOLDER keeps every flight: a run that was stopped resumes. The results go to ``data/prediction_error.csv``,
+and the page is written from them; with ``--page`` nothing is flown.
 """
 
 from __future__ import annotations
@@ -17,67 +17,21 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from prediction_error_flights import ANIMALS, flown_sets, ranges
 from prediction_error_words import page
 
-import wingbeat as wb
 from wingbeat.files import write_atomically
-from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.whole_flights import Measurement, read_measured_flights
 from wingbeat.whole_flights.comparison import AGREES
 
 ROOT = Path(__file__).parents[1]
 TABLE, PAGE = ROOT / "data" / "prediction_error.csv", ROOT / "docs" / "prediction_error.md"
-ANIMALS = ("pigeon", "cockatiel")
 # Flights at most this far from the speed of a measurement at one speed [m/s].
 NEAR = 1.0
-# A frequency that does not depend on speed in the animal hides that predictions do: bands of speed part them.
+# Predictions depend on the speed, measured frequencies hardly do. So bands of speed are judged apart [m/s].
 SLOW, FAST = 7.0, 12.0
 FEWEST = 30  # flights; fewer say nothing of some 40 numbers
 NAMED = 4  # numbers in a row of the page
-
-
-def ranges(animal: str) -> dict[str, tuple[float, float]]:
-    """Return the range of the speed and of every number that an animal's flight depends on, by its path."""
-    species = wb.load_species(animal)
-    problem = wb.models.animal(species).problem(species, speed=10.0)
-    terms = wb.aero.WING_ESTIMATES[problem.aero.coefficients.name]
-    speeds = read_measured_flights(animal).speeds
-    found = {"speed": (speeds[0], speeds[-1])}
-    for one in parameters_of(problem):
-        if one.path.startswith("air."):  # known where a flight is measured
-            continue
-        estimate = terms.get(one.path.removeprefix("aero.wing."))
-        limits = (estimate.low, estimate.high) if estimate is not None else one.plausible
-        if limits is not None and limits[0] < limits[1]:
-            found[one.path] = limits
-    return found
-
-
-def study(animal: str, sets: int, store: Path) -> wb.Study:
-    """Return the study: one flight for each set of numbers, more starts where the first finds none."""
-    return wb.plan_study(
-        species=animal,
-        model="animal",
-        starts=1,
-        most_starts=4,
-        explain=False,
-        vary={path: {"range": list(limits)} for path, limits in ranges(animal).items()},
-        sample={"method": "sobol", "n": sets, "seed": 0},
-        store=store,
-    )
-
-
-def results(animal: str, flown: pd.DataFrame) -> pd.DataFrame:
-    """Return the sets of an animal with the quantities that are measured, in the units of the nomenclature."""
-    mass = flown["vehicle.body.mass"] + 2.0 * flown["vehicle.wing.mass"]
-    quantities = {
-        "frequency": flown["wingbeat.frequency"],
-        "flap_amplitude_deg": np.degrees(flown["wingbeat.flap_amplitude"]),
-        "positive_power_per_mass": flown["mean_positive_power"] / mass,
-        "muscle_power_per_mass": flown["muscle_power_per_mass"],
-        "muscle_efficiency": flown["muscle_efficiency"],
-    }
-    return pd.DataFrame({"animal": animal, "status": flown["status"], **flown[list(ranges(animal))], **quantities})
 
 
 class Error(NamedTuple):
@@ -147,7 +101,7 @@ def error(animal: str, one: Measurement, band: tuple[float, float], rows: pd.Dat
 
 
 def main() -> None:
-    """Fly what the stores lack, and write table and page."""
+    """Fly what the folder lacks, and write table and page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sets", type=int, default=1000)
     parser.add_argument("--processes", type=int, default=1)
@@ -155,11 +109,7 @@ def main() -> None:
     parser.add_argument("--page", action="store_true", help="write the page from the table, without flying")
     asked = parser.parse_args()
     if not asked.page:
-        found = []
-        for animal in ANIMALS:
-            plan = study(animal, asked.sets, asked.folder / f"{animal}_error.study.sqlite")
-            plan.run(processes=asked.processes)
-            found.append(results(animal, plan.to_dataframe()))
+        found = [flown_sets(animal, asked.sets, asked.processes, asked.folder) for animal in ANIMALS]
         write_atomically(TABLE, pd.concat(found).to_csv(index=False, float_format="%.6g"))
     table = pd.read_csv(TABLE)
     write_atomically(PAGE, page(table, list(errors(table)), PAGE.with_suffix(".png")))

@@ -36,8 +36,9 @@ would be worth measuring better?
 
 We drew {sets} sets of numbers: {drawn}. Each set draws all numbers of the animal, its tail, its muscle and its
 wing's coefficients at once, each evenly within the range that its source gives. The speed is drawn, too. The model
-[`animal`](models.md) flies each set once, and minimises the metabolic power; {certified} sets have a certified
-orbit.
+[`animal`](models.md) flies each set from two starts: the stock wingbeat, and the animal's own best flight at the
+nearest speed of the whole flights. The certified flight of less metabolic power counts; {certified} sets have one,
+{own} of them from the animal's own flight.
 
 ![Predicted over measured values for each quantity and band of speeds]({figure})
 
@@ -54,9 +55,8 @@ band.
 
 {findings}
 
-Each flight is the best of one search, or of up to four where the first found no orbit. So some flights are local
-optima, and jumps between families of wingbeats add scatter that no number explains. Ranges are those of the species
-files and of the wings' coefficients, and they are not probabilities.
+Two starts do not find the best family of wingbeats for every set; jumps between families add scatter that no number
+explains. Ranges are those of the species files and of the wings' coefficients, and they are not probabilities.
 """
 FINDINGS = """"""
 
@@ -69,6 +69,7 @@ def page(table: pd.DataFrame, errors: Sequence[Error], figure: Path) -> str:
         sets=len(table),
         drawn=" and ".join(f"{count} of a {animal}" for animal, count in counts.items()),
         certified=int((table["status"] == "converged").sum()),
+        own=int((table["start"] == "own").sum()),
         figure=figure.name,
         table="\n".join(_rows(errors)),
         chance=BY_CHANCE / min(one.flights for one in errors) ** 0.5,

@@ -40,7 +40,7 @@ COMMANDS = {
     "bench": ("bench --batch 16", 12.0),
     "app": ("app --no-open --port 0 --processes 1", 8.0),
     "view": ("view flight.nc -o out.gif", 8.0),
-    "fit": ("fit table.csv -o out.toml --plot out.png", 4.0),
+    "fit": ("fit table.csv -o out.toml --plot out.png --alpha-min 0", 4.0),
 }
 # Words of Python's own that a user should not see.
 NOISE = ("Traceback", "Exception ignored", "Fatal Python error", "leaked", "Aborted", "Segmentation")

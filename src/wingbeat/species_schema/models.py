@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from typing import Annotated, Any, Literal
 
@@ -42,6 +43,7 @@ def _bare_or_table(bare: Any, table: type[BaseModel]) -> Any:
     return Annotated[Annotated[bare, Tag(NUMBER)] | Annotated[table, Tag(TABLE)], Discriminator(kind)]
 
 
+@functools.cache
 def _sourced(shape: str) -> Any:
     """Return the type of a number: bare, or a table with unit, source and plausible range."""
     plausible = Field(default=None, description="lowest and highest plausible value")

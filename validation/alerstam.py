@@ -10,8 +10,6 @@ and words what an earlier run flew.
 from __future__ import annotations
 
 import argparse
-import csv
-import io
 import sys
 from pathlib import Path
 
@@ -24,6 +22,7 @@ from alerstam_flights import (
     PAPER,
     Bird,
     Point,
+    csv_of,
     fly,
     fly_again,
     from_csv,
@@ -31,7 +30,6 @@ from alerstam_flights import (
     radar_birds,
     read_rows,
     timed_birds,
-    to_csv,
 )
 from alerstam_loading import against_loading
 from alerstam_spread import Moved, spreads
@@ -85,7 +83,7 @@ def main(argv: list[str] | None = None) -> int:
             spread_table(moved),
             conclusions(found, points),
         )
-        write_atomically(chosen.tables / "alerstam.csv", alerstam_summary.to_csv(found))
+        write_atomically(chosen.tables / "alerstam.csv", csv_of(alerstam_summary.Row, found, 4))
         write_atomically(chosen.output / "alerstam.md", "".join(parts))
         save_figure(draw(found, timed), chosen.output / "alerstam.png")
     except WingbeatError as error:
@@ -105,21 +103,13 @@ def _fly(chosen: argparse.Namespace, radar: list[Bird], timed: list[Bird]) -> No
             own = fly(problems(radar, timed), chosen.processes, progress)
         with progress_bar("rough curves again") as progress:
             points += fly_again(own, radar, chosen.processes, progress)
-        write_atomically(chosen.tables / "alerstam_spread.csv", _moved_csv(spreads(radar, chosen.processes)))
+        moved = csv_of(Moved, spreads(radar, chosen.processes), 5)
+        write_atomically(chosen.tables / "alerstam_spread.csv", moved)
     if ANIMAL in chosen.models:
         with progress_bar("birds by the model animal") as progress:
             points += fly_in_order(radar, chosen.store, progress)
         points += fly_timed(timed, chosen.store)
-    write_atomically(table, to_csv(sorted(points, key=lambda point: MODELS.index(point.model))))
-
-
-def _moved_csv(moved: list[Moved]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Moved.__dataclass_fields__)
-    for row in moved:
-        writer.writerow([f"{value:.5g}" if isinstance(value, float) else value for value in vars(row).values()])
-    return text.getvalue()
+    write_atomically(table, csv_of(Point, sorted(points, key=lambda point: MODELS.index(point.model)), 6))
 
 
 def _read_moved(path: Path) -> list[Moved]:

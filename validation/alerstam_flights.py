@@ -83,6 +83,17 @@ def read_rows(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in read_text(path).splitlines() if line and not line.startswith("#")))
 
 
+def csv_of(kind: type[Any], rows: list[Any], digits: int) -> str:
+    """Return objects of one dataclass as a CSV file's text, a row each; numbers have so many significant digits."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(kind.__dataclass_fields__)
+    for row in rows:
+        values = vars(row).values()
+        writer.writerow([f"{value:.{digits}g}" if isinstance(value, float) else value for value in values])
+    return text.getvalue()
+
+
 def _number(text: str) -> float:
     return float(text) if text else math.nan
 
@@ -221,18 +232,8 @@ def point_of(model: str, what: str, problem: wb.OrbitProblem, orbit: wb.Orbit) -
     return Point(*named, power, hinge, beat["frequency"], math.degrees(beat["flap_amplitude"]), bounds)
 
 
-def to_csv(points: list[Point]) -> str:
-    """Return the points as a CSV file's text."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Point.__dataclass_fields__)
-    for point in points:
-        writer.writerow([f"{value:.6g}" if isinstance(value, float) else value for value in vars(point).values()])
-    return text.getvalue()
-
-
 def from_csv(path: Path) -> list[Point]:
-    """Return the points that `to_csv` wrote."""
+    """Return the points that `csv_of` wrote."""
     return [
         Point(**{key: float(value) if key in _FLOATS else value for key, value in row.items()})  # type: ignore[arg-type]
         for row in read_rows(path)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from dataclasses import dataclass
 
@@ -168,13 +166,3 @@ def exponent(values: NDArray[np.float64], sizes: NDArray[np.float64]) -> tuple[f
     good = np.isfinite(values)
     (slope, _), covariance = np.polyfit(np.log(sizes[good]), np.log(values[good]), 1, cov=True)
     return float(slope), float(1.96 * math.sqrt(covariance[0, 0]))
-
-
-def to_csv(found: list[Row]) -> str:
-    """Return the rows as a CSV file's text."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Row.__dataclass_fields__)
-    for row in found:
-        writer.writerow([f"{value:.4g}" if isinstance(value, float) else value for value in vars(row).values()])
-    return text.getvalue()

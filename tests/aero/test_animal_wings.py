@@ -8,8 +8,7 @@ from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
-from tests.helpers.coefficients import by_the_lifting_line, value_slope_curvature
-from tests.helpers.programs import compiled
+from tests.helpers.coefficients import by_the_lifting_line, check_derivative_in_numbers, value_slope_curvature
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import (
     WING_ESTIMATES,
@@ -186,21 +185,7 @@ def test_derivatives_are_finite_everywhere(angle, name):
 
 def test_derivative_in_the_models_numbers():
     model, alpha = model_of("feathered"), np.array([0.1, 0.5, -0.5, 1.2])
-    leaves, form = jax.tree.flatten(model)
-    numbers = np.array(leaves)
-
-    @compiled
-    def outputs(numbers, direction):
-        def at(numbers):
-            return jnp.stack(form.unflatten(list(numbers)).kernel().lift_drag(alpha))
-
-        return jax.jvp(at, (numbers,), (direction,))
-
-    for number, one in zip(numbers, np.eye(numbers.size), strict=True):
-        step = 1e-5 * max(abs(number), 0.1)
-        ends = [outputs(numbers + s * one, one)[0] for s in (step, -step)]
-        slope = outputs(numbers, one)[1]
-        np.testing.assert_allclose(slope, (ends[0] - ends[1]) / (2 * step), rtol=1e-5, atol=1e-7)
+    check_derivative_in_numbers(model, lambda kernel: jnp.stack(kernel.lift_drag(alpha)), rtol=1e-5, atol=1e-7)
 
 
 @pytest.mark.parametrize(

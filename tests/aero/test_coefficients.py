@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from tests.helpers.programs import compiled
+from tests.helpers.coefficients import check_derivative_in_numbers, coefficients
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import (
     LIBRARY,
@@ -195,23 +195,7 @@ def test_kernel_under_vmap_and_jvp_in_every_number():
 @pytest.mark.parametrize("extension", ["mirrored", "clipped-drag", "signed-drag"])
 def test_derivative_in_the_formula_numbers(extension):
     model, alpha = SuFan(extension), np.array([0.01, -0.4, 1.56, 2.0])
-
-    leaves, form = jax.tree.flatten(model)
-    numbers = np.array(leaves)
-
-    @compiled
-    def outputs(numbers, direction):
-        def at(numbers):
-            kernel = form.unflatten(list(numbers)).kernel()
-            return jnp.stack([*kernel.lift_drag(alpha), kernel.centre_of_pressure(alpha)])
-
-        return jax.jvp(at, (numbers,), (direction,))
-
-    for number, one in zip(numbers, np.eye(numbers.size), strict=True):
-        step = 1e-5 * max(abs(number), 0.1)
-        ends = [outputs(numbers + s * one, one)[0] for s in (step, -step)]
-        slope = outputs(numbers, one)[1]
-        np.testing.assert_allclose(slope, (ends[0] - ends[1]) / (2 * step), rtol=2e-6, atol=2e-8)
+    check_derivative_in_numbers(model, lambda kernel: coefficients(kernel, alpha), rtol=2e-6, atol=2e-8)
 
 
 def test_model_without_centre_of_pressure_says_so():

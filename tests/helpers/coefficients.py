@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from tests.helpers.programs import compiled
 from wingbeat._jax.config import jax, jnp
 
 # Angles that are evaluated together: one length, so that each form of kernel is traced once.
@@ -32,6 +33,25 @@ def value_slope_curvature(model, alpha):
     parts = [_MANY(kernel, part) for part in rows.reshape(-1, TOGETHER)]
     columns = 3 if model.has_centre_of_pressure else 2
     return [np.concatenate(order)[: angles.size, :columns] for order in zip(*parts, strict=True)]
+
+
+def check_derivative_in_numbers(model, outputs, rtol, atol):
+    """Check how outputs of a kernel change with each number of its model: exactly, and by central differences."""
+    leaves, form = jax.tree.flatten(model)
+    numbers = np.array(leaves)
+
+    @compiled
+    def value_and_slope(numbers, direction):
+        def at(numbers):
+            return outputs(form.unflatten(list(numbers)).kernel())
+
+        return jax.jvp(at, (numbers,), (direction,))
+
+    for number, one in zip(numbers, np.eye(numbers.size), strict=True):
+        step = 1e-5 * max(abs(number), 0.1)
+        ends = [value_and_slope(numbers + s * one, one)[0] for s in (step, -step)]
+        slope = value_and_slope(numbers, one)[1]
+        np.testing.assert_allclose(slope, (ends[0] - ends[1]) / (2 * step), rtol=rtol, atol=atol)
 
 
 def by_the_lifting_line(kernel, aspect_ratio, section):

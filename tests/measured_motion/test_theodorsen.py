@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from tests.helpers.strip_cases import PHASES, section_case, write_case
-from wingbeat.aero import TableCoefficients
 from wingbeat.cli import main
 from wingbeat.measured_motion import validate
 
@@ -45,14 +44,6 @@ def case():
     made = section_case(PLUNGE, PITCH, strips=STRIPS, chord=CHORD, width=WIDTH)
     lift = theodorsen(made.times, PLUNGE, PITCH)
     return dataclasses.replace(made, forces={"fz": lift, "fx": 0 * lift}, mean_force=None)
-
-
-@pytest.fixture(scope="module")
-def polar():
-    alpha = np.arange(-180.0, 181.0)
-    lift = 2 * math.pi * np.sin(np.deg2rad(alpha))
-    lift[[0, -1]] = 0.0
-    return TableCoefficients("thin", alpha, lift, 0 * alpha, aspect_ratio=math.inf)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("velocities", [True, False])

@@ -9,7 +9,6 @@ import pytest
 
 from tests.aero.test_wake import THEODORSEN
 from tests.helpers.strip_cases import PHASES, flapping_case, section_case, write_case
-from wingbeat.aero import TableCoefficients
 from wingbeat.cli import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.measured_motion import validate
@@ -46,14 +45,6 @@ def theodorsen(speed, lag):
 
 def phasor(force):
     return 2 * np.mean(force * np.exp(-2j * math.pi * np.arange(COUNT) / COUNT))
-
-
-@pytest.fixture(scope="module")
-def polar():
-    alpha = np.arange(-180.0, 181.0)
-    lift = 2 * math.pi * np.sin(np.deg2rad(alpha))
-    lift[[0, -1]] = 0.0
-    return TableCoefficients("thin", alpha, lift, 0 * alpha, aspect_ratio=math.inf)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("k", "lag"), THEODORSEN.items())

@@ -14,7 +14,9 @@ from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     SPECIES,
     Climb,
+    Limits,
     Output,
+    Seed,
     Settings,
     Whole,
     WithinPlausible,
@@ -49,10 +51,7 @@ def curve(
             help="Quantity to minimise at each speed: frequency, positive-power, ...; default that of the model."
         ),
     ] = None,
-    subject_to: Annotated[
-        list[str] | None,
-        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
-    ] = None,
+    subject_to: Limits = None,
     power_limit: Annotated[
         float | None,
         Parameter(help="Sustainable power [W]; the slowest and the fastest speed within this power are printed."),
@@ -61,7 +60,7 @@ def curve(
         Whole,
         Parameter(help="Number of starts at the first and last speed; other speeds get a third as many."),
     ] = 6,
-    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    seed: Seed = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
     output: Output = None,

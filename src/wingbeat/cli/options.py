@@ -31,6 +31,11 @@ def _whole(type_: type, tokens: Sequence[Token]) -> int:
 SPECIES = Parameter(help="Name of a species, or path of a species file.")
 Climb = Annotated[float, Parameter(help="Mean climb rate [m/s].")]
 Whole = Annotated[int, Parameter(converter=_whole)]
+Seed = Annotated[Whole, Parameter(help="Seed of the random starts.")]
+Limits = Annotated[
+    list[str] | None,
+    Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
+]
 Settings = Annotated[
     list[str] | None,
     Parameter(

@@ -26,6 +26,7 @@ from wingbeat.cli.options import (
     Climb,
     Output,
     Payload,
+    Seed,
     Settings,
     Whole,
     WingsMayCross,
@@ -88,7 +89,7 @@ def orbit(
             "or if a peak is minimised."
         ),
     ] = None,
-    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    seed: Seed = 0,
     wings_may_cross: WingsMayCross = False,
     set_: Settings = None,
     payload: Payload = 0.0,

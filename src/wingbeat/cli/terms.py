@@ -14,6 +14,8 @@ from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     SPECIES,
     Climb,
+    Limits,
+    Seed,
     Settings,
     Whole,
     WithinPlausible,
@@ -42,15 +44,12 @@ def terms(
         str | None,
         Parameter(help="Quantity to minimise: frequency, ...; default that of the model."),
     ] = None,
-    subject_to: Annotated[
-        list[str] | None,
-        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
-    ] = None,
+    subject_to: Limits = None,
     starts: Annotated[
         Whole,
         Parameter(help="Number of starts at the first and last share; other shares get a third as many."),
     ] = 6,
-    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    seed: Seed = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw the trace: .png, .pdf or .svg.")] = None,

@@ -115,7 +115,8 @@ class Wingbeat:
         faults.number("wingbeat.chord_retraction", self.chord_retraction, at_least=0, below=1)
         faults.number("wingbeat.twist_mean", self.twist_mean, unit="rad")
         self._check_sweep(faults)
-        if self._check_harmonics(faults) and not faults.faults:
+        sound = self._check_harmonics(faults) and not faults.faults
+        if sound and (self.span_harmonics or self.chord_harmonics or self.sweep_harmonics):
             self._check_extremes(faults)
         faults.raise_if_any()
 
@@ -145,18 +146,21 @@ class Wingbeat:
         return sound
 
     def _check_extremes(self, faults: FaultList) -> None:
-        """Note a span or a chord that vanishes somewhere in the beat, and a sweep that reaches a right angle."""
+        """Note harmonics with which a span or a chord vanishes in the beat, or the sweep reaches a right angle."""
         turn = np.linspace(0.0, 2 * math.pi, 721)
         for law, retraction in (("span", self.span_retraction), ("chord", self.chord_retraction)):
             harmonics = getattr(self, f"{law}_harmonics")
+            if not harmonics:
+                continue
             least = float((1.0 - retraction * 0.5 * (1.0 - np.sin(turn)) + self._waves(law, turn)).min())
-            if harmonics and least <= 0:
+            if least <= 0:
                 rule = f"makes the {law} vanish: its minimum is {least:.2g} of the full {law}"
                 faults.add(f"wingbeat.{law}_harmonics", harmonics, rule, "make the harmonics smaller")
-        swing = self.sweep_amplitude * np.sin(turn + self.sweep_phase) + self._waves("sweep", turn)
-        if self.sweep_harmonics and np.abs(self.sweep_mean + swing).max() >= 0.5 * math.pi:
-            rule = "must keep the sweep below a right angle"
-            faults.add("wingbeat.sweep_harmonics", self.sweep_harmonics, rule, "make the harmonics smaller")
+        if self.sweep_harmonics:
+            swing = self.sweep_amplitude * np.sin(turn + self.sweep_phase) + self._waves("sweep", turn)
+            if np.abs(self.sweep_mean + swing).max() >= 0.5 * math.pi:
+                rule = "must keep the sweep below a right angle"
+                faults.add("wingbeat.sweep_harmonics", self.sweep_harmonics, rule, "make the harmonics smaller")
 
     def _waves(self, law: str, turn: np.ndarray) -> np.ndarray:
         pairs = np.reshape(getattr(self, f"{law}_harmonics"), (-1, 2))

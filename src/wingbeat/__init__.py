@@ -91,6 +91,10 @@ if TYPE_CHECKING:
     from wingbeat.species import load_species as load_species
     from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
+    from wingbeat.stability.linear_flight import LinearFlight as LinearFlight
+    from wingbeat.stability.linear_flight import linearise as linearise
+    from wingbeat.stability.modes import Mode as Mode
+    from wingbeat.stability.options import LinearOptions as LinearOptions
     from wingbeat.studies.study import Study as Study
     from wingbeat.studies.study import plan_study as plan_study
     from wingbeat.vehicle import Air as Air
@@ -124,6 +128,9 @@ _HOME = {
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
     "MeasuredFlights": "whole_flights.measured",
+    "LinearFlight": "stability.linear_flight",
+    "LinearOptions": "stability.options",
+    "Mode": "stability.modes",
     "Motor": "actuators",
     "Muscle": "actuators",
     "NewtonOptions": "orbits.options.certificate",
@@ -166,6 +173,7 @@ _HOME = {
     "floquet_multipliers": "orbits.flight.floquet",
     "generalised_torques": "mechanics.equations_of_motion",
     "glide_polar": "results.glide",
+    "linearise": "stability.linear_flight",
     "load_curve": "results.curve",
     "load_orbit": "results.orbit",
     "load_species": "species",

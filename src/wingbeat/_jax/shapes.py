@@ -104,6 +104,8 @@ MappedTangents = Float[Any, "directions components *rest"]
 FlownPath = Float[Any, "samples components"]
 EndJacobian = Float[Any, "6 unknowns"]
 PathJacobian = Float[Any, "samples components unknowns"]
+# Derivatives of the pitch state's rates by the pitch state, states first.
+RatesByState = Float[Any, "4 4 samples"]
 # Distances of the stroke from its limits.
 StrokeSeries = Float[Any, "series samples"]
 StrokeRows = Float[Any, "rows"]
@@ -113,3 +115,5 @@ StrokeJacobian = Float[Any, "rows free"]
 Stretches = Float[Any, "stretches"]
 StretchStates = Float[Any, "stretches 4"]
 StretchMaps = Float[Any, "stretches 4 4"]
+# Derivatives by parameters of each law of the wing and of its rate, at the top of the stroke; positions and rates.
+LawJumps = Float[Any, "laws 2 *free"]

@@ -1,4 +1,4 @@
-"""Figures: of wingbeats, flights, curves, fits, measured motions and second opinions, and how they are saved."""
+"""Figures: of wingbeats, flights, their stability, curves, fits, measured motions and second opinions; saving."""
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
@@ -11,6 +11,7 @@ from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
 from wingbeat.plots.second_opinion_page import second_opinion_page as second_opinion_page
+from wingbeat.plots.stability_page import stability_page as stability_page
 from wingbeat.plots.study_page import study_page as study_page
 from wingbeat.plots.terms_page import terms_page as terms_page
 from wingbeat.plots.tornado_page import tornado_page as tornado_page
@@ -29,6 +30,7 @@ __all__ = [
     "power_page",
     "save_figure",
     "second_opinion_page",
+    "stability_page",
     "study_page",
     "terms_page",
     "tornado_page",

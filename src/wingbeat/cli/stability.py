@@ -1,0 +1,188 @@
+"""``wingbeat stability``: what grows and what decays after a disturbance, at one speed or along speed."""
+
+from __future__ import annotations
+
+import json as json_format
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
+from wingbeat.cli.options import (
+    Climb,
+    Settings,
+    Whole,
+    WithinPlausible,
+    check_files,
+    check_outputs,
+    given_beside,
+    unpacking,
+)
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.ranges import parse_range
+from wingbeat.cli.streams import plain_console
+from wingbeat.errors import FaultList
+from wingbeat.orbits.status import Status
+from wingbeat.plots import save_figure, stability_page
+from wingbeat.results.orbit import Orbit, load_orbit
+from wingbeat.results.solving import solve_orbit, solve_orbits
+from wingbeat.stability.linear_flight import linearise
+
+_OF_A_FILE = ("source", "inputs", "height", "jumps", "json", "plot")
+
+
+def stability(
+    source: Annotated[
+        str, Parameter(help="Name of a species, path of a species file, or a saved orbit (.nc).", name="SPECIES")
+    ],
+    *,
+    speed: Annotated[
+        str | None,
+        Parameter(help="Mean forward speed [m/s], or speeds as start:stop:step; 0 is hover."),
+    ] = None,
+    climb: Climb = 0.0,
+    model: ModelOptions = DEFAULT_MODEL,
+    within_plausible: WithinPlausible = False,
+    minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
+    subject_to: Annotated[
+        list[str] | None,
+        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
+    ] = None,
+    starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
+    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    set_: Settings = None,
+    inputs: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ...; "
+            "default the free ones.",
+        ),
+    ] = None,
+    height: Annotated[bool, Parameter(negative="", help="Make the height z part of the state.")] = False,
+    jumps: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Change the inputs alone, without the harmonics that keep the wing from jumping between beats.",
+        ),
+    ] = False,
+    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw the multipliers and modes: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find what grows and what decays when an orbit is disturbed, from beat to beat.
+
+    The table lists the modes of body pitch, velocity and pitch rate. With --json, the linear maps from one top of
+    the stroke to the next: A of the state, B of the inputs, G of a gust that lasts one beat.
+    Exit code 3: no certified orbit.
+
+    Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;
+    wingbeat stability pigeon --speed 4:20:2 --plot locus.png
+    """
+    beside = given_beside(stability, locals(), *_OF_A_FILE)
+    faults = FaultList()
+    check_files(faults, None, plot=plot)
+    saved = source.endswith(".nc")
+    if saved and beside:
+        faults.add("SPECIES", source, "is an orbit and comes with its own inputs", f"leave out {', '.join(beside)}")
+    if not saved and speed is None:
+        faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
+    faults.raise_if_any()
+    check_outputs(plot)
+    if saved:
+        with unpacking(Path(source)):
+            orbits = [load_orbit(source)]
+    else:
+        asked: dict[str, Any] = {
+            "climb": climb,
+            "bounds": "plausible" if within_plausible else {},
+            "minimise": minimise,
+            "subject_to": subject_to or (),
+        }
+        speeds = parse_range(str(speed), "--speed").tolist()
+        orbits = _solve([model.problem(source, one, set_, **asked) for one in speeds], starts, seed)
+    certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
+    found = [linearise(orbit, inputs, height=height, smooth=not jumps).record() for orbit in certified]
+    if plot and found:
+        save_figure(stability_page(found), plot)
+    if json:
+        print(json_format.dumps(found[0] if len(orbits) == len(found) == 1 else found, indent=2, allow_nan=False))
+    else:
+        _print(found)
+    _report_missing(orbits)
+    return EXIT_GOOD if found else EXIT_NOT_CERTIFIED
+
+
+def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit]:
+    with progress_bar(problems[0].species.name) as progress:
+        if len(problems) == 1:
+            return [solve_orbit(problems[0], starts, seed, progress)]
+        return solve_orbits(problems, starts, seed, progress=progress, in_order=True)
+
+
+def _report_missing(orbits: Sequence[Orbit]) -> None:
+    """Say on stderr at which speeds no orbit was certified."""
+    from rich.console import Console
+
+    for orbit in orbits:
+        if orbit.status is not Status.CONVERGED:
+            text = f"{orbit.inputs['speed']:g} m/s: {orbit.status.value}: {orbit.message}"
+            Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+def _print(found: Sequence[dict[str, Any]]) -> None:
+    from rich.table import Table
+
+    console = plain_console()
+    for record in found:
+        console.print(headline(record), soft_wrap=True)
+        table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
+        for mode in record["modes"]:
+            table.add_row()
+            table.add_row(mode["kind"])
+            for label, text in _rows(mode, record["dt"]):
+                table.add_row(f"  {label}", text)
+        console.print(table)
+        console.print()
+        console.print(_averaged(record), soft_wrap=True)
+        console.print()
+
+
+def headline(record: dict[str, Any]) -> str:
+    """Return the verdict on one orbit in a line."""
+    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
+    if record["stable"]:
+        return f"{where}: stable, spectral radius {record['spectral_radius']:.3f}"
+    seconds = record["modes"][0]["time_to_double"]
+    return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
+
+
+def _averaged(record: dict[str, Any]) -> str:
+    averaged = record["averaged"]
+    kind = averaged["modes"][0]["kind"]
+    return (
+        f"if the rates were averaged over the beat: spectral radius {averaged['spectral_radius']:.3f} "
+        f"({kind}) in place of {record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
+    )
+
+
+_PARTS = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
+
+
+def _rows(mode: dict[str, Any], dt: float) -> list[tuple[str, str]]:
+    """Return what is printed of a mode."""
+    real, imaginary = mode["multiplier"]
+    rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary else ""))]
+    for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
+        if mode[name] is not None:
+            rows.append((label, f"{mode[name]:.3g} s ({mode[name] / dt:.3g} beats)"))
+    if mode["period"] is not None:
+        rows.append(("period", f"{mode['period']:.3g} s"))
+        rows.append(("damping ratio", "-" if mode["damping"] is None else f"{mode['damping']:.2g}"))
+    parts = sorted(mode["shares"].items(), key=lambda part: -part[1])
+    rows.append(("what moves", ", ".join(f"{_PARTS[name]} {share:.0%}" for name, share in parts)))
+    return rows

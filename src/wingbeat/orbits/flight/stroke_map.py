@@ -1,0 +1,54 @@
+"""The stroke map of an orbit: how the state after a beat depends on the state before it and on the wingbeat."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.orbits.flight.shooting import flier
+
+
+class StrokeMap(NamedTuple):
+    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and of the pitch state along the beat.
+
+    Attributes
+    ----------
+    by_state : by the same five numbers before the beat, shape (5, 5).
+    by_parameters : by parameters of the wingbeat, which hold for the whole beat, shape (5, parameters).
+    along : derivatives of (body_pitch, u, w, pitch_rate) at equal phases from 0 to 1 by the same four at phase 0,
+        shape (K, 4, 4).
+    path : the four numbers at these phases, shape (K, 4) [rad, m/s, m/s, rad/s].
+    """
+
+    by_state: np.ndarray
+    by_parameters: np.ndarray
+    along: np.ndarray
+    path: np.ndarray
+
+
+def stroke_map(
+    model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, parameters: tuple[str, ...], blocks: int
+) -> StrokeMap:
+    """Differentiate one beat, exactly for its fixed steps.
+
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    pitch_state : (body_pitch, u, w, pitch_rate) at phase 0, shape (4,) [rad, m/s, m/s, rad/s].
+    parameters : names of the parameters of the wingbeat, at least one.
+    blocks : number of blocks of 32 steps.
+    """
+    fly = flier(model, wingbeat, parameters, whole_path=True)
+    values = np.array([parameter(wingbeat, name) for name in parameters], dtype=float)
+    flown = fly(values, np.asarray(pitch_state, dtype=float), blocks)
+    end = np.asarray(flown.end_jacobian)[1:]
+    height = np.eye(5, 1)  # the flight does not depend on the height
+    return StrokeMap(
+        np.hstack([height, end[:, :4]]),
+        end[:, 4:],
+        np.asarray(flown.path_jacobian)[..., :4],
+        np.asarray(flown.path),
+    )

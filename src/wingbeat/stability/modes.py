@@ -1,0 +1,110 @@
+"""Modes of a disturbed flight: what grows or decays from beat to beat, how fast, and what moves in it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
+# A multiplier whose imaginary part is below this share of its modulus is real.
+_REAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One mode of a disturbed flight: its disturbance is multiplied by the same number in each beat.
+
+    Attributes
+    ----------
+    kind : ``divergence`` grows and ``subsidence`` decays without oscillating; an ``oscillation`` has a pair of
+        complex multipliers; a ``flip`` changes sign every beat.
+    multiplier : Floquet multiplier, of a pair the one with positive imaginary part.
+    time_to_double, time_to_half : [s]; one of the two is None.
+    period : of an oscillation, or of a flip, which takes two beats [s]; None for others. A map from beat to beat
+        cannot tell a period from a shorter one that differs by a whole number of cycles per beat.
+    damping : damping ratio of an oscillation or of a flip, negative if it grows; None for others.
+    disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 if a radian, the airspeed
+        of the wing tips, and a radian in a beat count as 1.
+    shares : mean share of each of the four numbers over the beat; they add up to 1.
+    """
+
+    kind: str
+    multiplier: complex
+    time_to_double: float | None
+    time_to_half: float | None
+    period: float | None
+    damping: float | None
+    disturbance: np.ndarray
+    shares: dict[str, float]
+
+    def record(self) -> dict[str, Any]:
+        """Return the mode as a JSON-able dictionary; complex numbers become pairs."""
+        return {
+            "kind": self.kind,
+            "multiplier": [self.multiplier.real, self.multiplier.imag],
+            "modulus": abs(self.multiplier),
+            "time_to_double": self.time_to_double,
+            "time_to_half": self.time_to_half,
+            "period": self.period,
+            "damping": self.damping,
+            "disturbance": [[value.real, value.imag] for value in self.disturbance.tolist()],
+            "shares": self.shares,
+        }
+
+
+def modes_of(monodromy: np.ndarray, frequency: float, along: np.ndarray, scales: np.ndarray) -> list[Mode]:
+    """Return the modes of a map from beat to beat, the fastest growing first.
+
+    Parameters
+    ----------
+    monodromy : derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape (4, 4).
+    frequency : [Hz].
+    along : the same derivative at equal phases from 0 to 1, shape (K, 4, 4).
+    scales : disturbances of the four numbers that count as equally large, shape (4,) [rad, m/s, m/s, rad/s].
+    """
+    multipliers, vectors = np.linalg.eig(monodromy)
+    order = np.lexsort((-np.imag(multipliers), -np.round(np.abs(multipliers), 12)))
+    found = []
+    for i in order:
+        multiplier, vector = complex(multipliers[i]), vectors[:, i].astype(complex)
+        if multiplier.imag < -_REAL * abs(multiplier):
+            continue
+        vector = vector / np.linalg.norm(vector / scales)
+        found.append(_mode(multiplier, frequency, vector, _shares(multiplier, along @ vector, scales)))
+    return found
+
+
+def _mode(multiplier: complex, frequency: float, disturbance: np.ndarray, shares: dict[str, float]) -> Mode:
+    size = abs(multiplier)
+    swings = abs(multiplier.imag) > _REAL * size
+    if swings:
+        kind = "oscillation"
+    elif multiplier.real < 0:
+        kind = "flip"
+    else:
+        kind = "divergence" if size > 1 else "subsidence"
+    rate = frequency * math.log(size) if size > 0 else -math.inf
+    turn = frequency * abs(cmath.phase(multiplier))
+    turns = kind in ("oscillation", "flip")
+    return Mode(
+        kind,
+        multiplier,
+        math.log(2) / rate if rate > 0 else None,
+        -math.log(2) / rate if rate < 0 else None,
+        2 * math.pi / turn if turns else None,
+        -rate / math.hypot(rate, turn) if turns and math.isfinite(rate) else None,
+        disturbance,
+        shares,
+    )
+
+
+def _shares(multiplier: complex, path: np.ndarray, scales: np.ndarray) -> dict[str, float]:
+    """Return the mean share of each number: of the disturbance along the beat without its growth or decay."""
+    decay = cmath.log(multiplier) if multiplier else 0.0
+    steady = path * np.exp(-decay * np.linspace(0.0, 1.0, len(path)))[:, None]
+    sizes = np.abs(steady / scales)[:-1].mean(axis=0)
+    return dict(zip(PITCH_STATE, (sizes / sizes.sum()).tolist(), strict=True))

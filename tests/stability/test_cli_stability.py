@@ -1,0 +1,90 @@
+"""``wingbeat stability``: what it prints, its JSON, its figure, and what it refuses."""
+
+import json
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from wingbeat.cli import main
+from wingbeat.plots import stability_page
+
+
+@pytest.fixture(scope="module")
+def saved(pigeon_orbit, tmp_path_factory):
+    path = tmp_path_factory.mktemp("stability") / "pigeon.nc"
+    pigeon_orbit.orbit.save(path)
+    return str(path)
+
+
+def test_a_saved_orbit_prints_its_verdict_modes_and_the_averaged_model(saved, capsys):
+    assert main(["stability", saved]) == 0
+    printed = capsys.readouterr().out
+    assert "pigeon at 10 m/s" in printed
+    assert "unstable, disturbances double in" in printed
+    assert "divergence" in printed
+    assert "if the rates were averaged over the beat" in printed
+
+
+def test_the_json_has_the_matrices_and_their_names(saved, pigeon_orbit, capsys):
+    inputs = ["frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude"]
+    asked = ["--inputs", *inputs, "--height", "--json"]
+    assert main(["stability", saved, *asked]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["state"] == ["z", "body_pitch", "u", "w", "pitch_rate"]
+    assert record["inputs"] == inputs
+    assert record["dt"] == pytest.approx(1 / pigeon_orbit.wingbeat.frequency)
+    assert np.shape(record["A"]) == (5, 5)
+    assert np.shape(record["B"]) == (5, 5)
+    assert np.shape(record["G"]) == (5, 2)
+    assert record["compensation"]["pitch_mean"]["pitch_cos_2"] == pytest.approx(-1.0)
+    found = wb.linearise(pigeon_orbit.orbit, height=True)
+    assert np.allclose(record["A"], found.A, rtol=0, atol=1e-9)
+    assert main(["stability", saved, *asked, "--jumps"]) == 0
+    alone = json.loads(capsys.readouterr().out)
+    assert alone["compensation"] == {name: {} for name in inputs}
+    assert not np.allclose(alone["B"], record["B"], rtol=1e-3)
+
+
+def test_a_row_of_speeds_is_a_root_locus(capsys, tmp_path):
+    drawn = tmp_path / "locus.png"
+    asked = ["stability", "pigeon", "--speed", "9:11:1", "--starts", "1", "--json", "--plot", str(drawn)]
+    assert main(asked) == 0
+    records = json.loads(capsys.readouterr().out)
+    assert [record["speed"] for record in records] == [9.0, 10.0, 11.0]
+    assert drawn.read_bytes().startswith(b"\x89PNG")
+    figure = stability_page(records)
+    plane, sizes, bars = figure.axes
+    shown = sum(len(line.get_xdata()) for line in sizes.get_lines()[:-1])
+    assert shown == sum(len(record["modes"]) for record in records)
+    assert len(bars.patches) == 4 * len(records[1]["modes"])
+    assert "real part" in plane.get_xlabel()
+    alone = stability_page(records[:1])
+    assert alone.axes[1].get_xlabel() == "time [s]"
+
+
+def test_no_certified_orbit_is_said_and_ends_with_3(capsys):
+    assert main(["stability", "pigeon", "--speed", "3", "--set", "body.mass=3", "--starts", "1", "--json"]) == 3
+    found = capsys.readouterr()
+    assert json.loads(found.out) == []
+    assert "infeasible" in found.err
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (["pigeon"], "--speed = None: is missing"),
+        (["pigeon", "--speed", "nan"], "must be finite"),
+        (["pigeon", "--speed", "8", "--plot", "locus.txt"], "--plot"),
+        (["none.nc"], "none.nc"),
+        (["none.nc", "--speed", "8"], "comes with its own inputs; leave out --speed"),
+    ],
+)
+def test_bad_input_gets_its_sentence(asked, said, capsys):
+    assert main(["stability", *asked]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_an_unknown_input_gets_its_sentence(saved, capsys):
+    assert main(["stability", saved, "--inputs", "flapping"]) == 2
+    assert "inputs = 'flapping'" in capsys.readouterr().err

@@ -27,8 +27,8 @@ class Mode:
     period : of an oscillation, or of a flip, which takes two beats [s]; None for others. A map from beat to beat
         cannot tell a period from a shorter one that differs by a whole number of cycles per beat.
     damping : damping ratio of an oscillation or of a flip, negative if it grows; None for others.
-    disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 if a radian, the airspeed
-        of the wing tips, and a radian in a beat count as 1.
+    disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 if a radian, the
+        airspeed of the wing tips, and a radian in a beat count as 1.
     shares : mean share of each of the four numbers over the beat; they add up to 1.
     """
 

@@ -168,7 +168,7 @@ def test_a_chord_law_moves_the_trailing_and_the_leading_edge_and_no_mass():
     np.testing.assert_allclose(
         0.75 * leading + 0.25 * trailing, 0.75 * there[:, :, 0] + 0.25 * there[:, :, 3], atol=1e-14
     )
-    sides = np.concatenate(lateral_corners(model.vehicle, lost, PHASES, 4))
+    sides = np.concatenate(lateral_corners(model.vehicle, lost, PHASES, count=4))
     wanted = np.concatenate([here[:, :, corner, 1] for corner in (0, 1, 3, 2)], axis=1).T
     np.testing.assert_allclose(sides, wanted, atol=1e-14)
 

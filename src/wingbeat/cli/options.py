@@ -120,12 +120,12 @@ def check_result(faults: FaultList, output: Path | None) -> None:
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
     """Note figure names without a figure's suffix, and files that two options name."""
-    from wingbeat.plots import check_figure_name
-
     taken = {} if output is None else {_real(output): "--output"}
     for name, figure in figures.items():
         if figure is None:
             continue
+        from wingbeat.plots import check_figure_name  # takes 0.15 s, which a command without figures need not spend
+
         option = f"--{name.replace('_', '-')}"
         check_figure_name(faults, option, figure)
         other = taken.setdefault(_real(figure), option)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from wingbeat._jax.config import jnp
+from wingbeat._jax.exported import exported
 from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
 from wingbeat.mechanics.wing_motion import air_chord, shape_at, strips_of, with_time_axes
 from wingbeat.mechanics.wing_shape import Strips, WingShape
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
 LEADING, TRAILING = 0.25, -0.75
 
 
-def lateral_corners(vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, count: int) -> tuple[PerStrip, PerStrip]:
+@exported(static=("count",))
+def lateral_corners(
+    vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, *, count: int
+) -> tuple[PerStrip, PerStrip]:
     """Return the distance of the left wing's strip corners to the left of the plane of symmetry [m].
 
     Parameters
@@ -86,6 +90,7 @@ def has_room(vehicle: Vehicle) -> bool:
     return bool(vehicle.wing.shoulder[1] != 0.0)
 
 
+@exported
 def flap_angles(wingbeat: Wingbeat, phase: Phases) -> FlapAngles:
     """Return the flap angles of arm and hand, up positive [rad], shape (2, K)."""
     flap = flap_angle(wingbeat, phase)

@@ -118,7 +118,7 @@ def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[floa
     flap : lowest and highest flap angle that the shoulder allows [rad].
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
-    leading, trailing = map(np.asarray, lateral_corners(vehicle, wingbeat, phase, strips))
+    leading, trailing = lateral_corners(vehicle.passive, wingbeat, phase, count=strips)
     pitch_axis = 0.75 * leading + 0.25 * trailing
     nearest = np.minimum(leading, trailing) if has_room(vehicle) else pitch_axis
     across, notes = -float(nearest.min()), []
@@ -127,7 +127,7 @@ def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[floa
             f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
             "where it meets the other wing: no animal can do this"
         )
-    angles = np.asarray(flap_angles(wingbeat, phase))
+    angles = flap_angles(wingbeat, phase)
     low, high = flap
     if max(low - angles.min(), angles.max() - high) > _PAST:
         least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])

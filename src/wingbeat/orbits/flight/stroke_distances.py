@@ -40,7 +40,7 @@ _END = np.array([*np.tile((np.arange(PARTS) + 1) / PARTS, 2), *[1.0] * 4])
 
 def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -> StrokeSeries:
     """Return the series whose minima are the rows: corner distances in wing lengths, and angles; (4 N + 4, K)."""
-    corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, strips)]
+    corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, count=strips)]
     angles = flap_angles(wingbeat, phase)
     return jnp.concatenate([*corners, angles, -angles])
 

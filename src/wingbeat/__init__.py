@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from wingbeat import models as models
     from wingbeat import plots as plots
     from wingbeat import viewer as viewer
+    from wingbeat import winds as winds
     from wingbeat.actuators import Motor as Motor
     from wingbeat.actuators import Muscle as Muscle
     from wingbeat.actuators import Springs as Springs
@@ -203,6 +204,7 @@ _MODULES = {
     "objectives": "orbits.problem.quantities",
     "plots": "plots",
     "viewer": "viewer",
+    "winds": "winds",
 }
 
 __all__ = [*_HOME, *_MODULES, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]

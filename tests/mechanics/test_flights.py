@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
 from tests.helpers.driven import BETWEEN, KNOTS, spline_torques
-from wingbeat.mechanics.flights import fly_beats
+from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.results.dataset import evaluate
 
 SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles once
@@ -124,7 +124,7 @@ def test_a_saved_flight_reads_back(tmp_path):
 
 def finely_flown(solved, samples):
     """Return times, q, q' and the hinge torques along an orbit, `samples` + 1 rows each."""
-    phase, states = fly_beats(solved.model, solved.wingbeat, wb.State(*solved.start), 1, samples)
+    phase, states = fly_beats(solved.model, solved.wingbeat, wb.State(*solved.start), 1, samples)[:2]
     found = evaluate(solved.model, solved.wingbeat, phase, states)
     places = np.column_stack([states[:, :3], found.flap, found.wing_pitch])
     rates = np.column_stack([states[:, 3:], found.flap_rate, found.wing_pitch_rate])

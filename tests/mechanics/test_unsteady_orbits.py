@@ -21,8 +21,8 @@ from tests.helpers.unsteady_flights import (
     states_at,
 )
 from wingbeat._jax.config import jnp
+from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import air_loads, motion_table
-from wingbeat.mechanics.flights import fly_beats
 from wingbeat.mechanics.wing_motion import stroke_attitude
 from wingbeat.orbits.solve import search_near
 from wingbeat.results.dataset import evaluate
@@ -85,7 +85,7 @@ def test_on_an_orbit_with_all_terms_the_air_holds_the_weight(orbit):
     assert orbit.status is wb.Status.CONVERGED, orbit.message
     assert max(map(abs, orbit.record()["closure"].values())) <= 1e-6
     model, beat = orbit.problem.model, orbit.wingbeat
-    phase, flown = fly_beats(model, beat, orbit.initial_state, 1, SAMPLES)
+    phase, flown = fly_beats(model, beat, orbit.initial_state, 1, SAMPLES)[:2]
     states = wb.State(*flown.T)
     now = evaluate(model, beat, phase, flown)
     *motion, acceleration = coordinates(beat, now, states, phase)
@@ -116,7 +116,7 @@ def test_the_mean_force_of_the_wings_is_what_made_the_inflow(orbit):
     model, beat = orbit.problem.model, orbit.wingbeat
     body = dataclasses.replace(model.vehicle.body, drag_area=0.0)
     wings = changed(model, vehicle=dataclasses.replace(model.vehicle, body=body))
-    phase, flown = fly_beats(model, beat, orbit.initial_state, 1, SAMPLES)
+    phase, flown = fly_beats(model, beat, orbit.initial_state, 1, SAMPLES)[:2]
     now = evaluate(model, beat, phase, flown)
     motion = coordinates(beat, now, wb.State(*flown.T), phase)
     found = wb.air_forces(wings, beat, *motion[:2], phase / beat.frequency, motion[2])

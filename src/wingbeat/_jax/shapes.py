@@ -77,6 +77,9 @@ StatePath = Float[Any, "samples state"]
 StepTimes = Float[Any, "steps"]
 StepStates = Float[Any, "steps state"]
 Integrated = tuple[StatePath, StepTimes, StepStates]
+# Velocity of the air, forward and up: in a table along a beat, and at one phase.
+AirTable = Float[Any, "places 2"]
+AirVelocity = Float[Any, "2"]
 # A beat and its derivatives, whose first axis is directions.
 Series = Float[Any, "... samples"]
 StripSeries = Float[Any, "... samples strips"]

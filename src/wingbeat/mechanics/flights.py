@@ -17,7 +17,7 @@ from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Integrated, Samples, Scalar, StartState, StateVector
+    from wingbeat._jax.shapes import AirTable, AirVelocity, Integrated, Samples, Scalar, StartState, StateVector
 
 
 RTOL = 1e-10
@@ -28,6 +28,8 @@ _ATOL = 1e-2
 _BETWEEN = 4
 _IN_A_BEAT = 1024
 _IN_A_FLIGHT = 4096
+# The air's velocity is tabulated at so many equal phases of a beat; a cubic through four of them gives it between.
+_AIR_SAMPLES = 64
 # Strips that a vector unit takes at a time. A flight with 16 strips, six of them without effect, takes 0.8 of the
 # time of a flight with 10.
 _VECTOR = 8
@@ -114,8 +116,40 @@ def _fly(model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Sam
     return integrate(rates, start, phases, (model, wingbeat), _IN_A_BEAT, rtol)
 
 
+@exported
+def _fly_in_wind(
+    model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Samples, rtol: Scalar, air: AirTable
+) -> Integrated:
+    """Fly through air whose velocity is tabulated from one place before the beat to one behind it."""
+
+    def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat, AirTable]) -> Any:
+        flown, beat, table = args
+        wind = _between(table, phase)
+        # The loads depend on the velocity through the air, and both frames have the same accelerations.
+        through_air = state_rates(flown, beat, phase, state.at[3:5].add(-wind))
+        return through_air.at[:2].add(wind) / beat.frequency
+
+    return integrate(rates, start, phases, (model, wingbeat, air), _IN_A_BEAT, rtol)
+
+
+def _between(table: AirTable, phase: Scalar) -> AirVelocity:
+    """Return the air's velocity at a phase, by cubics whose slopes are differences of neighbours (Catmull-Rom)."""
+    place = phase * _AIR_SAMPLES
+    first = jnp.clip(jnp.floor(place), 0, _AIR_SAMPLES - 1)
+    before, here, there, behind = jax.lax.dynamic_slice_in_dim(table, first.astype(int), 4)
+    s = place - first
+    from_here, from_there = 0.5 * (there - before), 0.5 * (behind - here)
+    bend = 3.0 * (there - here) - 2.0 * from_here - from_there
+    return here + s * (from_here + s * (bend + s * (2.0 * (here - there) + from_here + from_there)))
+
+
 def fly_through(
-    model: FlightModel, wingbeat: Wingbeat, state: State, phases: np.ndarray, rtol: float = RTOL
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: State,
+    phases: np.ndarray,
+    rtol: float = RTOL,
+    air: np.ndarray | None = None,
 ) -> tuple[np.ndarray, Steps]:
     """Fly an initial state with prescribed wings.
 
@@ -125,40 +159,23 @@ def fly_through(
     state : at phase 0 [m, rad, m/s, rad/s].
     phases : in increasing order from 0, shape (K,); equal phases are allowed.
     rtol : relative tolerance.
+    air : velocity of the air at the phases of `air_phases`, forward and up [m/s]; None for still air.
 
     Returns
     -------
     States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), NaN after the integrator gave up; and the
     integrator's steps.
     """
-    states, at, there = _fly(model, wingbeat, np.array(state, dtype=float), phases, rtol)
+    given = model, wingbeat, np.array(state, dtype=float), phases, rtol
+    states, at, there = _fly(*given) if air is None else _fly_in_wind(*given, air)
     count = int(np.isfinite(at).sum())
     # Copies, for all of the program's outcome lives as long as a view of any part.
     return states.copy(), Steps(at[:count].copy(), there[:count].copy())
 
 
-def fly_beats(
-    model: FlightModel, wingbeat: Wingbeat, state: State, beats: int, samples: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Fly several beats with prescribed wings.
-
-    Parameters
-    ----------
-    model, wingbeat, state : as in `fly_through`.
-    beats : number of beats.
-    samples : number of samples in each beat.
-
-    Returns
-    -------
-    ``beats * samples + 1`` phases, and the states there, as from `fly_through`.
-    """
-    one_beat = np.linspace(0.0, 1.0, samples + 1)
-    current, pieces = state, [np.array([state], dtype=float)]
-    for _ in range(beats):
-        flown, _ = fly_through(model, wingbeat, current, one_beat)
-        current = State(*flown[-1])
-        pieces.append(flown[1:])
-    return np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
+def air_phases() -> np.ndarray:
+    """Return the phases at which a flight needs the velocity of the air, from before the beat to behind it."""
+    return np.arange(-1, _AIR_SAMPLES + 2) / _AIR_SAMPLES
 
 
 @functools.partial(jit_soon, static_argnums=0)

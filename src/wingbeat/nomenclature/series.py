@@ -70,6 +70,8 @@ SERIES = (
 )
 # Series that most flights do not have: laws that are off, and what a body takes that moves as filmed.
 SERIES_WHERE_ON = (
+    Term("air_u", "m s-1", "velocity of the air, forward"),
+    Term("air_w", "m s-1", "velocity of the air, up"),
     Term("chord_ratio", "1", "chord that meets the air, divided by full chord", "c/c₀"),
     Term("missing_force_x", "N", "forward force that the model lacks for the prescribed motion of the body"),
     Term("missing_force_z", "N", "upward force that the model lacks for the prescribed motion of the body"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +14,14 @@ from wingbeat._version import __version__
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.beat_by_beat import Controller, check_wind, fly_beats
 from wingbeat.mechanics.flight_model import FlightModel, State, check_state
-from wingbeat.mechanics.flights import fly_beats, fly_torque_driven
+from wingbeat.mechanics.flights import fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.record import vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
+from wingbeat.winds import Wind
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,16 +33,20 @@ class Flight(Saveable):
 
     Attributes
     ----------
-    model, wingbeat : the flight model and its wingbeat.
+    model, wingbeat : the flight model and its wingbeat, in a controlled flight that of the first beat.
     phase : beats since the start, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number after the
         integrator gave up.
+    wingbeats : the wingbeat of each beat.
+    air : velocity of the air, forward and up [m/s], shape (K, 2); None for still air.
     """
 
     model: FlightModel
     wingbeat: Wingbeat
     phase: np.ndarray
     states: np.ndarray
+    wingbeats: tuple[Wingbeat, ...]
+    air: np.ndarray | None = None
 
     @property
     def completed(self) -> bool:
@@ -48,9 +54,16 @@ class Flight(Saveable):
         return bool(np.isfinite(self.states).all())
 
     @functools.cached_property
+    def time(self) -> np.ndarray:
+        """Time since the start [s], shape (K,)."""
+        ends = np.concatenate([[0.0], np.cumsum([1.0 / beat.frequency for beat in self.wingbeats])])
+        return np.interp(self.phase, np.arange(len(ends)), ends)
+
+    @functools.cached_property
     def dataset(self) -> xr.Dataset:
         """The time series, labelled; its phase runs on from beat to beat."""
-        found = evaluate(self.model, self.wingbeat, self.phase, self.states)
+        import xarray as xr
+
         attributes = {
             KIND: "flight",
             "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
@@ -58,10 +71,44 @@ class Flight(Saveable):
             "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
             "version": __version__,
         }
-        return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes)
+        runs = [self._run(first, last, attributes) for first, last in self._alike()]
+        found = runs[0] if len(runs) == 1 else xr.concat(runs, "phase", data_vars="minimal", coords="minimal")
+        found["time"] = ("phase", self.time, found["time"].attrs)
+        if self.air is not None:
+            for name, column in zip(("air_u", "air_w"), self.air.T, strict=True):
+                found[name] = ("phase", column, attributes_of(NOMENCLATURE[name]))
+        return found
+
+    def _alike(self) -> Iterator[tuple[int, int]]:
+        """Yield the first beat, and the one after the last, of each row of beats with the same wingbeat."""
+        first = 0
+        for i in range(1, len(self.wingbeats) + 1):
+            if i == len(self.wingbeats) or self.wingbeats[i] != self.wingbeats[first]:
+                yield first, i
+                first = i
+
+    def _run(self, first: int, last: int, attributes: dict[str, Any]) -> xr.Dataset:
+        """Return the series of a row of beats; the sample between two rows belongs to the earlier one."""
+        samples = (len(self.phase) - 1) // len(self.wingbeats)
+        here = slice(first * samples + (first > 0), last * samples + 1)
+        wingbeat, phase, states = self.wingbeats[first], self.phase[here], self.states[here]
+        through_air = states
+        if self.air is not None:
+            through_air = states - np.pad(self.air[here], ((0, 0), (3, 1)))
+        found = evaluate(self.model, wingbeat, phase, through_air)
+        return flight_dataset(self.model, wingbeat, phase, states, found, attributes)
 
 
-def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 1, samples: int = 128) -> Flight:
+def simulate(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: State,
+    beats: int = 1,
+    samples: int = 128,
+    *,
+    wind: Wind | tuple[float, float] | None = None,
+    controller: Controller | None = None,
+) -> Flight:
     """Fly an initial state for a number of wingbeats with prescribed wings.
 
     Parameters
@@ -71,10 +118,15 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
     beats : number of wingbeats.
     samples : samples per wingbeat.
+    wind : velocity of the air, forward and up [m/s]: two numbers, or a function of times [s] such as those of
+        `wingbeat.winds`. It must be smooth over a 64th of a beat. Loads of the air's own acceleration are left out.
+    controller : function of the number of beats flown and the state at the top of the stroke; it returns the
+        wingbeat of the next beat. Inputs of `linearise` change a wingbeat without a jump of the wing.
 
     Raises
     ------
-    InvalidInputError : a state that is not finite, beats or samples that are not whole numbers of at least 1.
+    InvalidInputError : a state that is not finite, beats or samples that are not whole numbers of at least 1, a
+        wind that is not finite or has another shape than its times, a controller that returns no wingbeat.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -86,9 +138,13 @@ def simulate(model: FlightModel, wingbeat: Wingbeat, state: State, beats: int = 
     faults = FaultList()
     for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
         faults.whole(name, value, 1, most)
+    check_wind(faults, wind)
+    if controller is not None and not callable(controller):
+        faults.add("controller", controller, "must be a function of the beats flown and the state")
     faults.raise_if_any()
     check_state(state)
-    return Flight(model, wingbeat, *fly_beats(model, wingbeat, state, beats, samples))
+    flown = fly_beats(model, wingbeat, state, beats, samples, wind, controller)
+    return Flight(model, flown.wingbeats[0], flown.phase, flown.states, flown.wingbeats, flown.air)
 
 
 # The generalised coordinates and their rates, as a data set names them.

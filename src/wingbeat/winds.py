@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -116,14 +117,21 @@ class DrydenTurbulence:
 
     def __call__(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the velocity of the air at these times [s], forward and up [m/s]."""
-        phases = 2 * math.pi * np.random.default_rng(self.seed).random((2, _WAVES))
+        series = [
+            intensity
+            * math.sqrt(2.0 / _WAVES)
+            * np.cos(np.multiply.outer(np.asarray(times), rates) + phases).sum(-1)
+            for intensity, rates, phases in zip(self.intensities, *self._waves, strict=True)
+        ]
+        return series[0], series[1]
+
+    @functools.cached_property
+    def _waves(self) -> tuple[np.ndarray, np.ndarray]:
+        """Angular frequencies [rad/s] and phases [rad] of the waves of both components, shape (2, waves) each."""
         below = (np.arange(_WAVES) + 0.5) / _WAVES
-        numbers = np.tan(0.5 * math.pi * below), _inverse(_below_upward, below)
-        found = []
-        for phase, number, scale, intensity in zip(phases, numbers, self.scales, self.intensities, strict=True):
-            waves = np.cos(np.multiply.outer(np.asarray(times), number * self.airspeed / scale) + phase)
-            found.append(intensity * math.sqrt(2.0 / _WAVES) * waves.sum(axis=-1))
-        return found[0], found[1]
+        numbers = np.stack([np.tan(0.5 * math.pi * below), _inverse(_below_upward, below)])
+        rates = numbers * self.airspeed / np.array(self.scales)[:, None]
+        return rates, 2 * math.pi * np.random.default_rng(self.seed).random((2, _WAVES))
 
 
 def _below_upward(number: np.ndarray) -> np.ndarray:

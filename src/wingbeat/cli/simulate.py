@@ -28,6 +28,7 @@ from wingbeat.cli.options import (
     given_beside,
     unpacking,
 )
+from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.kinematics import Wingbeat
@@ -39,8 +40,10 @@ from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.record import beat_mean
 from wingbeat.results.warnings import crossing
+from wingbeat.winds import Wind
 
 _BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate", "json", "output")
+_BESIDE_FROM += ("gust", "turbulence", "wind_seed")
 
 
 def simulate(
@@ -64,6 +67,9 @@ def simulate(
         Path | None,
         Parameter(name="--from", help="Take wingbeat, vehicle, air loads and initial state from this orbit."),
     ] = None,
+    gust: Gust = None,
+    turbulence: Turbulence = None,
+    wind_seed: WindSeed = 0,
     json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
     output: Output = None,
 ) -> int:
@@ -73,7 +79,8 @@ def simulate(
     from a film (--kinematics; the species gives the motions that were not filmed). If the film shows the path of
     the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the missing force is reported. To
     disturb an orbit, give --u, --w, --body-pitch-deg or --pitch-rate; each replaces that number in the orbit's
-    initial state. With a film, power is printed with the error due to the noise of the film.
+    initial state. With a film, power is printed with the error due to the noise of the film. --gust and
+    --turbulence move the air.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)
@@ -106,6 +113,11 @@ def simulate(
             animal = filmed_species(beat, animal)
         wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
         if beat is not None and beat.film.shows_body:
+            if gust is not None or turbulence is not None:
+                faults.add(
+                    "--gust", gust or turbulence, "has no effect on a body that moves as filmed", "leave it out"
+                )
+                faults.raise_if_any()
             check_outputs(output, plot_kinematics)
             flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
             if output:
@@ -119,14 +131,15 @@ def simulate(
         velocity = float(start.u), float(start.w)
         flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     check_outputs(output, plot_kinematics)
-    flight = fly(flown_by, wingbeat, start, beats, samples)
+    wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
+    flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind)
     if output:
         flight.save(output)
     if plot_kinematics and beat:
         save_figure(film_page(beat), plot_kinematics)
     rows = beat_rows(flight, samples)
     if beat is not None:
-        for row, error in zip(rows, _errors(flight, beat, beats, samples), strict=True):
+        for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
             row["mean_power_se"] = error
     if json:
         film = {} if beat is None else {"kinematics": film_record(beat)}
@@ -145,12 +158,12 @@ def _warn(model: FlightModel, wingbeat: Wingbeat, flap: tuple[float, float]) -> 
         print(f"warning: {note}", file=sys.stderr)
 
 
-def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int) -> list[float | None]:
+def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int, wind: Wind | None) -> list[float | None]:
     """Return the standard error of each beat's mean power, from flights with random draws of the film."""
     power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
     start, squares = State(*flight.states[0]), []
     for wingbeat in beat.draws(flight.wingbeat, DRAWS):
-        other = fly(flight.model, wingbeat, start, beats, samples)
+        other = fly(flight.model, wingbeat, start, beats, samples, wind=wind)
         rows = beat_rows(other, samples)
         squares.append((np.array([row["mean_power"] for row in rows], dtype=float) - power) ** 2)
     errors = np.sqrt(np.mean(squares, axis=0)) if squares else np.full(beats, np.nan)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat._jax.config import jnp
 from wingbeat.cli import main
+from wingbeat.cli.stability import headline
 from wingbeat.plots import stability_page
 
 
@@ -23,7 +25,7 @@ def test_a_saved_orbit_prints_its_verdict_modes_and_the_averaged_model(saved, ca
     assert "pigeon at 10 m/s" in printed
     assert "unstable, disturbances double in" in printed
     assert "divergence" in printed
-    assert "if the rates were averaged over the beat" in printed
+    assert "averaged over the beat, spectral radius" in printed
 
 
 def test_the_json_has_the_matrices_and_their_names(saved, pigeon_orbit, capsys):
@@ -66,8 +68,37 @@ def test_a_row_of_speeds_is_a_root_locus(capsys, tmp_path):
 def test_no_certified_orbit_is_said_and_ends_with_3(capsys):
     assert main(["stability", "pigeon", "--speed", "3", "--set", "body.mass=3", "--starts", "1", "--json"]) == 3
     found = capsys.readouterr()
-    assert json.loads(found.out) == []
-    assert "infeasible" in found.err
+    answer = json.loads(found.out)
+    assert (answer["speed"], answer["status"]) == (3.0, "infeasible")
+    assert "3 m/s: infeasible" in found.err
+
+
+def test_a_gap_in_a_row_of_speeds_is_told(capsys, tmp_path):
+    asked = ["stability", "pigeon", "--speed", "10:100:90", "--starts", "1", "--json"]
+    assert main(asked) == 0
+    found = capsys.readouterr()
+    certified, missing = json.loads(found.out)
+    assert certified["spectral_radius"] > 1
+    assert set(missing) == {"speed", "status", "message"}
+    assert found.err.startswith("100 m/s: ")
+
+
+def test_an_orbit_of_a_function_is_refused_in_words(capsys, tmp_path):
+    def plate(alpha):
+        return 2.0 * jnp.sin(alpha) * jnp.cos(alpha), 0.1 + 2.0 * jnp.sin(alpha) ** 2
+
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=plate)
+    wb.solve_orbit(problem, starts=1).save(tmp_path / "own.nc")
+    assert main(["stability", str(tmp_path / "own.nc")]) == 2
+    assert "in Python" in capsys.readouterr().err
+
+
+def test_the_headline_tells_stable_from_unstable():
+    record = {"species": "bat", "speed": 5.0, "frequency": 6.1, "stable": True, "spectral_radius": 0.97, "dt": 0.16}
+    assert headline({**record, "modes": [{"time_to_double": None}]}).endswith("stable, spectral radius 0.970")
+    record |= {"stable": False, "spectral_radius": 1.0}
+    assert headline({**record, "modes": [{"time_to_double": None}]}).endswith("unstable, spectral radius 1.000")
+    assert "double in 0.32 s (2 beats)" in headline({**record, "modes": [{"time_to_double": 0.32}]})
 
 
 @pytest.mark.parametrize(
@@ -86,5 +117,6 @@ def test_bad_input_gets_its_sentence(asked, said, capsys):
 
 
 def test_an_unknown_input_gets_its_sentence(saved, capsys):
-    assert main(["stability", saved, "--inputs", "flapping"]) == 2
-    assert "inputs = 'flapping'" in capsys.readouterr().err
+    for source in ([saved], ["pigeon", "--speed", "10"]):  # before anything is solved
+        assert main(["stability", *source, "--inputs", "flaping"]) == 2
+        assert "inputs = 'flaping': is not a parameter of the wingbeat" in capsys.readouterr().err

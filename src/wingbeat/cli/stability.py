@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_format
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,6 +14,8 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     Climb,
+    Limits,
+    Seed,
     Settings,
     Whole,
     WithinPlausible,
@@ -27,8 +30,10 @@ from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList
 from wingbeat.orbits.status import Status
 from wingbeat.plots import save_figure, stability_page
+from wingbeat.plots.stability_page import MOVING
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit, solve_orbits
+from wingbeat.stability.inputs import check_inputs
 from wingbeat.stability.linear_flight import linearise
 
 _OF_A_FILE = ("source", "inputs", "height", "jumps", "json", "plot")
@@ -47,20 +52,17 @@ def stability(
     model: ModelOptions = DEFAULT_MODEL,
     within_plausible: WithinPlausible = False,
     minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
-    subject_to: Annotated[
-        list[str] | None,
-        Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
-    ] = None,
+    subject_to: Limits = None,
     starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
-    seed: Annotated[Whole, Parameter(help="Seed of the random starts.")] = 0,
+    seed: Seed = 0,
     set_: Settings = None,
     inputs: Annotated[
         list[str] | None,
         Parameter(
             consume_multiple=True,
             negative=(),
-            help="Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ...; "
-            "default the free ones.",
+            help="Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ... Default: "
+            "those free ones whose jumps harmonics can undo.",
         ),
     ] = None,
     height: Annotated[bool, Parameter(negative="", help="Make the height z part of the state.")] = False,
@@ -76,9 +78,10 @@ def stability(
 ) -> int:
     """Find what grows and what decays when an orbit is disturbed, from beat to beat.
 
-    The table lists the modes of body pitch, velocity and pitch rate. With --json, the linear maps from one top of
-    the stroke to the next: A of the state, B of the inputs, G of a gust that lasts one beat.
-    Exit code 3: no certified orbit.
+    It prints the modes of body pitch, velocity and pitch rate. --json prints the linear maps from one top of the
+    stroke to the next: A of the state, B of the inputs, G of a gust that is constant for one beat. With several
+    speeds it prints a list, in which a speed without a certified orbit has its status and message.
+    Exit code 0: some speeds certified. 3: none.
 
     Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;
     wingbeat stability pigeon --speed 4:20:2 --plot locus.png
@@ -91,30 +94,45 @@ def stability(
         faults.add("SPECIES", source, "is an orbit and comes with its own inputs", f"leave out {', '.join(beside)}")
     if not saved and speed is None:
         faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
+    if inputs is not None:
+        check_inputs(faults, inputs)
     faults.raise_if_any()
     check_outputs(plot)
     if saved:
+        orbit = load_orbit(source)
         with unpacking(Path(source)):
-            orbits = [load_orbit(source)]
+            _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
+        orbits = [orbit]
     else:
+        assert speed is not None
         asked: dict[str, Any] = {
             "climb": climb,
             "bounds": "plausible" if within_plausible else {},
             "minimise": minimise,
             "subject_to": subject_to or (),
         }
-        speeds = parse_range(str(speed), "--speed").tolist()
-        orbits = _solve([model.problem(source, one, set_, **asked) for one in speeds], starts, seed)
-    certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
-    found = [linearise(orbit, inputs, height=height, smooth=not jumps).record() for orbit in certified]
+        speeds = parse_range(speed, "--speed").tolist()
+        first = model.problem(source, speeds[0], set_, **asked)
+        orbits = _solve([first, *(first.at_speed(one) for one in speeds[1:])], starts, seed)
+    answers = [_answer(orbit, inputs, height, jumps) for orbit in orbits]
+    found = [answer for answer in answers if "modes" in answer]
     if plot and found:
         save_figure(stability_page(found), plot)
     if json:
-        print(json_format.dumps(found[0] if len(orbits) == len(found) == 1 else found, indent=2, allow_nan=False))
+        print(json_format.dumps(answers if len(answers) > 1 else answers[0], indent=2, allow_nan=False))
     else:
         _print(found)
-    _report_missing(orbits)
+    for answer in answers:
+        if "modes" not in answer:
+            print(f"{answer['speed']:g} m/s: {answer['status']}: {answer['message']}", file=sys.stderr)
     return EXIT_GOOD if found else EXIT_NOT_CERTIFIED
+
+
+def _answer(orbit: Orbit, inputs: list[str] | None, height: bool, jumps: bool) -> dict[str, Any]:
+    """Return the record of a linear flight; of an orbit that is not certified, speed, status and message."""
+    if orbit.status is not Status.CONVERGED:
+        return {"speed": orbit.inputs["speed"], "status": orbit.status.value, "message": orbit.message}
+    return linearise(orbit, inputs, height=height, smooth=not jumps).record()
 
 
 def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit]:
@@ -122,16 +140,6 @@ def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit
         if len(problems) == 1:
             return [solve_orbit(problems[0], starts, seed, progress)]
         return solve_orbits(problems, starts, seed, progress=progress, in_order=True)
-
-
-def _report_missing(orbits: Sequence[Orbit]) -> None:
-    """Say on stderr at which speeds no orbit was certified."""
-    from rich.console import Console
-
-    for orbit in orbits:
-        if orbit.status is not Status.CONVERGED:
-            text = f"{orbit.inputs['speed']:g} m/s: {orbit.status.value}: {orbit.message}"
-            Console(stderr=True).print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _print(found: Sequence[dict[str, Any]]) -> None:
@@ -155,9 +163,10 @@ def _print(found: Sequence[dict[str, Any]]) -> None:
 def headline(record: dict[str, Any]) -> str:
     """Return the verdict on one orbit in a line."""
     where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
-    if record["stable"]:
-        return f"{where}: stable, spectral radius {record['spectral_radius']:.3f}"
     seconds = record["modes"][0]["time_to_double"]
+    if record["stable"] or seconds is None:
+        verdict = "stable" if record["stable"] else "unstable"
+        return f"{where}: {verdict}, spectral radius {record['spectral_radius']:.3f}"
     return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
 
 
@@ -165,18 +174,15 @@ def _averaged(record: dict[str, Any]) -> str:
     averaged = record["averaged"]
     kind = averaged["modes"][0]["kind"]
     return (
-        f"if the rates were averaged over the beat: spectral radius {averaged['spectral_radius']:.3f} "
-        f"({kind}) in place of {record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
+        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kind}) in place of "
+        f"{record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
     )
-
-
-_PARTS = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
 
 
 def _rows(mode: dict[str, Any], dt: float) -> list[tuple[str, str]]:
     """Return what is printed of a mode."""
     real, imaginary = mode["multiplier"]
-    rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary else ""))]
+    rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if mode["kind"] == "oscillation" else ""))]
     for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
         if mode[name] is not None:
             rows.append((label, f"{mode[name]:.3g} s ({mode[name] / dt:.3g} beats)"))
@@ -184,5 +190,5 @@ def _rows(mode: dict[str, Any], dt: float) -> list[tuple[str, str]]:
         rows.append(("period", f"{mode['period']:.3g} s"))
         rows.append(("damping ratio", "-" if mode["damping"] is None else f"{mode['damping']:.2g}"))
     parts = sorted(mode["shares"].items(), key=lambda part: -part[1])
-    rows.append(("what moves", ", ".join(f"{_PARTS[name]} {share:.0%}" for name, share in parts)))
+    rows.append(("what moves", ", ".join(f"{MOVING[name]} {share:.0%}" for name, share in parts)))
     return rows

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 _KINDS = ("divergence", "oscillation", "subsidence", "flip")
 _LOOK = dict(zip(_KINDS, MARKED, strict=False))
-_PARTS = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
+# What moves in a mode, as pages and screens name it.
+MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
 _PART_COLOURS = {"body_pitch": BLUE, "u": ORANGE, "w": GREEN, "pitch_rate": PURPLE}
 
 
@@ -37,8 +38,8 @@ _PART_COLOURS = {"body_pitch": BLUE, "u": ORANGE, "w": GREEN, "pitch_rate": PURP
 def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     """Draw multipliers and modes of one linear flight, or of several along speed.
 
-    Inside the shaded circle disturbances decay. The bars show the mean share of each part of the state in the modes
-    of the flight nearest to the middle of the speeds.
+    Inside the shaded circle disturbances decay. Marks are small at the lowest and large at the highest speed. The
+    bars show what moves in the modes of the flight nearest to the middle of the speeds.
 
     Parameters
     ----------
@@ -55,22 +56,29 @@ def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
         _draw_sizes(sizes, records)
     else:
         _draw_growth(sizes, first)
-    _draw_bars(bars, records[len(records) // 2])
+    middle = 0.5 * (records[0]["speed"] + records[-1]["speed"])
+    _draw_bars(bars, min(records, key=lambda record: abs(record["speed"] - middle)))
     letter_panels(figure.axes)
     legend_below(figure, [plane], columns=5)
     return figure
 
 
 def _draw_plane(axes: Axes, records: Sequence[dict[str, Any]]) -> None:
+    sizes = np.linspace(6.0, 30.0, len(records)) if len(records) > 1 else [20.0]
     turn = np.linspace(0.0, 2 * np.pi, 181)
     axes.fill(np.cos(turn), np.sin(turn), color=SHADE, linewidth=0, zorder=0, label="decays")
     axes.plot(np.cos(turn), np.sin(turn), color=GREY, linewidth=0.6)
     for kind, (colour, mark) in _LOOK.items():
-        points = [mode["multiplier"] for record in records for mode in record["modes"] if mode["kind"] == kind]
+        points = [
+            (*mode["multiplier"], size)
+            for record, size in zip(records, sizes, strict=True)
+            for mode in record["modes"]
+            if mode["kind"] == kind
+        ]
         if points:
-            real, imaginary = np.array(points).T
-            real, imaginary = np.r_[real, real], np.r_[imaginary, -imaginary]
-            axes.plot(real, imaginary, mark, color=colour, ms=3.5, mew=0, alpha=0.8, label=kind)
+            real, imaginary, size = np.array(points).T
+            both = np.r_[real, real], np.r_[imaginary, -imaginary]
+            axes.scatter(*both, s=np.r_[size, size], color=colour, marker=mark, alpha=0.7, linewidths=0, label=kind)
     axes.set_aspect("equal", adjustable="datalim")
     dress(axes, "real part [-]", "imaginary part [-]")
 
@@ -88,7 +96,13 @@ def _draw_sizes(axes: Axes, records: Sequence[dict[str, Any]]) -> None:
         linewidth=0.8,
         linestyle=(0, (2, 1.5)),
     )
-    axes.annotate("dashed: largest if averaged", (0.03, 0.96), xycoords="axes fraction", va="top", fontsize=6.5)
+    axes.annotate(
+        "dashed: spectral radius of the averaged model",
+        (0.03, 0.96),
+        xycoords="axes fraction",
+        va="top",
+        fontsize=6.5,
+    )
     axes.set_ylim(bottom=0.0)
     dress(axes, "speed [m/s]", "modulus of the multiplier [-]")
 
@@ -101,13 +115,13 @@ def _draw_growth(axes: Axes, record: dict[str, Any]) -> None:
         axes.plot(beats * record["dt"], mode["modulus"] ** beats, color=colour, marker=mark, ms=3, linewidth=0.9)
     axes.axhline(1.0, color=GREY, linewidth=0.6)
     axes.set_yscale("log")
-    axes.set(xlabel="time [s]", ylabel="disturbance over its first size [-]")
+    axes.set(xlabel="time [s]", ylabel="disturbance over its initial size [-]")
 
 
 def _draw_bars(axes: Axes, record: dict[str, Any]) -> None:
     modes = record["modes"]
     left = np.zeros(len(modes))
-    for part, label in _PARTS.items():
+    for part, label in MOVING.items():
         widths = np.array([mode["shares"][part] for mode in modes])
         axes.barh(range(len(modes)), widths, left=left, height=0.6, color=_PART_COLOURS[part], label=label)
         left += widths

@@ -1,4 +1,4 @@
-"""The averaged model: the flight's rates linearised at each phase and averaged over the beat."""
+"""The averaged model: derivatives of the rates by the state along the orbit, averaged over the beat."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def _rates_by_state(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path
     return jax.vmap(by_state)(jnp.eye(4))
 
 
-def averaged_rates(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
-    """Return the mean over the beat of the rates' derivatives by the state, shape (4, 4) [per s].
+def averaged_jacobian(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
+    """Return the mean over the beat of the derivatives of the four rates (rows) by the four states, shape (4, 4).
 
     Parameters
     ----------

@@ -11,16 +11,17 @@ import numpy as np
 
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList, install_extra
-from wingbeat.kinematics import FREE_NAMES, parameter
+from wingbeat.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map
+from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
-from wingbeat.stability.averaged import averaged_rates
-from wingbeat.stability.modes import PITCH_STATE, Mode, modes_of
+from wingbeat.stability.averaged import averaged_jacobian
+from wingbeat.stability.inputs import Compensation, check_inputs, compensation, smooth_ones
+from wingbeat.stability.modes import Mode, modes_of
 from wingbeat.stability.options import DEFAULTS, LinearOptions
-from wingbeat.stability.smooth import Compensation, can_be_smooth, compensation
 
 if TYPE_CHECKING:
     import control
@@ -32,8 +33,9 @@ GUSTS = ("gust_u", "gust_w")
 class LinearFlight:
     """A certified orbit linearised from beat to beat; made by `linearise`.
 
-    A small disturbance x of the state at the top of the stroke, changes y of the inputs and a gust g that blow for
-    one beat lead to ``A x + B y + G g`` at the next top of the stroke.
+    A small disturbance x of the state at the top of the stroke, changes y of the inputs and a gust g, each constant
+    for one beat, lead to ``A x + B y + G g`` at the next top of the stroke. An input ``frequency`` changes the time
+    of its beat; `dt` is that of the undisturbed orbit.
 
     Attributes
     ----------
@@ -42,11 +44,11 @@ class LinearFlight:
     inputs : names of the parameters of the wingbeat that change from beat to beat.
     A : derivative of the state after a beat by the state before it, shape (n, n).
     B : derivative of the state after a beat by the inputs, shape (n, inputs).
-    G : derivative of the state after a beat by the velocity (u, w) of air that moves evenly during this beat, shape
-        (n, 2).
+    G : derivative of the state after a beat by the velocity (u, w) of air that is uniform and constant for a beat,
+        shape (n, 2).
     dt : time of a beat [s].
     modes : of body_pitch, u, w, pitch_rate; the fastest growing first.
-    averaged_modes : those of the averaged model, whose rates are the means over the beat.
+    averaged_modes : those of the averaged model: derivatives of the rates by the state, averaged along the orbit.
     compensation : harmonics that go with the inputs, so that the wing does not jump; empty if not asked.
     """
 
@@ -63,27 +65,31 @@ class LinearFlight:
 
     @property
     def spectral_radius(self) -> float:
-        """Largest modulus of a multiplier; the orbit is stable if it is below 1."""
+        """Largest modulus of a multiplier; below 1 disturbances decay."""
         return abs(self.modes[0].multiplier)
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""
-        problem = self.orbit.problem
+        asked = self.orbit.inputs
         shares = self.compensation.shares.T.tolist()
         return {
-            **{"species": problem.species.name, "speed": problem.speed, "climb": problem.climb},
+            "species": asked["species"]["name"],
+            "speed": asked["speed"],
+            "climb": asked["climb"],
             "frequency": self.orbit.wingbeat.frequency,
             "dt": self.dt,
             "state": list(self.state),
             "inputs": list(self.inputs),
             "gusts": list(GUSTS),
-            **{"A": self.A.tolist(), "B": self.B.tolist(), "G": self.G.tolist()},
+            "A": self.A.tolist(),
+            "B": self.B.tolist(),
+            "G": self.G.tolist(),
             "compensation": {
                 name: dict(zip(self.compensation.names, row, strict=True))
                 for name, row in zip(self.inputs, shares, strict=True)
             },
             "spectral_radius": self.spectral_radius,
-            "stable": self.spectral_radius < 1.0,
+            "stable": self.orbit.record()["stable"],  # by the certified multipliers
             "modes": [mode.record() for mode in self.modes],
             "averaged": {
                 "spectral_radius": abs(self.averaged_modes[0].multiplier),
@@ -158,19 +164,21 @@ def linearise(
     Parameters
     ----------
     orbit : a certified orbit.
-    inputs : names of parameters of the wingbeat that may change from beat to beat. Default: the free parameters of
-        its problem that do not make the wing jump.
+    inputs : names of parameters of the wingbeat that may change from beat to beat. Default: those free parameters
+        of its problem whose jumps harmonics can undo.
     height : whether the height z is part of the state.
     smooth : whether harmonics go with each input, so that the wing does not jump at the top of the stroke.
     options : of the linearisation.
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified, inputs that are no parameters of a wingbeat, that are given
-        twice, or that make the wing jump although `smooth` is asked.
+    InvalidInputError : an orbit that is not certified, or that does not close when this version flies it; inputs
+        that are no parameters of the wingbeat, that are given twice or change nothing, or whose jumps no harmonic
+        can undo.
 
-    The map is the derivative of the flight of one beat; a gust that blows evenly for a beat acts by
-    ``G = (I - A)[:, (u, w)]``, because air that moves with the body is still air.
+    The map is the derivative of the flight of one beat. Loads depend only on the velocity relative to the air, so
+    ``G = (I - A)[:, (u, w)]`` for a gust that is uniform and constant for one beat; with the height, the air also
+    carries the body up by ``dt`` per unit of w.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -181,74 +189,64 @@ def linearise(
     faults = FaultList()
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "linearise a certified orbit")
-    if inputs is not None:
-        _check_inputs(faults, inputs)
-    faults.raise_if_any()
     problem, beat = orbit.problem, orbit.wingbeat
-    names = _free_inputs(problem.free, orbit, smooth) if inputs is None else tuple(inputs)
-    along = compensation(beat, names) if smooth else Compensation((), np.zeros((0, len(names))))
+    if inputs is not None:
+        check_inputs(faults, inputs, problem.vehicle)
+    faults.raise_if_any()
+    names = tuple(problem.free if inputs is None else inputs)
+    if smooth and inputs is None:
+        names = smooth_ones(beat, names)
+    harmonics = compensation(beat, names) if smooth else Compensation((), np.zeros((0, len(names))))
     start = np.array(orbit.initial_state)[2:]
-    flown = stroke_map(problem.model, beat, start, (*names, *along.names), options.blocks)
-    scales = _scales(orbit)
-    averaged = averaged_rates(problem.model, beat, flown.path)
+    flown = stroke_map(problem.model, beat, start, (*names, *harmonics.names) or ("frequency",), options.blocks)
+    scales = _scales(problem, beat)
+    miss = float(np.abs((flown.path[-1] - flown.path[0]) / scales).max())
+    if not miss <= options.closure:
+        faults.add("orbit", miss, "does not close when this version flies it", "solve it again")
+    faults.raise_if_any()
+    averaged = averaged_jacobian(problem.model, beat, flown.path)
     return LinearFlight(
         orbit,
         ("z", *PITCH_STATE) if height else PITCH_STATE,
         names,
-        *_matrices(flown, along, 1.0 / beat.frequency, height),
+        *_matrices(flown, harmonics, len(names), 1.0 / beat.frequency, height),
         1.0 / beat.frequency,
-        tuple(modes_of(flown.by_state[1:, 1:], beat.frequency, flown.along, scales)),
-        tuple(_averaged_modes(averaged, beat.frequency, len(flown.along), scales)),
-        along,
+        tuple(modes_of(flown.by_state[1:, 1:], beat.frequency, flown.transition, scales)),
+        tuple(averaged_modes(averaged, beat.frequency, len(flown.transition), scales)),
+        harmonics,
     )
 
 
-def _check_inputs(faults: FaultList, inputs: Sequence[str]) -> None:
-    if isinstance(inputs, str) or not inputs:
-        faults.add(
-            "inputs", inputs, "must be a list of at least one name", "for example ['frequency', 'pitch_mean']"
-        )
-        return
-    for name in inputs:
-        faults.choice("inputs", name, FREE_NAMES)
-    if len(set(inputs)) < len(inputs):
-        faults.add("inputs", list(inputs), "has a name twice", "give each input once")
-
-
-def _free_inputs(free: Sequence[str], orbit: Orbit, smooth: bool) -> tuple[str, ...]:
-    """Return the free parameters of a problem, without those that make the wing jump."""
-    names = [name for name in free if name in FREE_NAMES]
-    if not smooth:
-        return tuple(names)
-    return tuple(name for name in names if can_be_smooth(orbit.wingbeat, name))
-
-
 def _matrices(
-    flown: StrokeMap, along: Compensation, dt: float, height: bool
+    flown: StrokeMap, harmonics: Compensation, count: int, dt: float, height: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B and G, with or without the height."""
-    count = flown.by_parameters.shape[1] - len(along.names)
-    by_inputs = flown.by_parameters[:, :count] + flown.by_parameters[:, count:] @ along.shares
-    # Relative to air that moves with (u, w), the body starts slower by these and ends faster by them.
+    """Return A, B of `count` inputs, and G, with or without the height."""
+    by_inputs = flown.by_parameters[:, :count]
+    if harmonics.names:
+        by_inputs = by_inputs + flown.by_parameters[:, count:] @ harmonics.shares
+    # Relative to the air, the body starts with its velocity less that of the air; at the end that of the air is
+    # added again.
     by_gust = (np.eye(5) - flown.by_state)[:, 2:4]
     by_gust[0, 1] += dt  # the air lifts the body
     rows = slice(0 if height else 1, None)
     return flown.by_state[rows, rows], by_inputs[rows], by_gust[rows]
 
 
-def _averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np.ndarray) -> list[Mode]:
+def averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np.ndarray) -> list[Mode]:
+    """Return the modes of steady rates whose derivatives by the state are `rates`, shape (4, 4) [per s]."""
     from scipy.linalg import expm
 
-    along = np.stack([expm(rates * phase / frequency) for phase in np.linspace(0.0, 1.0, samples)])
-    return modes_of(along[-1], frequency, along, scales)
+    transition = np.stack([expm(rates * phase / frequency) for phase in np.linspace(0.0, 1.0, samples)])
+    return modes_of(transition[-1], frequency, transition, scales)
 
 
-def _scales(orbit: Orbit) -> np.ndarray:
+def _scales(problem: OrbitProblem, wingbeat: Wingbeat) -> np.ndarray:
     """Return disturbances of (body_pitch, u, w, pitch_rate) that count as equally large, shape (4,).
 
-    A radian, the speed of the air at the wings' tips, and a radian in a beat.
+    They are a radian, the root sum square of flight speed and mean flapping speed of the wing tips, and a radian in
+    a beat.
     """
-    problem, beat = orbit.problem, orbit.wingbeat
-    tips = 4.0 * parameter(beat, "flap_amplitude") * beat.frequency * problem.vehicle.wing.semi_span
-    speed = math.hypot(problem.speed, problem.climb, float(tips))
-    return np.array([1.0, speed, speed, beat.frequency])
+    flap = np.asarray(flap_angle(wingbeat, np.linspace(0.0, 1.0, 65)))
+    tips = float(np.abs(np.diff(flap)).sum()) * wingbeat.frequency * problem.vehicle.wing.semi_span
+    speed = math.hypot(problem.speed, problem.climb, tips) or 1.0  # nothing moves without weight in hover
+    return np.array([1.0, speed, speed, wingbeat.frequency])

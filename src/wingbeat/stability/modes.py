@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
+from wingbeat.orbits.problem.problem import PITCH_STATE
+
 # A multiplier whose imaginary part is below this share of its modulus is real.
 _REAL = 1e-9
 
@@ -23,13 +24,13 @@ class Mode:
     kind : ``divergence`` grows and ``subsidence`` decays without oscillating; an ``oscillation`` has a pair of
         complex multipliers; a ``flip`` changes sign every beat.
     multiplier : Floquet multiplier, of a pair the one with positive imaginary part.
-    time_to_double, time_to_half : [s]; one of the two is None.
-    period : of an oscillation, or of a flip, which takes two beats [s]; None for others. A map from beat to beat
-        cannot tell a period from a shorter one that differs by a whole number of cycles per beat.
+    time_to_double, time_to_half : [s]; None for the one that does not apply.
+    period : of an oscillation, or of a flip, which takes two beats [s]; None for others. The map gives the
+        frequency of an oscillation only up to multiples of the wingbeat frequency; this is the longest period.
     damping : damping ratio of an oscillation or of a flip, negative if it grows; None for others.
-    disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 if a radian, the
-        airspeed of the wing tips, and a radian in a beat count as 1.
-    shares : mean share of each of the four numbers over the beat; they add up to 1.
+    disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 in the scales of
+        `modes_of`.
+    shares : mean size over the beat of each of the four numbers, without growth and decay, as a share of their sum.
     """
 
     kind: str
@@ -56,14 +57,14 @@ class Mode:
         }
 
 
-def modes_of(monodromy: np.ndarray, frequency: float, along: np.ndarray, scales: np.ndarray) -> list[Mode]:
+def modes_of(monodromy: np.ndarray, frequency: float, transition: np.ndarray, scales: np.ndarray) -> list[Mode]:
     """Return the modes of a map from beat to beat, the fastest growing first.
 
     Parameters
     ----------
     monodromy : derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape (4, 4).
     frequency : [Hz].
-    along : the same derivative at equal phases from 0 to 1, shape (K, 4, 4).
+    transition : the same derivative at equal phases from 0 to 1, shape (K, 4, 4).
     scales : disturbances of the four numbers that count as equally large, shape (4,) [rad, m/s, m/s, rad/s].
     """
     multipliers, vectors = np.linalg.eig(monodromy)
@@ -74,7 +75,7 @@ def modes_of(monodromy: np.ndarray, frequency: float, along: np.ndarray, scales:
         if multiplier.imag < -_REAL * abs(multiplier):
             continue
         vector = vector / np.linalg.norm(vector / scales)
-        found.append(_mode(multiplier, frequency, vector, _shares(multiplier, along @ vector, scales)))
+        found.append(_mode(multiplier, frequency, vector, _shares(multiplier, transition @ vector, scales)))
     return found
 
 
@@ -103,7 +104,7 @@ def _mode(multiplier: complex, frequency: float, disturbance: np.ndarray, shares
 
 
 def _shares(multiplier: complex, path: np.ndarray, scales: np.ndarray) -> dict[str, float]:
-    """Return the mean share of each number: of the disturbance along the beat without its growth or decay."""
+    """Return the mean size of each number over the beat, without growth and decay, as a share of their sum."""
     decay = cmath.log(multiplier) if multiplier else 0.0
     steady = path * np.exp(-decay * np.linspace(0.0, 1.0, len(path)))[:, None]
     sizes = np.abs(steady / scales)[:-1].mean(axis=0)

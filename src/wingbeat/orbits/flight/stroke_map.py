@@ -18,14 +18,14 @@ class StrokeMap(NamedTuple):
     ----------
     by_state : by the same five numbers before the beat, shape (5, 5).
     by_parameters : by parameters of the wingbeat, which hold for the whole beat, shape (5, parameters).
-    along : derivatives of (body_pitch, u, w, pitch_rate) at equal phases from 0 to 1 by the same four at phase 0,
-        shape (K, 4, 4).
+    transition : derivatives of (body_pitch, u, w, pitch_rate) at equal phases from 0 to 1 by the same four at
+        phase 0, shape (K, 4, 4).
     path : the four numbers at these phases, shape (K, 4) [rad, m/s, m/s, rad/s].
     """
 
     by_state: np.ndarray
     by_parameters: np.ndarray
-    along: np.ndarray
+    transition: np.ndarray
     path: np.ndarray
 
 

@@ -59,7 +59,7 @@ def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     middle = 0.5 * (records[0]["speed"] + records[-1]["speed"])
     _draw_bars(bars, min(records, key=lambda record: abs(record["speed"] - middle)))
     letter_panels(figure.axes)
-    legend_below(figure, [plane], columns=5)
+    legend_below(figure, [plane, sizes], columns=5)
     return figure
 
 
@@ -95,13 +95,7 @@ def _draw_sizes(axes: Axes, records: Sequence[dict[str, Any]]) -> None:
         color="k",
         linewidth=0.8,
         linestyle=(0, (2, 1.5)),
-    )
-    axes.annotate(
-        "dashed: spectral radius of the averaged model",
-        (0.03, 0.96),
-        xycoords="axes fraction",
-        va="top",
-        fontsize=6.5,
+        label="spectral radius of the averaged model",
     )
     axes.set_ylim(bottom=0.0)
     dress(axes, "speed [m/s]", "modulus of the multiplier [-]")

@@ -114,8 +114,8 @@ def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
     if not names:
         return ()
     moved = _is_moved(_jump(wingbeat, tuple(names)))
-    lasting = moved[[law not in FIRST_ORDER for law in _LAWS]].any(axis=0)
-    return tuple(name for name, lasts in zip(names, lasting, strict=True) if not lasts)
+    lasting = moved[[law not in FIRST_ORDER for law in _LAWS]]
+    return tuple(name for name, jumps in zip(names, lasting.T, strict=True) if not jumps.any())
 
 
 def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
@@ -151,7 +151,7 @@ def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     own = _jump(wingbeat, tuple(names))[rows].reshape(len(names), -1)
     shares = np.linalg.solve(own, -jumps[rows].reshape(len(names), -1))
     # Where the twist follows the pitch, its own harmonics have nothing left to undo.
-    used = (np.abs(shares) > _NOTHING).any(axis=1)
+    used = [bool(np.abs(row).max() > _NOTHING) for row in shares]
     kept = tuple(name for name, is_used in zip(names, used, strict=True) if is_used)
     return Compensation(kept, np.where(np.abs(shares) > _NOTHING, shares, 0.0)[used])
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,7 +34,7 @@ class FlownBeats(NamedTuple):
     air: np.ndarray | None
 
 
-def check_wind(faults: FaultList, wind: Any) -> None:
+def check_wind(faults: FaultList, wind: object) -> None:
     """Note a wind that is neither two finite velocities nor a function."""
     if isinstance(wind, tuple | list):
         if len(wind) != 2:

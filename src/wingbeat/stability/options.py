@@ -15,8 +15,8 @@ class LinearOptions:
     ----------
     blocks : the beat is flown in this many times 32 steps. With 12, the multipliers of pigeon and bat are within
         1e-4 of the largest of an adaptive flight.
-    closure : an orbit that misses its start by more than this, in the scales of `Mode.disturbance`, is refused. The
-        fixed steps of certified orbits miss by 1e-5 at the most.
+    closure : an orbit that misses its start by more than this is refused [-], in the scales of `Mode.disturbance`.
+        Flown in these steps, eight orbits of pigeon and bat from 4 to 16 m/s miss by 2e-6 at the most.
     """
 
     blocks: int = 12

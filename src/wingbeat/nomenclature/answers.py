@@ -97,6 +97,14 @@ ANSWER = (
     Term("plausibility", "", "numbers of the orbit that have plausible ranges, with these ranges"),
     Term("floquet_multipliers", "1", "Floquet multipliers of the orbit"),
     Term("largest_multiplier", "1", "largest modulus of the Floquet multipliers"),
+    Term("spectral_radius", "1", "largest modulus of the multipliers of (body_pitch, u, w, pitch_rate)"),
+    Term(
+        "gust_response",
+        "s m-1",
+        "root mean square of the disturbance, in units of 0.1 rad, 1 m/s, 1 m/s and 2 rad/s, per m/s of gusts that "
+        "change at random from beat to beat",
+        short="response to gusts",
+    ),
     Term("stable", "1", "whether every Floquet multiplier lies within the unit circle"),
     Term("warnings", "", "what to know before trusting the orbit"),
     Term("solve_seconds", "s", "time to solve"),

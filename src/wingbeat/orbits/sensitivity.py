@@ -17,10 +17,12 @@ import numpy as np
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
 from wingbeat.orbits.flight.certify import certify
+from wingbeat.orbits.flight.floquet import monodromy
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.certified_beat import certified_beat
+from wingbeat.orbits.problem.map_quantities import MapQuantity
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import PATH_NAMES, PITCH_STATE, OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity
@@ -178,7 +180,10 @@ class OptimumSlopes:
         wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
         flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
         beat = certified_beat(problem, wingbeat, flown)
-        return np.array([float(np.max(quantity.of(beat))) for quantity in quantities])
+        of_map = [isinstance(quantity, MapQuantity) for quantity in quantities]
+        stroke_map = monodromy(problem.model, wingbeat, flown.steps) if any(of_map) else None
+        given = (stroke_map if from_map else beat for from_map in of_map)
+        return np.array([float(np.max(q.of(at))) for q, at in zip(quantities, given, strict=True)])
 
     def _along(
         self,

@@ -13,14 +13,15 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import Certificate
-from wingbeat.orbits.flight.floquet import floquet_multipliers
+from wingbeat.orbits.flight.floquet import monodromy, multipliers_of
 from wingbeat.orbits.infeasible.deficit import Deficit
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.certified_beat import certified_beat
+from wingbeat.orbits.problem.map_quantities import MapQuantity
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import Quantity
+from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.status import Status
 
 
@@ -126,13 +127,19 @@ class Solution:
         return certified_beat(self.problem, self.wingbeat, self.certificate)
 
     def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified beat in its unit; for a series, its largest value."""
-        return float(np.max(quantity.of(self.beat())))
+        """Return a quantity of the certified flight in its unit; for a series, its largest value."""
+        of_map = isinstance(quantity, MapQuantity)
+        return float(np.max(quantity.of(self.monodromy if of_map else self.beat())))
+
+    @functools.cached_property
+    def monodromy(self) -> np.ndarray:
+        """Derivative of (body_pitch, u, w, pitch_rate) after a beat by those before it, computed on first use."""
+        return monodromy(self.problem.model, self.wingbeat, self.certificate.steps)
 
     @functools.cached_property
     def multipliers(self) -> np.ndarray:
-        """Floquet multipliers, computed on first use."""
-        return floquet_multipliers(self.problem.model, self.wingbeat, self.certificate.steps)
+        """Floquet multipliers, the largest modulus first."""
+        return multipliers_of(self.monodromy)
 
 
 def better_of(own: Solution, other: Solution) -> Solution:

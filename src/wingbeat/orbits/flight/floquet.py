@@ -68,27 +68,42 @@ def _state_maps(
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
     """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
 
-    They are the eigenvalues of the monodromy matrix, which is the derivative of these four numbers at the end of a
-    period with respect to the four at its start. They are not-a-number if the flight diverges.
+    They are the eigenvalues of the `monodromy` matrix; not-a-number if the flight diverges.
 
     Parameters
     ----------
     steps : the certifier's steps.
     model, wingbeat : the flight model and its wingbeat.
     """
+    return multipliers_of(monodromy(model, wingbeat, steps))
+
+
+def multipliers_of(matrix: np.ndarray) -> np.ndarray:
+    """Return the eigenvalues of a monodromy matrix, largest modulus first, not-a-number if it is, shape (4,)."""
+    if not np.isfinite(matrix).all():
+        return np.full(4, np.nan + 0j)
+    found = np.linalg.eigvals(matrix)
+    return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
+
+
+def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
+    """Return the derivative of (body_pitch, u, w, pitch_rate) at the end of a period by those at its start.
+
+    Its shape is (4, 4). It is not-a-number if the flight diverges.
+
+    Parameters
+    ----------
+    model, wingbeat, steps : as of `floquet_multipliers`.
+    """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
-        return np.full(4, np.nan + 0j)
+        return np.full((4, 4), np.nan)
     maps_of, count, blocks = _state_maps.bind(model, wingbeat), len(phase) - 1, []
     for first in range(0, count, _LANES):
         # Spare lanes repeat the last stretch.
         lanes = np.minimum(np.arange(first, first + _LANES), count - 1)
         blocks.append(maps_of(phase[lanes], phase[lanes + 1], path[lanes]))
-    maps = np.concatenate(blocks)[:count]
-    if not np.isfinite(maps).all():
-        return np.full(4, np.nan + 0j)
-    found = np.linalg.eigvals(_chained(maps))
-    return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
+    return _chained(np.concatenate(blocks)[:count])
 
 
 def _chained(maps: np.ndarray) -> np.ndarray:

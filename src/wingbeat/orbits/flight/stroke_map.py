@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.orbits.flight.shooting import flier
+from wingbeat.orbits.flight.shooting import Flown, flier
+
+# Distances from the start at which flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
+_BESIDE = (1e-4, 1e-3, 1e-3, 2e-3)
 
 
 class StrokeMap(NamedTuple):
@@ -52,3 +56,25 @@ def stroke_map(
         np.asarray(flown.path_jacobian)[..., :4],
         np.asarray(flown.path),
     )
+
+
+def map_and_changes(
+    fly: Callable[..., Flown], values: np.ndarray, start: np.ndarray, blocks: int, flown: Flown
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the stroke map of (body_pitch, u, w, pitch_rate), shape (4, 4), and its derivatives by the unknowns.
+
+    The derivatives have the shape (unknowns, 4, 4). Second derivatives of the flight do not depend on the order of
+    differentiation, so those of the map by all unknowns are changes of the exact first derivatives by the four
+    states alone: eight flights, however many parameters are free.
+
+    Parameters
+    ----------
+    fly : as `flier` returns it.
+    values, start, blocks : its arguments.
+    flown : the flight from there.
+    """
+    changes = []
+    for step in np.diag(_BESIDE):
+        ahead, behind = (np.asarray(fly(values, start + to, blocks).end_jacobian)[2:] for to in (step, -step))
+        changes.append((ahead - behind) / (2.0 * step.sum()))
+    return np.asarray(flown.end_jacobian)[2:, :4], np.stack(changes, axis=-1).transpose(1, 0, 2)

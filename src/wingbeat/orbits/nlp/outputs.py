@@ -1,12 +1,16 @@
-"""Objective and constraints that are outputs of the wingbeat: their values for a flight, and the derivatives."""
+"""Objective and constraints that are outputs of the flown beat or its stroke map: values and derivatives."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
 from wingbeat.orbits.flight.beat import beat_reader
 from wingbeat.orbits.flight.certify import Certificate
+from wingbeat.orbits.flight.floquet import monodromy
 from wingbeat.orbits.flight.shooting import Flown
+from wingbeat.orbits.flight.stroke_map import map_and_changes
 from wingbeat.orbits.problem.certified_beat import certified_beat
 from wingbeat.orbits.problem.path_functions import OutputFunctions
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -17,6 +21,11 @@ class Outputs:
 
     A quantity that is a series has several values: its peaks.
 
+    Parameters
+    ----------
+    problem : the orbit problem.
+    fly : flies a period as the programme does; see `flier`.
+
     Attributes
     ----------
     count : values of objective and constraints together.
@@ -25,8 +34,8 @@ class Outputs:
     limits : upper limits of the constraints' values, shape (count - of_objective,).
     """
 
-    def __init__(self, problem: OrbitProblem) -> None:
-        self._problem = problem
+    def __init__(self, problem: OrbitProblem, fly: Callable[..., Flown]) -> None:
+        self._problem, self._fly = problem, fly
         self._velocity = problem.speed, problem.climb
         objective = [] if problem.minimise.parameter else [problem.minimise]
         self._functions = OutputFunctions(objective, problem.subject_to, problem.aero.strips, problem.vehicle.drive)
@@ -41,15 +50,20 @@ class Outputs:
         """Values (not-a-number) and derivatives (zero) of a diverged flight."""
         return np.full(self.count, np.nan), np.zeros((self.count, 4 + len(self._problem.free)))
 
-    def of(self, unknowns: np.ndarray, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
-        """Return the values for a flight, and their derivatives by the unknowns."""
-        beat, changes = self._reader(unknowns[4:], flown)
-        return self._functions.linearised(beat, changes)
+    def of(self, unknowns: np.ndarray, flown: Flown, blocks: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the values for a flight of so many blocks, and their derivatives by the unknowns."""
+        values, start, wants = unknowns[4:], unknowns[:4], self._functions
+        beat = self._reader(values, flown) if wants.of_beat else None
+        stroke_map = map_and_changes(self._fly, values, start, blocks, flown) if wants.of_map else None
+        return wants.linearised(beat, stroke_map)
 
     def of_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
         """Return the values for a certified flight."""
-        beat = certified_beat(self._problem, self._problem.wingbeat(unknowns), certificate)
-        return self._functions.values(beat)
+        problem, wants = self._problem, self._functions
+        wingbeat = problem.wingbeat(unknowns)
+        beat = certified_beat(problem, wingbeat, certificate) if wants.of_beat else None
+        stroke_map = monodromy(problem.model, wingbeat, certificate.steps) if wants.of_map else None
+        return wants.values(beat, stroke_map)
 
     def values_of(self, index: int) -> range:
         """Return the indices of one constraint among the constraints' values."""

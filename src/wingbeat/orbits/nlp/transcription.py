@@ -66,7 +66,15 @@ class Transcription:
         self.model = problem.model
         self.unknowns: Unknowns = unknowns or problem.unknowns()
         self._blocks = blocks
-        self.outputs = Outputs(problem) if problem.has_outputs else None
+        self._stroke = StrokeLimits(problem, options.search.plane_clearance)
+        self.fly = flier(
+            self.model,
+            problem.species.wingbeat,
+            problem.free,
+            whole_path=problem.has_outputs,
+            stroke=bool(self._stroke.names),
+        )
+        self.outputs = Outputs(problem, self.fly) if problem.has_outputs else None
         self.has_epigraph = self.outputs is not None and self.outputs.minimises_peaks
         scale = np.append(self.unknowns.scale, [1.0] * self.has_epigraph)
         self._scale = scale
@@ -76,15 +84,7 @@ class Transcription:
         # With the smooth peak, starts for least frequency diverge: they found 11 of a study's 14 orbits with it,
         # all 14 without it. Optima of outputs lie between two samples and need the smooth peak.
         self._peak = highest_sample if self.outputs is None else peak_weights
-        self._stroke = StrokeLimits(problem, options.search.plane_clearance)
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
-        self.fly = flier(
-            self.model,
-            problem.species.wingbeat,
-            problem.free,
-            whole_path=problem.has_outputs,
-            stroke=bool(self._stroke.names),
-        )
         self._points: dict[bytes, Point] = {}
         self._correction = self._no_correction
         self._clock = _Clock()
@@ -142,15 +142,15 @@ class Transcription:
             unknowns = self.physical(scaled)
             if len(self._points) == _REMEMBERED:
                 del self._points[next(iter(self._points))]
-            self._points[key] = self._point_of(self.fly(unknowns[4:], unknowns[:4], self._blocks), unknowns)
+            self._points[key] = self._fly(unknowns, self._blocks)
         return self._points[key]
 
-    def _point_of(self, flown: Flown, unknowns: np.ndarray) -> Point:
+    def _fly(self, unknowns: np.ndarray, blocks: int) -> Point:
         # A diverging flight may overflow here; `_cut` limits its numbers.
         with np.errstate(over="ignore", invalid="ignore"):
-            return self._cut(flown, unknowns)
+            return self._cut(self.fly(unknowns[4:], unknowns[:4], blocks), unknowns, blocks)
 
-    def _cut(self, flown: Flown, unknowns: np.ndarray) -> Point:
+    def _cut(self, flown: Flown, unknowns: np.ndarray, blocks: int) -> Point:
         problem, scale = self.problem, self.unknowns.scale
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE
@@ -159,7 +159,7 @@ class Transcription:
         tame = abs(closure.sum()) + abs(jacobian.sum()) + abs(pitch.sum()) + abs(pitch_jacobian.sum()) < _OVERFLOW
         outputs, outputs_jacobian = np.zeros(0), np.zeros((0, scale.size))
         if self.outputs is not None:
-            outputs, outputs_jacobian = self.outputs.of(unknowns, flown) if tame else self.outputs.undefined
+            outputs, outputs_jacobian = self.outputs.of(unknowns, flown, blocks) if tame else self.outputs.undefined
             tame = tame and abs(outputs.sum()) + abs(outputs_jacobian.sum()) < _OVERFLOW
             outputs_jacobian = outputs_jacobian * scale
         if not tame:
@@ -239,7 +239,7 @@ class Transcription:
     def linearised_at(self, scaled: np.ndarray, blocks: int) -> Transcription:
         """Return the programme, corrected to values and derivatives of a flight with more blocks at this point."""
         here, unknowns = self.point(scaled), self.physical(scaled)
-        fine = self._point_of(self.fly(unknowns[4:], unknowns[:4], blocks), unknowns)
+        fine = self._fly(unknowns, blocks)
         return self._corrected(
             Correction(
                 anchor=scaled.copy(),

@@ -17,6 +17,7 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.problem.map_quantities import MapQuantity
 from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
@@ -215,6 +216,11 @@ class OrbitProblem:
         return bool(self._quantities())
 
     @property
+    def limits_stability(self) -> bool:
+        """Whether a constraint is a limit of a quantity of the stroke map."""
+        return any(isinstance(constraint.quantity, MapQuantity) for constraint in self.subject_to)
+
+    @property
     def needs_speed(self) -> bool:
         """Whether the objective or a constraint is undefined in hover."""
         return any(quantity.in_hover is not None for quantity in self._quantities())
@@ -227,7 +233,7 @@ class OrbitProblem:
     @property
     def minimises_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
-        return value_count(self.minimise.of, self.aero.strips, self.vehicle.drive) > 1
+        return value_count(self.minimise, self.aero.strips, self.vehicle.drive) > 1
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:

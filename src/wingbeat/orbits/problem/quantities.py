@@ -15,56 +15,25 @@ from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
+from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.problem.springs import SpringCost
 
-__all__ = ["QUANTITIES", "Frequency", "PowerCost", "Quantity", "SpringPower", "named_objective", "named_quantity"]
+__all__ = [
+    "MAP_QUANTITIES",
+    "QUANTITIES",
+    "Frequency",
+    "MapQuantity",
+    "PowerCost",
+    "Quantity",
+    "SpringPower",
+    "named_objective",
+    "named_quantity",
+]
 
 
 def __dir__() -> list[str]:
     return __all__
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number computed from one wingbeat, or a series along it that counts by its largest value.
-
-    Parameters
-    ----------
-    name : its name in records and messages.
-    of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or
-        (K, m) of K phases.
-    unit : of the value.
-    scale : a difference that matters, so that the optimiser sees numbers near one.
-    parameter : name of the wingbeat parameter that equals the quantity, if any. As an objective, the quantity then
-        needs no flight.
-    in_hover : advice, in words, on what to use instead in hover, if the quantity is undefined at speed 0.
-    needs : ``"muscle"`` or ``"motor"`` if the vehicle must have one.
-
-    Raises
-    ------
-    InvalidInputError : an empty name, a function that cannot be called, a scale that is not positive.
-
-    >>> lift = Quantity("mean_lift", lambda beat: beat.mean(beat.lift.sum(axis=1)), unit="N")
-    >>> lift.name
-    'mean_lift'
-    """
-
-    name: str
-    of: Callable[[Beat], Any]
-    unit: str = "1"
-    scale: float = 1.0
-    parameter: str | None = None
-    in_hover: str | None = None
-    needs: str | None = None
-
-    def __post_init__(self) -> None:
-        faults = FaultList()
-        if not isinstance(self.name, str) or not self.name.strip():
-            faults.add("quantity.name", self.name, "must be a name", "such as mean_lift")
-        if not callable(self.of):
-            faults.add("quantity.of", self.of, "is not a function", "give a function of a Beat")
-        faults.number("quantity.scale", self.scale, above=0, fix="a difference that matters")
-        faults.raise_if_any()
 
 
 @dataclass(frozen=True)
@@ -202,7 +171,7 @@ def _known(
     return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale, in_hover=in_hover, needs=needs)
 
 
-QUANTITIES = {
+QUANTITIES: dict[str, Quantity] = {
     quantity.name: quantity
     for quantity in (
         Frequency(),
@@ -254,14 +223,15 @@ def named_quantity(name: str) -> Quantity:
         return PowerCost(float(found[1]))
     if found := _SPRING_POWER.fullmatch(str(name)):
         return SpringPower(*(float(number) for number in found.groups() if number is not None))
-    if name not in QUANTITIES:
+    every = QUANTITIES | MAP_QUANTITIES
+    if name not in every:
         faults = FaultList()
-        known = f"known quantities are {', '.join(QUANTITIES)}"
+        known = f"known quantities are {', '.join(every)}"
         others = f"{known}; power_cost and spring_power take a number, such as power_cost(0.5)"
-        fix = suggest(str(name), QUANTITIES, most=1, otherwise=others)
+        fix = suggest(str(name), every, most=1, otherwise=others)
         faults.add("quantity", name, "is not known to wingbeat", fix)
         faults.raise_if_any()
-    return QUANTITIES[name]
+    return every[name]
 
 
 def named_objective(name: str) -> Quantity:

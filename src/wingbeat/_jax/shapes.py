@@ -109,9 +109,11 @@ EndJacobian = Float[Any, "6 unknowns"]
 PathJacobian = Float[Any, "samples components unknowns"]
 # Derivatives of the pitch state's rates by the pitch state, states first.
 RatesByState = Float[Any, "4 4 samples"]
-# The pitch state after a beat by that before it, and the moduli of its eigenvalues.
+# The pitch state after a beat by that before it, and what is computed from its eigenvalues.
 StrokeMatrix = Float[Any, "4 4"]
 Moduli = Float[Any, "4"]
+FourCoefficients = Float[Any, "4"]
+SixExcesses = Float[Any, "6"]
 # Distances of the stroke from its limits.
 StrokeSeries = Float[Any, "series samples"]
 StrokeRows = Float[Any, "rows"]

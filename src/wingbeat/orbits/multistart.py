@@ -12,6 +12,7 @@ import numpy as np
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.flight.shooting import fly_part
 from wingbeat.orbits.nlp.local_search import Candidate, search
+from wingbeat.orbits.nlp.tightening import tightened
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solution import Optimum, families
 from wingbeat.orbits.starts import start_beside, start_point
@@ -46,14 +47,18 @@ def first_searches(
     threads : number of local searches at a time.
     progress : called with (local searches done, local searches in all), including those without limits.
     """
-    limited = bool(programme.problem.subject_to)
+    problem, options = programme.problem, programme.options
+    if problem.asks_for_stability:
+        easier = first_searches(Transcription(problem.easier(), options), starts, seed, threads, progress)
+        return _stable_searches(programme, easier, threads)
+    limited = bool(problem.subject_to)
     found: list[Candidate] = []
     for candidate in search_from_starts(programme, range(starts), seed, threads):
         found.append(candidate)
         if progress is not None:
             progress(len(found), starts * (1 + limited))
     if limited:
-        without = Transcription(dataclasses.replace(programme.problem, subject_to=()), programme.options)
+        without = Transcription(dataclasses.replace(problem, subject_to=()), options)
         report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
         found += search_from_optima(programme, first_searches(without, starts, seed, threads, report), threads)
     if programme.has_epigraph:
@@ -66,6 +71,27 @@ def search_from_optima(programme: Transcription, easier: Iterable[Candidate], th
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     starts = [optimum.unknowns for optimum in families(optima_of(easier), scale, apart)]
     return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
+
+
+def _stable_searches(programme: Transcription, easier: list[Candidate], threads: int) -> list[Candidate]:
+    """Search for stable orbits from the optima without limits of stability; return where the searches end.
+
+    No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
+    derivatives of the stroke map takes nine times as long. If stability is dear, its limits are tightened step by
+    step too, because a search may otherwise end in another family.
+    """
+    found = search_from_optima(programme, easier, threads)
+    free, stable = optimal(easier), optimal(found)
+    if programme.problem.minimises_map or not free:
+        return found
+    dear = free[0].objective + programme.options.search.dear_stability * abs(free[0].objective)
+    if not stable or stable[0].objective > dear:
+        scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
+        starts = [optimum.unknowns for optimum in families(optima_of(free), scale, apart)]
+        found += _side_by_side(
+            lambda start: search(programme.uncorrected(), tightened(programme, start)), starts, threads
+        )
+    return found
 
 
 def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:

@@ -180,10 +180,10 @@ class OptimumSlopes:
         wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
         flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
         beat = certified_beat(problem, wingbeat, flown)
-        of_map = [isinstance(quantity, MapQuantity) for quantity in quantities]
-        stroke_map = monodromy(problem.model, wingbeat, flown.steps) if any(of_map) else None
-        given = (stroke_map if from_map else beat for from_map in of_map)
-        return np.array([float(np.max(q.of(at))) for q, at in zip(quantities, given, strict=True)])
+        stroke_map = monodromy(problem.model, wingbeat, flown.steps)
+        return np.array(
+            [float(np.max(q.of(stroke_map) if isinstance(q, MapQuantity) else q.of(beat))) for q in quantities]
+        )
 
     def _along(
         self,

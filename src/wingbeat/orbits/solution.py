@@ -128,8 +128,9 @@ class Solution:
 
     def value_of(self, quantity: Quantity) -> float:
         """Return a quantity of the certified flight in its unit; for a series, its largest value."""
-        of_map = isinstance(quantity, MapQuantity)
-        return float(np.max(quantity.of(self.monodromy if of_map else self.beat())))
+        if isinstance(quantity, MapQuantity):
+            return float(np.max(quantity.of(self.monodromy)))
+        return float(np.max(quantity.of(self.beat())))
 
     @functools.cached_property
     def monodromy(self) -> np.ndarray:

@@ -21,6 +21,8 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
     """Return the default number of starts of a problem."""
+    if problem.asks_for_stability:
+        return usual_starts(problem.easier(), options)
     if problem.minimises_peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
     return options.starts_of_outputs if problem.has_outputs else options.starts

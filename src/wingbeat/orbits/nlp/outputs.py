@@ -12,7 +12,7 @@ from wingbeat.orbits.flight.floquet import monodromy
 from wingbeat.orbits.flight.shooting import Flown
 from wingbeat.orbits.flight.stroke_map import map_and_changes
 from wingbeat.orbits.problem.certified_beat import certified_beat
-from wingbeat.orbits.problem.path_functions import OutputFunctions
+from wingbeat.orbits.problem.path_functions import OutputFunctions, Read
 from wingbeat.orbits.problem.problem import OrbitProblem
 
 
@@ -52,18 +52,18 @@ class Outputs:
 
     def of(self, unknowns: np.ndarray, flown: Flown, blocks: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the values for a flight of so many blocks, and their derivatives by the unknowns."""
-        values, start, wants = unknowns[4:], unknowns[:4], self._functions
-        beat = self._reader(values, flown) if wants.of_beat else None
-        stroke_map = map_and_changes(self._fly, values, start, blocks, flown) if wants.of_map else None
-        return wants.linearised(beat, stroke_map)
+        values, start, wants, nothing = unknowns[4:], unknowns[:4], self._functions, (None, None)
+        beat = self._reader(values, flown) if wants.of_beat else nothing
+        stroke_map = map_and_changes(self._fly, values, start, blocks, flown) if wants.of_map else nothing
+        return wants.linearised(Read(beat[0], stroke_map[0]), Read(beat[1], stroke_map[1]))
 
-    def of_certified(self, unknowns: np.ndarray, certificate: Certificate) -> np.ndarray:
-        """Return the values for a certified flight."""
+    def of_certified(self, unknowns: np.ndarray, certificate: Certificate, *, exact: bool = False) -> np.ndarray:
+        """Return the values for a certified flight; for `exact`, see `OutputFunctions.values`."""
         problem, wants = self._problem, self._functions
         wingbeat = problem.wingbeat(unknowns)
         beat = certified_beat(problem, wingbeat, certificate) if wants.of_beat else None
         stroke_map = monodromy(problem.model, wingbeat, certificate.steps) if wants.of_map else None
-        return wants.values(beat, stroke_map)
+        return wants.values(Read(beat, stroke_map), exact=exact)
 
     def values_of(self, index: int) -> range:
         """Return the indices of one constraint among the constraints' values."""

@@ -278,7 +278,7 @@ class Transcription:
         path = np.append(self.pitch_margins(certificate.pitch), self.point(scaled).path[2:])
         if self.outputs is None:
             return path
-        outputs = self.outputs.of_certified(self.physical(scaled), certificate)
+        outputs = self.outputs.of_certified(self.physical(scaled), certificate, exact=True)
         return np.concatenate([path, self.outputs.limits - outputs[self._minimised :]])
 
     def objective(self, scaled: np.ndarray) -> float:

@@ -11,12 +11,18 @@ from wingbeat.nomenclature import NOMENCLATURE, plain
 from wingbeat.orbits.problem.quantity import Quantity
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Moduli, Scalar, StrokeMatrix
+    from wingbeat._jax.shapes import FourCoefficients, Moduli, Scalar, SixExcesses, StrokeMatrix
 
+# What counts as stable where nobody gives a limit: disturbances are halved in 140 beats at the latest.
+STABLE_RADIUS = 0.995
 # Disturbances of (body_pitch, u, w, pitch_rate) that count as equally large [rad, m/s, m/s, rad/s].
 _EQUAL = (0.1, 1.0, 1.0, 2.0)
 # Gusts excite an orbit without end at a spectral radius of 1. Up to this radius, the response is exact.
 _STEADY = 0.999
+# A limit of the spectral radius is inside the asked one by this share of it. Where two multipliers meet at the
+# limit, they exceed it by the square root of what the solver's tolerances leave.
+_INSET = 1e-3
+_WEIGHTS = (100.0, 10.0, 1.0, 1.0, 1.0, 1.0)
 # How fast the value rises beyond it: steep, so that a search turns back.
 _BEYOND = 1e3
 
@@ -30,6 +36,9 @@ class MapQuantity(Quantity):
     name, unit, scale : as of a `Quantity`.
     of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
         (4, 4), in JAX-compatible Python; returns a number, or several that count by the largest.
+    excess : for a quantity that is proportional to the stroke map: function of the stroke map over an upper limit,
+        which returns numbers that are all at most 0 if the quantity keeps to the limit. In a search, it replaces
+        `of` where that has kinks.
 
     >>> trace = MapQuantity("trace", lambda stroke_map: stroke_map.trace())
     >>> trace.name
@@ -37,14 +46,37 @@ class MapQuantity(Quantity):
     """
 
     of: Callable[[Any], Any]
+    excess: Callable[[Any], Any] | None = None
 
 
 def _moduli(stroke_map: StrokeMatrix) -> Moduli:
-    """Return the moduli of the four multipliers.
-
-    Each has a row of its own: a limit of the largest alone has a kink where two are equal.
-    """
+    """Return the moduli of the four multipliers."""
     return jnp.sort(jnp.abs(jnp.linalg.eigvals(stroke_map)))
+
+
+def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
+    """Return the coefficients of z^3, z^2, z and 1 in the characteristic polynomial (Faddeev and LeVerrier)."""
+    found, power = [], jnp.eye(4)
+    for order in range(1, 5):
+        product = stroke_map @ power
+        found.append(-jnp.trace(product) / order)
+        power = product + found[-1] * jnp.eye(4)
+    return jnp.stack(found)
+
+
+def _beyond_circle(over_limit: StrokeMatrix) -> SixExcesses:
+    """Return six numbers that are all at most 0 only if no multiplier is larger than 1.
+
+    With ``z = (1 + s) / (1 - s)``, the unit circle becomes the left half-plane. All roots s lie there if all
+    coefficients of their polynomial and Hurwitz's third determinant are positive (Lienard and Chipart). These are
+    smooth where two multipliers meet. Each multiplier by itself has an infinite derivative there.
+    """
+    a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
+    b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
+    b1, b3 = 4.0 + 2.0 * a3 - 2.0 * a1 - 4.0 * a0, 4.0 - 2.0 * a3 + 2.0 * a1 - 4.0 * a0
+    b2 = 6.0 - 2.0 * a2 + 6.0 * a0
+    determinant = b1 * b2 * b3 - b4 * b1**2 - b0 * b3**2
+    return -jnp.stack([b0, b1, b2, b3, b4, determinant]) * jnp.asarray(_WEIGHTS)
 
 
 def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
@@ -61,6 +93,9 @@ def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
 
 
 MAP_QUANTITIES = {
-    name: MapQuantity(name, of, plain(NOMENCLATURE[name].unit), scale)
-    for name, of, scale in (("spectral_radius", _moduli, 0.1), ("gust_response", _gust_response, 1.0))
+    name: MapQuantity(name, of, plain(NOMENCLATURE[name].unit), scale, excess=excess)
+    for name, of, scale, excess in (
+        ("spectral_radius", _moduli, 0.1, _beyond_circle),
+        ("gust_response", _gust_response, 1.0, None),
+    )
 }

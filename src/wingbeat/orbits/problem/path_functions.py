@@ -11,7 +11,7 @@ import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,6 +57,72 @@ class _Lacking:
         return -jnp.max(self.of(given))
 
 
+class Read(NamedTuple):
+    """What quantities read of a flight, or its changes along directions (first axis); None if no quantity reads it.
+
+    Attributes
+    ----------
+    beat : its time series.
+    stroke_map : derivative of (body_pitch, u, w, pitch_rate) after the beat by those before it, shape (4, 4).
+    """
+
+    beat: Any = None
+    stroke_map: Any = None
+
+
+class _OfBeat(NamedTuple):
+    """A function of the beat; a series counts by its peaks."""
+
+    function: Callable[[Any], Any]
+
+    def value(self, read: Read) -> np.ndarray:
+        value = np.asarray(_value(self.function, read.beat))
+        return highest(value) if value.ndim else value
+
+    def exactly(self, read: Read) -> np.ndarray:
+        return self.value(read)
+
+    def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
+        value, along = (np.asarray(a) for a in _changes(self.function, read.beat, changes.beat))
+        along = np.moveaxis(along, 0, -1)
+        if not value.ndim:
+            return value, along
+        weighted = WeightedSamples(value)
+        return weighted.peaks, weighted.of(along)
+
+
+class _OfMap(NamedTuple):
+    """A function of the stroke map over a number; the upper limit that it stands for, if it is a smooth excess."""
+
+    function: Callable[[Any], Any]
+    over: float = 1.0
+    smooth_for: Constraint | None = None
+
+    def value(self, read: Read) -> np.ndarray:
+        return np.asarray(_value(self.function, read.stroke_map / self.over))
+
+    def exactly(self, read: Read) -> np.ndarray:
+        """Return the value, or the excess of the quantity itself, as often as it has smooth numbers."""
+        value, limit = self.value(read), self.smooth_for
+        if limit is None:
+            return value
+        return np.full(value.shape, np.max(_value(limit.quantity.of, read.stroke_map)) - limit.limit)
+
+    def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
+        given = read.stroke_map / self.over, changes.stroke_map / self.over
+        value, along = (np.asarray(a) for a in _changes(self.function, *given))
+        return value, np.moveaxis(along, 0, -1)
+
+
+def _kept(constraint: Constraint) -> tuple[_OfBeat | _OfMap, float]:
+    """Return a function and its upper limit, within which it keeps a constraint."""
+    quantity, limit, at_most = constraint.quantity, constraint.limit, constraint.at_most
+    kind = _OfMap if isinstance(quantity, MapQuantity) else _OfBeat
+    if isinstance(quantity, MapQuantity) and quantity.excess is not None and at_most:
+        return _OfMap(quantity.excess, limit, constraint), 0.0
+    return kind(quantity.of if at_most else _Lacking(quantity.of)), limit if at_most else -limit
+
+
 class OutputFunctions:
     """The values of several quantities, one after the other, each divided by its scale.
 
@@ -71,71 +137,55 @@ class OutputFunctions:
         self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int, drive: Drive
     ) -> None:
         self._drive = jax.tree.map(float, drive)  # a whole number has no derivative
-        kept = [c.quantity.of if c.at_most else _Lacking(c.quantity.of) for c in constraints]
-        self._functions = tuple([q.of for q in quantities] + kept)
+        minimised = [_OfMap(q.of) if isinstance(q, MapQuantity) else _OfBeat(q.of) for q in quantities]
+        kept = [_kept(constraint) for constraint in constraints]
+        self._functions = (*minimised, *(function for function, _ in kept))
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        self._reads_map = [isinstance(q, MapQuantity) for q in everything]
-        self.of_map, self.of_beat = any(self._reads_map), not all(self._reads_map)
-        given = zip(self._functions, self._reads_map, strict=True)
-        self.counts = [_count(_given_by(function, strips, drive, of_map), of_map) for function, of_map in given]
+        reads_map = [isinstance(f, _OfMap) for f in self._functions]
+        self.of_map, self.of_beat = any(reads_map), not all(reads_map)
+        given = zip(self._functions, reads_map, strict=True)
+        self.counts = [_count(f.function, strips, drive, of_map) for f, of_map in given]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
-        limits = [(c.limit if c.at_most else -c.limit) / c.quantity.scale for c in constraints]
+        limits = [limit / c.quantity.scale for (_, limit), c in zip(kept, constraints, strict=True)]
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
 
-    def values(self, beat: Beat | None, stroke_map: np.ndarray | None) -> np.ndarray:
+    def values(self, read: Read, *, exact: bool = False) -> np.ndarray:
         """Return the values; for a series, its highest sample in each quarter of the beat.
+
+        With `exact`, a limit for which the search uses smooth numbers is judged by the quantity itself.
 
         Raises
         ------
-        InvalidInputError : a quantity is not finite although beat and stroke map are.
+        InvalidInputError : a quantity is not finite although the flight is.
         """
-        found = []
-        for function, of_map in zip(self._functions, self._reads_map, strict=True):
-            value = np.asarray(_value(function, stroke_map if of_map else self._driven(beat)))
-            found.append(highest(value) if value.ndim and not of_map else value)
-        return self._joined((beat, stroke_map), found)
+        read = self._driven(read)
+        return self._joined(read, [f.exactly(read) if exact else f.value(read) for f in self._functions])
 
-    def linearised(
-        self, beat: tuple[Beat, Beat] | None, stroke_map: tuple[np.ndarray, np.ndarray] | None
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
         """Return the values and their derivatives, shape (values, directions).
 
         The values of a series are the peaks of a smooth curve through it.
 
-        Parameters
-        ----------
-        beat, stroke_map : each with its changes along the directions (first axis); None if no quantity reads it.
-
         Raises
         ------
-        InvalidInputError : a quantity is not finite although beat and stroke map are.
+        InvalidInputError : a quantity is not finite although the flight is.
         """
-        if beat is not None:
-            count = beat[1].phase.shape[0]
-            drive = jax.tree.map(lambda number: np.zeros(count), self._drive)
-            beat = self._driven(beat[0]), beat[1]._replace(drive=drive)
-        values, derivatives = [], []
-        for function, of_map in zip(self._functions, self._reads_map, strict=True):
-            at = stroke_map if of_map else beat
-            assert at is not None
-            value, along = (np.asarray(a) for a in _changes(function, *at))
-            along = np.moveaxis(along, 0, -1)
-            if value.ndim and not of_map:
-                weighted = WeightedSamples(value)
-                value, along = weighted.peaks, weighted.of(along)
-            values.append(value)
-            derivatives.append(along.reshape(-1, along.shape[-1]))
-        return self._joined((beat, stroke_map), values), np.concatenate(derivatives) / self._scale[:, None]
+        read = self._driven(read)
+        if changes.beat is not None:
+            still = jax.tree.map(lambda _: np.zeros(changes.beat.phase.shape[0]), self._drive)
+            changes = changes._replace(beat=changes.beat._replace(drive=still))
+        found = [f.linearised(read, changes) for f in self._functions]
+        derivatives = [along.reshape(-1, along.shape[-1]) for _, along in found]
+        return self._joined(read, [value for value, _ in found]), np.concatenate(derivatives) / self._scale[:, None]
 
-    def _driven(self, beat: Beat | None) -> Beat:
-        assert beat is not None
-        return beat._replace(drive=self._drive)
+    def _driven(self, read: Read) -> Read:
+        return read if read.beat is None else read._replace(beat=read.beat._replace(drive=self._drive))
 
-    def _joined(self, given: Any, values: list[np.ndarray]) -> np.ndarray:
+    def _joined(self, read: Read, values: list[np.ndarray]) -> np.ndarray:
         for name, value in zip(self._names, values, strict=True):
-            if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in jax.tree.leaves(given)):
+            if not np.isfinite(value).all() and all(np.isfinite(a).all() for a in jax.tree.leaves(read)):
                 fix = "the quantity's function must be finite for every flight"
                 raise InvalidInputError([Fault(f"quantity {name}", float(value.flat[0]), "is not finite", fix)])
         return np.concatenate([value.ravel() for value in values]) / self._scale
@@ -143,14 +193,12 @@ class OutputFunctions:
 
 def value_count(quantity: Quantity, strips: int, drive: Drive) -> int:
     """Return how many values a quantity has: 1 if its function gives a number."""
-    of_map = isinstance(quantity, MapQuantity)
-    return _count(_given_by(quantity.of, strips, drive, of_map), of_map)
+    return _count(quantity.of, strips, drive, isinstance(quantity, MapQuantity))
 
 
-def _count(given: Any, of_map: bool) -> int:
-    if of_map or not given.shape:
-        return math.prod(given.shape)
-    return PARTS * math.prod(given.shape[1:])
+def _count(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: bool) -> int:
+    shape = _given_by(function, strips, drive, of_map).shape
+    return math.prod(shape) if of_map or not shape else PARTS * math.prod(shape[1:])
 
 
 # Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.

@@ -104,7 +104,7 @@ def question(sets, holds):
         "core-hours)",
         f"from {WORDS[int(starts)]} initial guesses, one of them the orbit at the previous speed (if there is one)",
         *(f"strip at {name} span" for name in STATIONS),
-        f"where the surface explains under {100 * TRUSTED:.0f} % we make none",
+        f"If the surface explains under {100 * TRUSTED:.0f} %, we do not say that",
     ]
 
 
@@ -164,10 +164,11 @@ def nearly_always(sets, holds):
         f"{of['smaller-alpha-3-of-4']} %",
         f"in {of['lower-power']} % of {spaced(told['lower-power'])} sets; half of the sets have a ratio below "
         f"{short(sets['lower-power'].median())}",
-        f"{extension['clipped-drag']} % if clipped-drag, {others.min()} to {others.max()} % otherwise",
+        f"in {extension['clipped-drag']} % of sets with clipped-drag, and in {others.min()} to {others.max()} % with each "
+        "other rule",
         f"in {percent(closer[0].mean())} % of {spaced(closer[0].notna().sum())} sets",
-        f"the plate's coefficients are not mirrored, {apart} % do; if it acts at the quarter chord and they are "
-        f"mirrored, {alike} % do",
+        f"the plate's coefficients are not mirrored, the claim holds in {apart} % of sets. If the force acts at the "
+        f"quarter chord and the coefficients are mirrored, it holds in {alike} %",
     ]
 
 
@@ -229,35 +230,39 @@ def under_one_choice(sets, holds):
     assert tests.count("ours is within 25 % of it") == len(PEAKS)
     of_peaks = PAPER_PEAK_POWER["dickinson"] / PAPER_PEAK_POWER["su-fan"]
     return [
-        f"These three claims concern the bat's peak power at {SAMPLE_SPEED:g} m/s. We accept a ratio from 3 to 5, "
-        f"and peaks within 25 %; the paper's own peaks have a ratio of {of_peaks:g}",
+        f"These three claims concern the bat's peak power at {SAMPLE_SPEED:g} m/s",
+        "We accept a ratio of Dickinson's peak to the plate's from 3 to 5; the paper's own peaks have a ratio of "
+        f"{of_peaks:g}",
+        "We accept peaks within 25 %",
         f'"Four times the power": in {of["four-times"]} % of sets ({powers["four-times"]["mirrored"]} % if the '
         f"plate's coefficients are mirrored, {four.min()} to {four.max()} % otherwise)",
         f"The plate's peak of {PAPER_PEAK_POWER['su-fan']:g} W: in {of['peak-power-su-fan']} % of sets "
-        f"({powers['peak-power-su-fan']['mirrored']} % mirrored, {plate.min()} to {plate.max()} % otherwise); "
-        f"half of the sets need more than {sets['peak-power-su-fan'].median():.0f} W",
+        f"({powers['peak-power-su-fan']['mirrored']} % mirrored, {plate.min()} to {plate.max()} % otherwise)",
+        f"Half of the sets need more than {sets['peak-power-su-fan'].median():.0f} W",
         f"Dickinson's {PAPER_PEAK_POWER['dickinson']:g} W: in {of['peak-power-dickinson']} % of sets "
         f"({fly['clipped-drag']} % clipped-drag, {fly['mirrored']} % mirrored, {fly['signed']} % signed, "
         f"{fly['signed-drag']} % signed-drag)",
-        f"at -40 degrees the plate's C_D is {signed} if signed and {mirrored} if mirrored, "
-        f"Dickinson's {fly_signed} and {fly_mirrored}",
+        f"at -40 degrees the plate's C_D is {signed} if signed and {mirrored} if mirrored. Dickinson's C_D is "
+        f"{fly_signed} if signed and {fly_mirrored} if mirrored",
         f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: in {of['bat-agrees']} % of sets",
         f"{agrees[0]} % if the shoulder is in the quarter of its range nearest to the plane of symmetry, "
         f"{min(agrees[2], agrees[3])} to {max(agrees[2], agrees[3])} % in the outer half",
         f"does not change with speed: in {of['bat-invariant']} % of sets",
-        f"A frequency closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's coefficients: in "
+        f"A frequency of the bat closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's coefficients: in "
         f"{of['bat-closer-at-speed']} % (at {SAMPLE_SPEED:g} m/s and above)",
         f"At {slow:g} m/s the models give the bat a similar frequency (the paper says: up to this speed): in "
-        f"{of['bat-slow-alike']} % of sets. Above that the frequencies diverge: in {of['bat-parts']} %",
-        f"make the bat's body pitch less: in {of['less-pitching-bat']} % of sets, in {pitching[0]} % with the "
-        f"shoulder in the rear quarter of its range, and in {pitching[3]} % with it in the front quarter",
-        f"They make the pigeon's body pitch less: in {of['less-pitching-pigeon']} % of sets. The bat pitches by "
+        f"{of['bat-slow-alike']} % of sets. Above this speed the frequencies diverge: in {of['bat-parts']} %",
+        f"make the bat's body pitch less: in {of['less-pitching-bat']} % of sets ({pitching[0]} % with the "
+        f"shoulder in the rear quarter of its range, {pitching[3]} % with the shoulder in the front quarter)",
+        f"make the pigeon's body pitch less: in {of['less-pitching-pigeon']} % of sets. The bat pitches by "
         f"{PAPER_PITCH_RANGE_DEG['dickinson']:g} degrees with Dickinson's coefficients: in "
         f"{of['pitch-range-dickinson']} %",
-        f"at {' and '.join(STATIONS)} span are smaller with the plate: in {of['smaller-horizontal-force']} and "
-        f"{of['smaller-vertical-force']} % of sets",
-        f"Angles at 1/4 span are smaller: in {of['smaller-alpha-1-of-4']} %. The arm pitches less: in "
-        f"{of['arm-pitches-least']} %",
+        f"The horizontal forces at {' and '.join(STATIONS)} span are smaller with the plate's: in "
+        f"{of['smaller-horizontal-force']} %",
+        f"The vertical forces at {' and '.join(STATIONS)} span are smaller with the plate's: in "
+        f"{of['smaller-vertical-force']} %",
+        f"The angles of attack at 1/4 span are smaller with the plate's: in {of['smaller-alpha-1-of-4']} %",
+        f"The arm pitches less with the plate's: in {of['arm-pitches-least']} %",
     ]
 
 
@@ -276,12 +281,13 @@ def together(sets, holds):
         f"No set satisfies more than {satisfied.max():.0f} of the {holds.shape[1]} claims",
         f"In {spaced(testable.sum())} sets all claims can be tested; half of these satisfy "
         f"{satisfied[testable].median():.0f} or fewer",
-        f'The paper\'s bat at {SAMPLE_SPEED:g} m/s has "twice the frequency", "pitches within '
-        f'{PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
-        f"Of the {spaced(len(common))} sets in which all {three} can be tested, {each[0]}, {each[1]} and {each[2]} "
-        f"satisfy them, respectively, and {found.sum()} satisfy all {three}; if the claims were independent, we "
-        f"would expect {alone:.0f}",
-        f"Of the sets with all {three} claims",
+        f"The paper's bat at {SAMPLE_SPEED:g} m/s satisfies {three} claims at once. In {spaced(len(common))} of our "
+        f"sets, all {three} can be tested",
+        f'- {each[0]} satisfy "twice the frequency"',
+        f'- {each[1]} satisfy "pitches within {PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
+        f'- {each[2]} satisfy "power goes as frequency squared"',
+        f"- {found.sum()} satisfy all {three}. If the claims were independent, we would expect {alone:.0f}",
+        f"Of the sets that satisfy all {three} claims",
         f"{worded(four.sum()).capitalize()} also have four times the power",
         f"{worded(both.sum()).capitalize()} have both the plate's peak power of {plate} and Dickinson's of {fly}",
         f"{worded((four & both).sum()).capitalize()} have all of these",
@@ -311,7 +317,7 @@ def how_sure(sets, holds):
         f"With {spaced(told.min())} to {spaced(told.max())} sets behind each claim's overall share",
         f"at most {short(100 * error.max(), 1)} percentage points",
         "the shares of the twenty pieces with those of the whole sample, for claims that neither hold nor fail in "
-        "nearly every set: the largest deviation is "
+        "nearly every set. The largest deviation is "
         f"{away.max():.1f} standard errors of a piece, as expected for the largest of {away.size} deviations",
     ]
 

@@ -164,11 +164,11 @@ def nearly_always(sets, holds):
         f"{of['smaller-alpha-3-of-4']} %",
         f"in {of['lower-power']} % of {spaced(told['lower-power'])} sets; half of the sets have a ratio below "
         f"{short(sets['lower-power'].median())}",
-        f"in {extension['clipped-drag']} % of sets with clipped-drag, and in {others.min()} to {others.max()} % with each "
-        "other rule",
+        f"in {extension['clipped-drag']} % of sets with clipped-drag, and in {others.min()} to {others.max()} % "
+        "with each other rule",
         f"in {percent(closer[0].mean())} % of {spaced(closer[0].notna().sum())} sets",
-        f"the plate's coefficients are not mirrored, the claim holds in {apart} % of sets. If the force acts at the "
-        f"quarter chord and the coefficients are mirrored, it holds in {alike} %",
+        f"the plate's coefficients are not mirrored, the claim holds in {apart} % of sets. If the force acts at "
+        f"the quarter chord and the coefficients are mirrored, it holds in {alike} %",
     ]
 
 
@@ -248,8 +248,8 @@ def under_one_choice(sets, holds):
         f"{agrees[0]} % if the shoulder is in the quarter of its range nearest to the plane of symmetry, "
         f"{min(agrees[2], agrees[3])} to {max(agrees[2], agrees[3])} % in the outer half",
         f"does not change with speed: in {of['bat-invariant']} % of sets",
-        f"A frequency of the bat closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's coefficients: in "
-        f"{of['bat-closer-at-speed']} % (at {SAMPLE_SPEED:g} m/s and above)",
+        f"A frequency of the bat closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's "
+        f"coefficients: in {of['bat-closer-at-speed']} % (at {SAMPLE_SPEED:g} m/s and above)",
         f"At {slow:g} m/s the models give the bat a similar frequency (the paper says: up to this speed): in "
         f"{of['bat-slow-alike']} % of sets. Above this speed the frequencies diverge: in {of['bat-parts']} %",
         f"make the bat's body pitch less: in {of['less-pitching-bat']} % of sets ({pitching[0]} % with the "
@@ -281,8 +281,8 @@ def together(sets, holds):
         f"No set satisfies more than {satisfied.max():.0f} of the {holds.shape[1]} claims",
         f"In {spaced(testable.sum())} sets all claims can be tested; half of these satisfy "
         f"{satisfied[testable].median():.0f} or fewer",
-        f"The paper's bat at {SAMPLE_SPEED:g} m/s satisfies {three} claims at once. In {spaced(len(common))} of our "
-        f"sets, all {three} can be tested",
+        f"The paper's bat at {SAMPLE_SPEED:g} m/s satisfies {three} claims at once. In {spaced(len(common))} of "
+        f"our sets, all {three} can be tested",
         f'- {each[0]} satisfy "twice the frequency"',
         f'- {each[1]} satisfy "pitches within {PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
         f'- {each[2]} satisfy "power goes as frequency squared"',

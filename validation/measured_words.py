@@ -18,7 +18,7 @@ wings; their data are not part of this project:
 
 - 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds
   (github.com/charvey23/UMWTStaticStability). The source's units are ambiguous. We read its columns CL and CD as
-  areas, and its numbers support this.
+  areas, and the numbers support this reading.
 - A live gliding jackdaw. The forces on its wings, without those on its body, were computed from its wake
   (KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi 10.1242/jeb.132480).
 - Thin plates of small aspect ratio. We read their values by eye from a figure of Pelletier and Mueller 2000
@@ -40,7 +40,8 @@ COLUMNS = (
 NOTES = f"""
 - For the gulls and the thin plates, the table uses the mean of the measurements at each angle.
 - *Lift slope* is a least-squares fit between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
-  with its 95 % interval. For the plate of Su et al., the lift curve is not straight there, so its slope is a mean.
+  with its 95 % interval. The lift curve of the plate of Su et al. is not straight there, so the table gives its
+  mean slope.
 - For the drag of the jackdaw, the table uses a fitted parabola, C_D = a + b (C_L - c)^2. We do not use single
   measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's largest
   C_L is the largest in steady gliding; the bird did not stall.
@@ -129,9 +130,10 @@ def _meaning(rows: list[Row]) -> list[str]:
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
         f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' data end at a mount angle "
-        "of 25 degrees, soon after their largest lift. Counted from zero lift, which is at another mount angle for "
-        f"each wing, the largest lift is at {min(turn):.0f} to {max(turn):.0f} degrees. The plate has its "
-        f"largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these data cannot test the plate.",
+        "of 25 degrees, soon after their largest lift. Zero lift is at another mount angle for each wing. Measured "
+        f"from zero lift, the gulls' largest lift is at {min(turn):.0f} to {max(turn):.0f} degrees. The plate has "
+        f"its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these data cannot test the "
+        "plate.",
         f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
         f"(plate {_slope_of(plate.slope):.1f} per rad, all gulls "
         f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the "
@@ -141,13 +143,13 @@ def _meaning(rows: list[Row]) -> list[str]:
         "gulls, because of twist and camber, and at 0 for the plate.",
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
         f"behind the gulls' shoulder: posture alone moves this point by {max(postures) - min(postures):.2f} "
-        "chords. From 5 to 60 degrees, the angle of attack moves the plate's centre of pressure by "
-        f"{centre[1] - centre[0]:.2f} chords. A model with the same centre of pressure for all postures omits "
+        "chords. Between angles of attack of 5 and 60 degrees, the plate's centre of pressure moves by "
+        f"{centre[1] - centre[0]:.2f} chords. A model that gives all postures the same centre of pressure omits "
         "the larger of these two effects.",
         f"- **Reynolds numbers.** The gulls were measured at {_thousand(gulls)} thousand, the plate at "
-        f"{_thousand([plate])} thousand. Only the jackdaw ({_thousand([jackdaw])} thousand) comes close. The "
-        "difference in drag is partly due to Reynolds number and partly to shape; these data cannot separate the "
-        "two.",
+        f"{_thousand([plate])} thousand. Only the jackdaw ({_thousand([jackdaw])} thousand) comes close to the "
+        "plate. The difference in drag is partly due to Reynolds number and partly to shape; these data cannot "
+        "separate the two.",
     ]
 
 
@@ -182,9 +184,9 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "distinguish the",
         f"exponential from the slow sine. The form `cambered` is the best by AICc for {followed} of the "
         f"{2 * len(lift)} curves. Beyond the",
-        "measurements it continues with the coefficients of a plate. For a wing measured up to 25 degrees on both "
-        "sides, use",
-        "`cambered`; Dickinson's form is valid only within the measured range.",
+        "measurements this form continues with the coefficients of a plate. For a wing measured up to 25 degrees "
+        "on both sides,",
+        "use `cambered`; Dickinson's form is valid only within the measured range.",
     ]
 
 

@@ -33,7 +33,7 @@ def test_shares_of_thrust_are_those_of_garrick():
     chord = wb.load_species("pigeon").vehicle.wing.mean_chord
     said = " ".join(PAGE.split())
     for speed, shares in (
-        (12.0, "{:.2f} of the power becomes thrust at 30 Hz and 12 m/s, and {:.2f} at 5 Hz"),
+        (12.0, "at 12 m/s a share of {:.2f} of the power becomes thrust at 30 Hz, and {:.2f} at 5 Hz"),
         (10.0, "At 10 m/s the shares are {:.2f} at 17 Hz and {:.2f} at 8 Hz"),
     ):
         frequencies = [float(one) for one in re.findall(r"(\d+) Hz", shares)]

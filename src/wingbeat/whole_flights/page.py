@@ -46,8 +46,8 @@ _WITHOUT_DRAWS = (
 )
 _ABOUT_DRAWS = (
     "Each draw takes random values, within their ranges, for all numbers of the animal; the draw flies if its "
-    f"orbit is certified. In brackets, if at least {FEWEST_DRAWS} draws fly: the range of the middle 80 % of "
-    "these draws."
+    f"orbit is certified. If at least {FEWEST_DRAWS} draws fly, the range of the middle 80 % of these draws stands "
+    "in parentheses."
 )
 
 

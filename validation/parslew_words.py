@@ -28,17 +28,17 @@ TEXT = """# Another predictive model of a pigeon
 
 `python validation/parslew.py` writes this page. Parslew and Crowther (2010, J Biomech 43:3191,
 doi 10.1016/j.jbiomech.2010.07.018) and Parslew (2015, J R Soc Interface 12:20140953, doi 10.1098/rsif.2014.0953)
-predict how a pigeon flies with the least mechanical power. Theirs is the model closest to ours: it optimises the
-motion of wings with several segments, with air loads and inertia.
+predict how a pigeon flies with the least mechanical power. Their model is the one closest to ours: it optimises
+the motion of wings with several segments, with air loads and inertia.
 
 **We could read only the two abstracts, not the papers.** So we have neither their speeds nor their curves of power
-and frequency, and this page does not say how far they are from measurements. It tests whether our pigeon does what
-the abstracts say of theirs.
+and frequency, and we cannot say how far their predictions are from measurements. This page tests whether our pigeon
+does what the abstracts say of theirs.
 
 ## How we flew
 
-We flew the pigeon of the model [`animal`](models.md) with two changes. It minimises mean positive power, as their
-model minimises mechanical power, and the tilt of the stroke plane and the span retraction are free as well.
+We flew the pigeon of the model [`animal`](models.md) with two changes. It minimises mean positive power, because
+their model minimises mechanical power. The tilt of the stroke plane and the span retraction are free as well.
 *Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. Without this limit the
 model spends the least power on fast, small strokes ([muscles](muscles.md)). {certified} of {count} flights are
 certified.
@@ -62,7 +62,7 @@ Power in hover and climb:
 | --- | --- | --- |
 {powers}
 
-The comparison is of two models, not of a model with pigeons. For that, see [whole flights](whole_flights.md).
+This page compares two models. [Whole flights](whole_flights.md) compares our model with pigeons.
 """
 
 
@@ -148,7 +148,7 @@ STATEMENTS = (
         _vertical,
     ),
     Statement(
-        "It has a flexed-wing upstroke (2015).",
+        "The cheapest way to cruise has a flexed-wing upstroke (2015).",
         f"the wing retracts at least {FLEXED:g} of its span at every speed",
         _flexed,
     ),
@@ -184,7 +184,7 @@ def _told(test: Callable[[pd.DataFrame], tuple[str, bool | None]], table: pd.Dat
 def _sum(name: str, table: pd.DataFrame) -> str:
     verdicts = [one.test(table)[1] for one in STATEMENTS]
     told = [verdict for verdict in verdicts if verdict is not None]
-    return f"{sum(told)} of {len(told)} statements hold with the frequency {name}"
+    return f"{sum(told)} of the {len(told)} statements that can be tested hold with the frequency {name}"
 
 
 def _powers(limited: pd.DataFrame, free: pd.DataFrame) -> Iterator[str]:
@@ -234,7 +234,7 @@ def page(table: pd.DataFrame, figure: Path, highest: float) -> str:
     )
     spread = _rows(free, "hover")
     return TEXT.format(
-        sums=" and ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
+        sums=", and ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
         most=table["retraction"].max(),
         hover=spread[spread["held"].isna()]["from_vertical_deg"].iloc[0],
         highest=highest,

@@ -39,44 +39,44 @@ would be worth measuring better?
 We drew {sets} sets of numbers: {drawn}. Each set draws all numbers of the animal, its tail, its muscle and its
 wing's coefficients at once, each evenly within the range that its source gives. The speed is drawn, too. The model
 [`animal`](models.md) flies each set from two starts: the stock wingbeat, and the animal's own best flight at the
-nearest speed of the whole flights. The certified flight of less metabolic power counts; {certified} sets have one,
-{own} of them from the animal's own flight.
+nearest speed of the whole flights. If both flights are certified, the one with less metabolic power counts.
+{certified} sets have a certified flight; in {own} of them it started from the animal's own flight.
 
 ![Predicted over measured values for each quantity and band of speeds]({figure})
 
-*Bars: 10th to 90th percentile of the certified flights, with the median as a point. Shaded: the factor within which
-a prediction agrees, if all animals had the middle of the measured range.*
+*Bars: 10th to 90th percentile of the certified flights, with the median as a point. Shaded: ratios at which a
+prediction would agree if each measured range consisted of its middle alone.*
 
 {table}
 
 The *ratio* is the prediction divided by the middle of the measured range. *Agree* is the share of flights that
-agree with the measurement by the rule of the [whole flights](whole_flights.md). The square of a rank correlation is
-the share of the prediction's scatter that goes with this number. A positive correlation means that the prediction
-rises with the number. Numbers without influence have correlations of up to {chance:.2f} by chance in the smallest
-band.
+agree with the measurement by the rule of the [whole flights](whole_flights.md). The square of a number's rank
+correlation is the share of the prediction's scatter that goes with this number. A positive correlation means that
+the prediction rises with the number. In the band with the fewest flights, even numbers without influence have
+correlations of up to {chance:.2f} by chance.
 
 {findings}
 
-Two starts do not find the best family of wingbeats for every set; jumps between families add scatter that no number
+Two starts do not find the best family of wingbeats for every set. Jumps between families add scatter that no number
 explains. Ranges are those of the species files and of the wings' coefficients, and they are not probabilities.
 """
 FINDINGS = """## What this says
 
-- **Uncertain numbers do not explain the frequencies.** Few sets come near a measured frequency, or near the law of
-  birds in cruise: the median prediction is two to four times as fast. {least:.0f} % of the certified flights beat
+- **Uncertain numbers do not explain the frequencies.** Few sets come near a measured frequency, or near the law for
+  birds in cruise. The median prediction is two to four times as high. {least:.0f} % of the certified flights beat
   with the smallest flap amplitude that the species files allow, 5 degrees. So the cause is probably in the model;
   [what sets the frequency](frequency_trials.md) names the lag of the wake.
 - **In slow flight the place of the shoulder matters most.** The distance of the shoulder from the plane of symmetry
   (`wing.shoulder.y`) goes with {slow:.0f} % of the scatter of the pigeon's frequency near 4.5 m/s. Below 7 m/s the
   pigeon's median is {near:.0f} Hz where this distance is less than 1 cm, and {far:.0f} Hz where it is more than
-  2 cm. Wings whose shoulders are far apart can flap higher before they cross the plane. No certified flight has a
-  shoulder beyond the plane ({crossed:.0f} % of all sets): such a wing cannot stay on its own side. These sets exist
-  because a species file gives one range for all three coordinates of the shoulder. A measured shoulder would mend
-  both.
+  2 cm. Wings whose shoulders are far apart can flap higher before they cross the plane. In {crossed:.0f} % of all
+  sets the shoulder is beyond the plane. None of these sets has a certified flight, because such a wing cannot stay
+  on its own side. These sets exist because a species file gives one range for all three coordinates of the
+  shoulder. A measured position of the shoulder would remove these sets and this part of the scatter.
 - **Powers mostly agree.** 78 to 91 % of the flights agree with the measured powers. The mass of the muscle, and how
-  far the wing folds and retracts in the upstroke, move the cockatiel's power most: measure these first. Its
-  efficiency depends on the curvature and the largest strain rate of the muscle, and no set comes within a factor of
-  2 of the measured one.
+  far the wing folds and retracts in the upstroke, move the cockatiel's power most: measure these first. The
+  cockatiel's efficiency depends on the curvature and the largest strain rate of the muscle. In no set is the
+  predicted efficiency within a factor of 2 of the measured one.
 - **Two starts matter.** In {own:.0f} % of the certified sets the better flight starts from the animal's own best
   flight.
 """

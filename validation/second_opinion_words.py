@@ -8,8 +8,8 @@ HEAD = """# A second opinion on the air loads
 
 `python validation/second_opinion.py` writes this page. It replays orbits in the unsteady ring vortex lattice of
 [PteraSoftware](https://github.com/camUrban/PteraSoftware) (here {code}) and compares the lattice's loads with
-ours **on the same motion**. At every step the corners of the lattice's panels are points of the wing that our
-strips form, and the body heaves, pitches and advances as in the orbit. The lattice's loads do not change this
+ours **on the same motion**. At every step the corners of the lattice's panels lie on the wing that our strips
+form, and the body heaves, pitches and advances as in the orbit. The lattice's loads do not change this
 motion. To compare an orbit of your own:
 
 ```sh
@@ -32,8 +32,8 @@ alone.
 - *rms / weight*: root mean square over the beat of the difference between the two lifts, divided by the weight.
 - *rms / lattice*: the same root mean square, divided by that of the lattice's lift.
 - *beyond 15 deg*: the share of strips, averaged over the beat, at which the angle of attack in our model exceeds 15
-  degrees. In a vortex lattice the flow is attached at any angle, so beyond 15 degrees the lattice must be wrong. It
-  checks our loads only if this share is small.
+  degrees. In a vortex lattice the flow is attached at any angle, so beyond 15 degrees the lattice must be wrong.
+  The lattice therefore checks our loads only if this share is small.
 
 ![lift and thrust by both codes](second_opinion.png)
 
@@ -72,15 +72,15 @@ changes them by 0.4 %. We measured the convergence with panels and steps for the
 
 The tests contain two cases with known results. A steady plate of aspect ratio 6 at 3 degrees has the lift of a
 lifting line within 3 %. A plate of large aspect ratio that heaves at a reduced frequency of 0.31 has 1.07
-times Theodorsen's lift, and its phase agrees within 1 degree. The excess remains when panels and steps are refined
-further, so it is a property of this lattice.
+times Theodorsen's lift, and the phase of the lift agrees within 1 degree. The excess of lift remains when panels
+and steps are refined further, so it is a property of this lattice.
 
 ## The version
 
 wingbeat requires exactly PteraSoftware 5.0.0. PteraSoftware has no movement in which a wing flaps, pitches, twists,
 sweeps, folds and shortens while the body heaves and pitches. We therefore supply the panels of every step. For this
-we use its private class of panels, and we construct its wing and its movement ourselves. Another version may change
-these. Version 5.1.0 requires an older MuJoCo than our tests do.
+we use PteraSoftware's private class of panels, and derive our own classes from its wing and its movement. Another
+version of PteraSoftware may change these three classes. Version 5.1.0 requires an older MuJoCo than our tests do.
 """
 
 
@@ -92,10 +92,10 @@ leading edge and no profile drag. For the same motion its power is {2:.0%} to {3
 alone. Its mean thrust is large, while ours is about zero.
 
 **Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
-beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. They change the
-difference by a few percent for the pigeon at 12 m/s and for the bat, and increase it for the pigeon at 8 m/s. They
-improve neither thrust nor power. In an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a
-pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
+beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. For the pigeon at
+12 m/s and for the bat, these terms change the difference of the lifts by a few percent. For the pigeon at 8 m/s,
+they increase the difference. They improve neither thrust nor power. In an earlier trial of these terms, the
+difference fell from 0.37 to 0.14 for a pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
 
 **Inflow** alone reduces our lift on the same motion. *rms / lattice* then increases or stays the same. The
 coefficients are those of a finite plate and already include most of its induced flow.

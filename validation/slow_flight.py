@@ -32,17 +32,17 @@ and induced flow. Every row changes one thing, except where its name says two. T
 {table}
 
 - **Delayed stall lowers the frequency** by 11 % at 4 m/s and by 12 to 20 % at higher speeds. The polar of a
-  revolving wing lowers it more at 4 and 6 m/s, and less at 8 and 10 m/s. Revolving, dried pigeon wings reach a C_L
-  of 1.64, gliding wings 1.38 ([sources](animal_wings.md)). How the polar passes from attached flow to the delayed
-  stall is a guess.
+  revolving wing lowers the frequency more than delayed stall does at 4 and 6 m/s, and less at 8 and 10 m/s. Dried
+  pigeon wings that revolve reach a C_L of 1.64, and gliding wings reach 1.38 ([sources](animal_wings.md)). How the
+  polar passes from attached flow to the delayed stall is a guess.
 - A free downstroke fraction lowers the frequency by 11 % at 4 m/s and by 5 to 8 % at higher speeds. Free twist
-  lowers it by 8 % at 4 m/s and by 11 to 14 % at higher speeds. We
-  found no measurement of the downstroke fraction or of the twist of pigeons.
+  lowers the frequency by 8 % at 4 m/s and by 11 to 14 % at higher speeds. We found no measurement of the downstroke
+  fraction or of the twist of pigeons.
 - A longer chord, a span that retracts more, an upstroke with half the load, and a tail change the frequency at
-  4 m/s by at most 2 %. From 8 m/s on, a longer chord lowers it by 7 %.
+  4 m/s by at most 2 %. At 8 and 10 m/s, a longer chord lowers the frequency by 7 %.
 - Rotation and added mass raise the frequency by 7 to 15 %.
 - Shoulders at their measured place, ahead of the centre of mass, raise the frequency. A free tilt of the stroke
-  plane makes up for that only at 10 m/s.
+  plane makes up for this rise only at 10 m/s.
 
 The model `animal` ([models](models.md)) has the delayed stall, a tail and a free downstroke fraction. At
 4 m/s the lowest frequency found with this model is 9.6 Hz, a fifth above the 8.0 Hz of live pigeons at 4.5 m/s. At

@@ -33,7 +33,7 @@ docstring of `wb.read_strip_case` describe its files.
 
 ## The rule
 
-1. The case names the kind of wing. If it does not, a flyer below 2.5 g at a Reynolds number below 7000 counts as
+1. The case may name the kind of wing. If it does not, a flyer below 2.5 g at a Reynolds number below 7000 counts as
    an insect with rigid wings, and any other flyer as a bird with feathered wings.
 2. Below a Reynolds number of 10 000 the leading-edge vortex of a revolving wing stays attached, on wings of
    insects and hummingbirds alike ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)). The
@@ -43,11 +43,13 @@ docstring of `wb.read_strip_case` describe its files.
    measured on revolving wings of this kind.
 4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
    (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
-5. Above the same reduced frequency it also adds the lag of the wake if the theory applies. The theory assumes a
-   straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions must therefore be
-   met: the polar was measured in straight flow and states an aspect ratio; the speed is at least twice the induced
-   speed of hover; and the flow is attached for at least 90 % of beat and wing area. Flow counts as attached if the
-   angle of attack, computed from the motion alone, is below that of the polar's largest lift.
+5. Above the same reduced frequency the rule also adds the lag of the wake if the theory of this lag applies. The
+   theory assumes a straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions
+   must therefore be met:
+   - the polar was measured in straight flow and states an aspect ratio;
+   - the speed is at least twice the induced speed of hover;
+   - the flow is attached for at least 90 % of beat and wing area. Flow counts as attached if the angle of attack,
+     computed from the motion alone, is below the angle of the polar's largest lift.
 6. In slow flight the polar of a finite wing does not include the right induced flow. The rule then adds momentum
    inflow if the model states its aspect ratio.
 
@@ -57,9 +59,9 @@ _TAIL = """## Derivatives of measured data
 
 Added mass needs accelerations, and measured positions are noisy. Rates of change are therefore the slopes of a
 cubic smoothing spline. Generalised cross-validation ([Craven and Wahba 1979](https://doi.org/10.1007/BF01404567))
-chooses its stiffness, one value for all strips. Exact data pass unchanged, and the first four harmonics of the beat
-are never smoothed away. If a motion repeats, the spline also uses frames of the beats before and after. If not,
-rates at the first and last frames are less certain: exclude these frames with `from` and `to` in the case.
+chooses the spline's stiffness, one value for all strips. Exact data pass unchanged, and the first four harmonics of
+the beat are never smoothed away. If a motion repeats, the spline also uses frames of the neighbouring beats. If
+not, rates at the first and last frames are less certain: exclude these frames with `from` and `to` in the case.
 
 Velocities in a case are those of the wing's material through still air. If a case has none, wingbeat differentiates
 the positions. If the positions do not advance with the animal, wingbeat takes them as measured in a wind tunnel and
@@ -74,8 +76,8 @@ air at the strip, and the angle of attack in this moving air gives the coefficie
 the result is Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too. In any other motion,
 the wake starts as in steady flight.
 
-The lag is that of a wing section, like rotation and added mass. A whole wing lags less than its sections: [air
-loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
+The lag, like rotation and added mass, is computed for a wing section. A whole wing lags less than its sections:
+[air loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## Whole flights
 
@@ -84,8 +86,8 @@ loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## What all rows leave out
 
-No row includes the delay of stall in fast pitching. In the computation, strips do not influence each other, and
-neither do fore wing and hind wing.
+No row includes the delay of stall in fast pitching. In the computation, strips do not influence each other, and the
+fore wing and the hind wing do not influence each other.
 """
 
 

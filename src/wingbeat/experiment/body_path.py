@@ -13,7 +13,7 @@ from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.experiment.periodic_spline import Array, fit_law, fit_travel, fourier_columns, from_phase
 from wingbeat.harmonics import HIGHEST_ORDER
 
-# A film must show this share of a beat in one piece: in a shorter one travel and beat look alike.
+# A film must show this share of a beat in one piece: in a shorter piece, travel and periodic motion look alike.
 _SHORTEST = 0.9
 
 
@@ -82,7 +82,8 @@ def fit_body_path(
 
     Raises
     ------
-    InvalidInputError : a film of less than nine tenths of a beat, a number both given and filmed, no velocity.
+    InvalidInputError : a film of less than nine tenths of a beat, a quantity that is both given and filmed, or no
+        velocity.
     """
     film, faults = beat.film, FaultList()
     given = {"body_x_m": u, "body_z_m": w, "body_pitch_deg": body_pitch}

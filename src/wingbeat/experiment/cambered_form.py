@@ -21,12 +21,12 @@ from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 
 # Angles beyond which lift falls off, as that of a plate does; the form has constant lift beyond its stalls.
 FARTHEST_DEG = 60.0
-# Different angles on either side of zero lift: two for the line, one for its end.
+# Least number of different angles on each side of zero lift: two for the line, one for its end.
 LEAST_ANGLES = 3
 # Values of each term in which a curve is not linear, to find where a fit begins.
 _NODES = 8
 _SLOPES = (2.0, 3.5, 5.0, 6.5)
-# Between the two onsets, so that they cannot change places [deg].
+# Least distance between the two onsets, so that they cannot change places [deg].
 _GAP_DEG = 0.1
 
 _BENDS = {name: WING_ESTIMATES["feathered"][name].value for name in ("lift_rounding", "onset_rounding_deg")}
@@ -97,7 +97,7 @@ def stall_notes(lift: CurveFit) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class DragForm(BoxForm):
-    """The drag of a cambered wing; `beside` gives it the lift that its induced part and its onsets need."""
+    """The drag of a cambered wing; its induced part and its onsets depend on lift, which `beside` sets."""
 
     def beside(self, lift: CurveFit) -> DragForm:
         """Return the form for a fitted lift, whose terms also set the ranges of the two onsets.
@@ -110,7 +110,8 @@ class DragForm(BoxForm):
         zero = terms["zero_lift_deg"]
         middle = math.degrees(0.5 * (terms["lift_lowest"] + terms["lift_highest"]) / terms["lift_slope"])
         low, high = float(lift.alpha_deg.min()) - zero, float(lift.alpha_deg.max()) - zero
-        # Flow separates from the lower side below the middle of the line of lift, from the upper side above it.
+        # Below the middle of the line of lift, flow separates from the lower side; above the middle, from the upper
+        # side.
         middle = float(np.clip(middle, low + 1.0, high - 1.0))
         below, above = middle - 0.5 * _GAP_DEG, middle + 0.5 * _GAP_DEG
         fixed = self.fixed | terms
@@ -134,7 +135,7 @@ class DragFit(CurveFit):
     Attributes
     ----------
     joint_names : the parameters of lift, then those of drag.
-    joint : their covariance, shape (p, p).
+    joint : covariance of the parameters in `joint_names`, shape (p, p).
     """
 
     joint_names: tuple[str, ...]
@@ -158,9 +159,9 @@ def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
     """Return a fit of drag, made at fixed lift, with a covariance that includes the uncertainty of lift.
 
     If the terms of lift change by ``d``, those of drag follow by ``G d``, ``G = -(J^T W J)^-1 J^T W L``, where J
-    and L are the derivatives of drag with respect to its own terms and to those of lift. So the covariance of both
-    is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``, if the errors of lift and drag are independent: Murphy and
-    Topel 1985, J. Bus. Econ. Stat. 3:370.
+    and L are the derivatives of drag with respect to its own terms and to those of lift. So if the errors of lift
+    and drag are independent, the covariance of all terms is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``: Murphy
+    and Topel 1985, J. Bus. Econ. Stat. 3:370.
 
     Parameters
     ----------

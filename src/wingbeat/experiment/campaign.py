@@ -45,7 +45,7 @@ class Campaign:
     memory : correlation time of the turbulence [s].
     cell_noise : standard deviation of the load cell's white noise, as a share of its scale (1 N, 0.1 N m).
     drift : largest change of the zero readings over a run, as a share of the same scale.
-    start : share by which loads overshoot when the stream starts; it decays with a time constant of 1.5 s.
+    start : share by which loads overshoot when the stream starts; this share decays with a time constant of 1.5 s.
     chord, span, thickness, channel_width : of plate and channel [m].
     density, viscosity : of the water [kg/m3, m2/s].
 
@@ -98,9 +98,9 @@ def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
 def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     """Return the records of a synthetic campaign; the same seed gives the same records.
 
-    Each channel is the true load times the start-up factor ``1 + start exp(-t/1.5)``, plus fluctuations of the flow
-    (a first-order Markov process), white noise of the load cell, and a zero that drifts linearly from the reading
-    before to the reading after.
+    Each channel is a sum of four parts: the true load times the start-up factor ``1 + start exp(-t/1.5)``,
+    fluctuations of the flow (a first-order Markov process), white noise of the load cell, and the zero. The zero
+    drifts linearly from the zero reading before the run to the zero reading after the run.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ _SHARED = ("density", "viscosity", "chord", "span", "thickness", "channel_width"
 def _records(
     campaign: Campaign, coefficients: Array, speed: float, time: Array, random: np.random.Generator
 ) -> tuple[Array, Array]:
-    """Return the channels of runs, shape (runs, 3, n), and their zero readings before and after, (runs, 3, 2)."""
+    """Return the channels, shape (runs, 3, n), and the zero readings before and after each run, (runs, 3, 2)."""
     from scipy.signal import lfilter
 
     count = len(time)
@@ -150,7 +150,7 @@ def _records(
         zero[i] = random.uniform(-campaign.drift, campaign.drift, (3, 2))
         noise[i] = random.normal(size=(3, count))
     kicks *= np.sqrt(1.0 - memory**2)
-    # From the stationary distribution on, or the first second would be too quiet.
+    # Start from the stationary distribution; otherwise the first second would be too quiet.
     kicks[..., 0] /= np.sqrt(1.0 - memory**2)
     flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks))
     level = campaign.turbulence * np.array([[1.0], [1.0], [0.25]])

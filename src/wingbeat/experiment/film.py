@@ -32,7 +32,7 @@ FILMED = {
 # The body, for a film that gives times.
 BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
 COLUMNS = FILMED | BODY
-# Of what a fraction is one.
+# What a fraction of 1 stands for.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
 # Angles that a tracker may give anywhere on the circle.
 _WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg", "body_pitch_deg")
@@ -54,8 +54,8 @@ class Film:
     columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
         normal), ``span_fraction`` (of the semi-span), ``sweep_deg`` (span ahead of the stroke plane),
         ``tip_pitch_deg`` (as pitch, at the tip), ``stroke_plane_deg`` (from the body axis, as the species'
-        `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where it was
-        not seen. Pitch and stroke plane may jump by whole turns. For the body: ``body_x_m`` (forward),
+        `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where the
+        quantity was not seen. Pitch and stroke plane may jump by whole turns. For the body: ``body_x_m`` (forward),
         ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
     frequency, frequency_se : wingbeat frequency, None if not known, and its standard error [Hz].
     synthetic : whether a random generator made the film.
@@ -66,8 +66,8 @@ class Film:
 
     Raises
     ------
-    InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat, a pitch at
-        the tip without one at the root.
+    InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat, tip pitch
+        without root pitch.
     """
 
     name: str
@@ -303,7 +303,7 @@ def synthetic_film(
     seed : of the noise.
     columns : the columns that the film shows.
     start : phase of the wingbeat at the film's phase 0; without a column of flap, it has no effect.
-    stroke_plane : angle of the vehicle's stroke plane from the body axis [rad], to which the wingbeat's tilt adds.
+    stroke_plane : angle of the vehicle's stroke plane from the body axis [rad]; the wingbeat's tilt adds to it.
     """
     random = np.random.default_rng(seed)
     phase = np.arange(frames) / frames

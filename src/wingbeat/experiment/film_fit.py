@@ -72,7 +72,7 @@ def _top_of(laws: Mapping[str, Array]) -> float:
 def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> dict[str, Any]:
     """Return the fields of a wingbeat from Fourier coefficients; flap's first harmonic is highest at phase 0.
 
-    The chord law needs a span law: that of the film or, if the film shows no span, that of the species.
+    The chord law needs a span law: the film's or, if the film shows no span, the species'.
     """
     shift = _top_of(laws)
     fields: dict[str, Any] = {"downstroke_fraction": 0.5}
@@ -90,7 +90,7 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
             fields |= _drawn_in("span", mean, waves)
     if "tip_pitch_deg" in series:
         mean, *waves = (series["tip_pitch_deg"] - series["pitch_deg"]).tolist()
-        # Each was tracked up to whole turns.
+        # Each of the two angles is known only up to whole turns.
         fields |= {
             "twist_ratio": 1.0,
             "twist_mean": math.remainder(mean, 2 * math.pi),
@@ -102,7 +102,7 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
     return fields
 
 
-# The parameters of a wingbeat that each column settles, by how their names begin.
+# The beginnings of the names of those wingbeat parameters that each column determines.
 _SETTLED = {
     **{"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"},
     **{"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"},
@@ -144,7 +144,7 @@ class FilmedBeat:
 
         Parameters
         ----------
-        vehicle : gives the angle of the stroke plane, to which the tilt adds.
+        vehicle : gives the angle of the stroke plane; the tilt adds to it.
         wingbeat : gives the span law, if it was not filmed.
 
         Raises
@@ -223,7 +223,7 @@ def fit_film(film: Film) -> FilmedBeat:
     """Fit periodic laws to a film.
 
     Each law is a periodic smoothing spline. The penalty leaves the mean and the first harmonic free. Restricted
-    maximum likelihood chooses its weight.
+    maximum likelihood chooses the weight of the penalty.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from wingbeat.files import read_text
 
 # A record of 30 s at 10 kHz has some 20 MB.
 MAX_BYTES = 1 << 26
-# Forty bad cells tell as much as forty thousand.
+# A list of forty bad cells helps as much as a longer one.
 MAX_CELL_FAULTS = 40
 _SAME = {
     "n·m": "n m",
@@ -62,7 +62,7 @@ def split_unit(text: str) -> Heading:
 
 
 def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> None:
-    """Note a fault if a unit is given that differs from the one in which the column is read."""
+    """Note a fault if the given unit differs from the unit in which the column is read."""
     if unit is None:
         return
     plain = re.sub(r"\s+", " ", unit.strip().lower().replace("^", "").replace("²", "2").replace("³", "3"))

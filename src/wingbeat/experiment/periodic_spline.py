@@ -58,7 +58,7 @@ class FilmedLaw(NamedTuple):
 
 
 def fit_law(phase: Array, values: Array) -> FilmedLaw:
-    """Fit a periodic smoothing spline; restricted maximum likelihood chooses its weight."""
+    """Fit a periodic smoothing spline; restricted maximum likelihood chooses the weight of the penalty."""
     return _smoothed(fourier_columns(phase), values)
 
 

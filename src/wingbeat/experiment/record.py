@@ -15,7 +15,7 @@ from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_
 from wingbeat.nomenclature import plain_unit
 
 MIN_SAMPLES = 32
-# Beyond this spread within one record the plate was still turning.
+# If the angle spreads more than this within one record, the plate was still turning.
 MAX_TURN_DEG = 1.0
 CHANNELS = ("normal_force", "tangential_force", "moment")
 COLUMN_UNITS = {name: plain_unit(name) for name in ("time", *CHANNELS, "alpha_deg")}
@@ -124,8 +124,9 @@ def read_run(path: str | Path) -> LoadCellRun:
     """Read one run from a CSV file: constants as ``# key = value`` lines, then a table of samples.
 
     The columns are time, normal_force, tangential_force, moment and alpha_deg, in any order, each with or without
-    its unit in brackets; others are ignored. The keys are speed, density, viscosity, chord, span; optional are
-    thickness, channel_width, and tare_normal_force, tare_tangential_force, tare_moment = before, after.
+    its unit in brackets; others are ignored. The keys are speed, density, viscosity, chord, span. Optional keys are
+    thickness, channel_width and the zero readings tare_normal_force, tare_tangential_force, tare_moment. A zero
+    reading has two values: before the run, after the run.
 
     Parameters
     ----------

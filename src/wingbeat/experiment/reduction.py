@@ -57,9 +57,10 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
     """Return the coefficients of one run from the last seconds of its record.
 
     ``L = F_N cos a - F_T sin a``, ``D = F_N sin a + F_T cos a``; ``C_L = L/(q c h)``, ``C_D = D/(q c h)``,
-    ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. A zero that
-    drifts linearly from the still-fluid reading before to the one after is subtracted. Standard errors come from
-    block means (`wingbeat.experiment.statistics`); the error of the ratio x_cp is to first order.
+    ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. From each channel
+    we subtract a zero that drifts linearly from the still-fluid reading before the run to that after the run.
+    Standard errors come from block means (`wingbeat.experiment.statistics`); the error of the ratio x_cp is to
+    first order.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 
@@ -110,7 +111,7 @@ def _means(runs: list[LoadCellRun], alpha_deg: list[float], loads: NDArray[np.fl
     turns = [math.radians(angle) for angle in alpha_deg]
     cos, sin = (np.array([[function(turn)] for turn in turns]) for function in (math.cos, math.sin))
     mean_n, mean_m = c_n.mean(axis=1, keepdims=True), c_m.mean(axis=1, keepdims=True)
-    # How the ratio follows its parts, to first order; where there is no ratio it is not used.
+    # Change of the ratio with force and moment, to first order; not used where the ratio is undefined.
     some = np.where(mean_n == 0, 1.0, mean_n)
     lever = np.where(mean_n == 0, 0.0, -(c_m - mean_m / some * c_n) / some)
     series = np.stack([c_n * cos - c_t * sin, c_n * sin + c_t * cos, c_m, lever, c_n], axis=1)
@@ -179,9 +180,9 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
 
     Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is the mean
     of its R runs, with the standard error ``sqrt(sum se^2 / R^2 + tau^2 / R)``. Here tau^2 is the variance between
-    repeats that their own errors do not explain. It is estimated for each coefficient from all points of a Reynolds
-    number together, and is 0 unless significant. The standard deviation is that of the samples within runs. The
-    row's x_cp is computed from the pooled force and moment.
+    repeats that the errors se do not explain. For each coefficient, tau^2 is estimated from all points of a
+    Reynolds number together; it is 0 unless significant. The standard deviation is that of the samples within runs.
+    The row's x_cp is computed from the pooled force and moment.
 
     Parameters
     ----------
@@ -239,9 +240,10 @@ def _pooled(means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.i
     error = {name: np.sqrt(part.within + part.between) for name, part in parts.items()}
     with np.errstate(divide="ignore", invalid="ignore"):
         lever = mean["C_M"] / normal
-        # What repeats add is added to force and moment: the ratio feels it most where the force is small.
+        # The variance between repeats enters through force and moment; it changes the ratio most where the force is
+        # small.
         between = (parts["C_M"].between + lever**2 * of_normal.between) / normal**2
-        # Runs without a centre leave the error NaN, and the cell empty with it.
+        # Runs without a centre make the error NaN, so the cell stays empty.
         error["x_cp"] = np.sqrt(np.bincount(point, se[:, 3] ** 2) / count**2 + between)
     floor = np.maximum(CENTRE_FLOOR, CENTRE_SIGNAL * np.sqrt(of_normal.within + of_normal.between))
     known = (np.abs(normal) > floor) & np.isfinite(error["x_cp"])

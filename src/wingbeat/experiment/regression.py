@@ -76,7 +76,7 @@ class CurveFit:
 
     @property
     def aicc(self) -> float:
-        """Akaike's criterion for small samples: the lower of two forms on the same data is the better one.
+        """Akaike's criterion for small samples; of two forms fitted to the same data, the lower value is better.
 
         ``n ln(chi^2/n) + 2k + 2k(k+1)/(n-k-1)``, where k counts the parameters and the variance: Hurvich and Tsai
         1989, doi 10.1093/biomet/76.2.297. NaN unless n > k + 1; -inf for a perfect fit.
@@ -161,7 +161,7 @@ class CurveFit:
         ----------
         alpha_deg : angles of attack [deg], shape (n,).
         confidence : between 0 and 1.
-        of_mean : whether the band is that of the curve itself; else that of a new measurement of the same
+        of_mean : True for the band of the curve itself, False for the band of a new measurement of the same
             precision.
 
         Raises
@@ -209,7 +209,7 @@ def fit_curve(
     ----------
     alpha_deg, values : angles [deg] and the values measured there, shape (n,).
     form : the curve.
-    sigma : standard error of each measurement, shape (n,); None gives all equal weight.
+    sigma : standard error of each measurement, shape (n,); None gives all measurements equal weight.
     label : name of the quantity in messages.
 
     Raises

@@ -35,7 +35,8 @@ class CoefficientTable:
     ----------
     alpha_deg : angles of attack [deg], shape (n,).
     mean : C_L, C_D and, if measured, C_M and x_cp, each of shape (n,); NaN where x_cp is undefined.
-    sd, se : standard deviation of the samples, standard error of the mean, by the same names, where known.
+    sd, se : standard deviation of the samples and standard error of the mean, under the names in `mean`, where
+        known.
     reynolds : chord Reynolds numbers, shape (n,), or None.
     runs : number of runs averaged in each row, shape (n,), or None.
     notes : notes for the reader.

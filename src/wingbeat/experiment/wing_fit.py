@@ -176,8 +176,8 @@ def fit_wing(
 ) -> WingFit:
     """Fit lift, drag and, where it was measured, the centre of pressure.
 
-    Rows are weighted by their standard errors if the table has them. The centre of pressure is fitted to rows that
-    have one and whose angle is not negative.
+    Rows are weighted by their standard errors if the table has them. The centre of pressure is fitted only to rows
+    that have one, at angles that are not negative.
 
     Su-Fan's form is that of Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602; Dickinson's
     that of Dickinson, Lehmann and Sane 1999, doi 10.1126/science.284.5422.1954.
@@ -240,7 +240,7 @@ def _sigma(
 ) -> NDArray[np.float64] | None:
     """Return the standard errors of a coefficient, or None where there are none."""
     errors = table.se.get(label)
-    # Errors of 0 throughout are those of data without noise, made and not measured.
+    # Errors that are all 0 belong to computed data without noise.
     return errors[rows] if errors is not None and bool((errors[rows] != 0).any()) else None
 
 

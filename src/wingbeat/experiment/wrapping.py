@@ -19,7 +19,7 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
 
     Parameters
     ----------
-    faults : receives a fault if the angle is not periodic: it turns on and does not come back.
+    faults : receives a fault if the angle does not come back to its first value after a beat.
     where : of the column, for that fault.
     phase : beats, shape (n,).
     angle : as tracked [deg], shape (n,).

@@ -10,16 +10,17 @@ The rule never sees a measured force. It follows from what is known of the flow,
    flow.
 3. Above it, the rule takes the model named after the kind of wing (`feathered`, `membrane`), and the plate,
    `su-fan`, for a rigid wing. In slow flight, below twice the induced speed of hover, a wing moves like a revolving
-   one. A model of revolving wings of this kind (`feathered-revolving`) then comes first, because a revolving wing
-   stalls later and its polar includes the induced flow.
+   one. The rule then prefers a model of revolving wings of the same kind (`feathered-revolving`), because a
+   revolving wing stalls later and its polar includes the induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
    section 8.2, draws the line between 0.05 and 0.2). The rule adds rotation and added mass.
-5. Above 0.1, the wake that changes of lift leave behind is also near enough to reduce them (Theodorsen 1935, NACA
-   Report 496: by 15 % at a reduced frequency of 0.1, by 38 % at 0.5). He assumes a straight wake that stays behind
-   the flyer, and a wing whose lift rises with its angle of attack. So the rule adds the lag of the wake on three
-   conditions: the model states an aspect ratio, as models measured in straight flow do; the speed is at least
-   twice the induced speed of hover; and for nine tenths of the beat, weighted by area, the angle of attack of the
-   motion is below that of the polar's largest lift. The theory has no upper limit of the reduced frequency.
+5. Changes of lift leave a wake behind. Above a reduced frequency of 0.1 this wake is near enough to reduce the
+   changes of lift (Theodorsen 1935, NACA Report 496: by 15 % at a reduced frequency of 0.1, by 38 % at 0.5).
+   Theodorsen assumes a straight wake that stays behind the flyer, and a wing whose lift rises with its angle of
+   attack. So the rule adds the lag of the wake on three conditions: the model states an aspect ratio, as models
+   measured in straight flow do; the speed is at least twice the induced speed of hover; and for nine tenths of the
+   beat, weighted by area, the angle of attack of the motion is below that of the polar's largest lift. The theory
+   has no upper limit of the reduced frequency.
 6. The polar of a finite wing includes an induced flow of W/(2 rho A U), which is that of momentum theory in fast
    flight. In slow flight momentum theory gives another induced flow, so the rule adds momentum inflow if the model
    states its aspect ratio.

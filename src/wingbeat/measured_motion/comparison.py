@@ -122,14 +122,15 @@ def validate(
 ) -> Validation:
     """Evaluate the air loads of coefficient models and terms on a measured motion, and compare the forces.
 
-    Each model has a row for each choice of terms: no unsteady terms, those of a thin aerofoil, or these with the
-    lag of the wake; and each of them with and without momentum inflow. Inflow and lag need a model with an aspect
-    ratio. For other models these rows are left out, but if both the models and the term are given, they are
-    refused.
+    Each model has a row for each choice of terms. The unsteady terms are none, those of a thin aerofoil, or those
+    of a thin aerofoil with the lag of the wake; each choice has a row with momentum inflow and one without. Inflow
+    and lag need a model with an aspect ratio. For other models, rows with inflow or lag are left out; if you give
+    both such a model and such a term, they are refused.
 
-    Exactly one row is recommended, by a rule of Reynolds number, reduced frequency, kind of wing and speed that
-    never sees the measured force (`wingbeat.measured_motion.choice`). If no row has the loads that the rule wants,
-    it recommends the nearest row: nearest in the model first, then in the unsteady terms, then in the inflow.
+    A rule recommends exactly one row (`wingbeat.measured_motion.choice`). It uses Reynolds number, reduced
+    frequency, kind of wing and speed, and never sees the measured force. If no row has the loads that the rule
+    wants, it recommends the nearest row: nearest in the model first, then in the unsteady terms, then in the
+    inflow.
 
     The power that the wings give to the air is minus the power of loads and couples on the wing's motion through
     still air. In steady flight without body drag it equals the hinge power.

@@ -40,7 +40,7 @@ docstring of `wb.read_strip_case` describe its files.
    rule chooses `dickinson`, a polar of revolving wings. It already includes induced flow.
 3. Above this Reynolds number, the rule chooses the model named after the kind of wing if there is one, and
    otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
-   measured on revolving wings of this kind.
+   measured on revolving wings of the same kind.
 4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
    (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
 5. Above the same reduced frequency the rule also adds the lag of the wake if the theory of this lag applies. The

@@ -21,7 +21,8 @@ from wingbeat.measured_motion.strip_table import read_strips
 
 _REQUIRED = ("name", *SCALAR_LIMITS, "mirrored", "periodic", "strips")
 _KNOWN = (*_REQUIRED, "from", "to", "forces", "mean_force", "wing")
-# Where the frequency is at fault, steps of up to ten minutes pass: what is wrong with them cannot be said.
+# If the frequency is invalid, steps of up to ten minutes are accepted, because we cannot say what is wrong with
+# them.
 _UNKNOWN_FREQUENCY = 3e-4
 _WINDOW = {"start": "from", "end": "to"}
 
@@ -30,15 +31,15 @@ def read_strip_case(path: str | Path) -> StripCase:
     """Read a strip-motion case: a TOML file, a CSV file of strips and, if there is one, a CSV file of forces.
 
     ``case.toml`` states name, mass [kg], density [kg/m3], gravity [m/s2], frequency [Hz], speed [m/s], mirrored,
-    periodic and strips, the name of the file of strips beside it. It also states either forces, the name of the
-    file of forces, or mean_force ([fx, fz] in N). Optional are from and to [s], and wing ("feathered", "membrane"
-    or "rigid"). `StripCase` explains these values.
+    periodic and strips. The value of strips is the name of the file of strips, in the same folder. The forces are
+    given either by forces, the name of the file of forces, or by mean_force ([fx, fz] in N). Optional are from and
+    to [s], and wing ("feathered", "membrane" or "rigid"). `StripCase` explains these values.
 
     The file of strips has one row for each time and strip, with the columns ``time_s, strip``, quarter chord
     ``x_m, y_m, z_m``, chord from trailing to leading edge ``chord_x_m, chord_y_m, chord_z_m``, and ``area_m2``.
     Optional are velocities through still air at the quarter chord ``vx_m_s, vy_m_s, vz_m_s`` and at the
     three-quarter chord ``v3x_m_s, v3y_m_s, v3z_m_s``. The strips of a wing are numbered along it. The file of
-    forces has ``time_s``, the same times as the strips, and any of ``fx_n, fz_n, fx_n_se, fz_n_se``.
+    forces has ``time_s``, with the same times as the strips, and any of ``fx_n, fz_n, fx_n_se, fz_n_se``.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ def read_strip_case(path: str | Path) -> StripCase:
 
 
 def _frequency(given: dict[str, Any]) -> float:
-    """Return the frequency that a case states; if it is invalid, one so low that no step of time counts as wide."""
+    """Return the stated frequency; if it is invalid, a number so low that no step of time counts as wide."""
     frequency, limits = given.get("frequency"), SCALAR_LIMITS["frequency"]
     if is_number(frequency) and limits.least <= frequency <= limits.most:
         return float(frequency)

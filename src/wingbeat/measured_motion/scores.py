@@ -12,7 +12,7 @@ from wingbeat.measured_motion.strip_case import StripCase
 
 Array = NDArray[np.float64]
 
-# Means and spreads below this share of the largest measured force are none.
+# Means and spreads below this share of the largest measured force count as zero.
 _NOTHING = 1e-3
 # Steps of a beat in which the lag is looked for, up to half a beat either way.
 _STEPS = 360
@@ -22,15 +22,17 @@ _OVERLAP = 0.6
 
 @dataclass(frozen=True)
 class Score:
-    """How close a computed force comes to the measured one; None where that is not measured or has no meaning.
+    """How close a computed force comes to the measured one.
+
+    A number is None if its force is not measured, or if it has no meaning.
 
     Attributes
     ----------
     mean_ratio : computed mean over the measured mean.
-    peak_ratio : computed largest force over the measured one, in the direction of the measured one.
+    peak_ratio : largest computed force over largest measured force, both in the direction of the latter.
     rms : root mean square of the difference over the weight.
     correlation : Pearson's correlation coefficient.
-    lag : share of a beat by which the computed force comes later, where the two agree best.
+    lag : delay of the computed force behind the measured one, as a share of a beat; without it they agree best.
     rms_about_mean : root mean square of the difference over that of the measured force, each force about its mean.
     """
 
@@ -85,7 +87,8 @@ def score(case: StripCase, axis: str, force: Array) -> Score:
 def sine_score(case: StripCase, axis: str) -> dict[str, float | None]:
     """Return the scores of a mean and a sine at the beat's frequency, fitted to the measured force itself.
 
-    Models of the air do not use the measured force; this fit does. A model that scores worse has explained little.
+    Models of the air do not use the measured force; this fit does. A model that scores worse than the fit explains
+    little.
 
     Parameters
     ----------

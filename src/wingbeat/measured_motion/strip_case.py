@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 WINGS = ("feathered", "membrane", "rigid")
 AXES = ("fx", "fz")
-# A beat that is said to be whole may lack this share of itself or of the widest step beyond that.
+# Tolerance of whole beats, as a share of the beat and of the widest step.
 _SLACK = 0.02
 
 

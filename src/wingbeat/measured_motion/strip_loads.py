@@ -59,8 +59,8 @@ def strip_loads(
     Parameters
     ----------
     case : the measured motion.
-    motion : of its strips through still air, from `strip_motion`.
-    moving : of its strips through the air at the wings; with inflow, from `StripMotion.in_moving_air`.
+    motion : motion of the strips through still air, from `strip_motion`.
+    moving : motion of the strips through the air at the wings; with inflow, from `StripMotion.in_moving_air`.
     aero : coefficients and terms; its number of strips and its force point are not used.
     has_wake : whether to include the lag of the wake.
     """
@@ -75,7 +75,7 @@ def strip_loads(
         inertia = added_inertia(case.density, motion.chord, motion.width)
         across = -mass * moving.middle_rate
         couple = np.asarray(loads.couple) - inertia * motion.turning_rate
-        # The added mass acts at mid-chord, whose speed along the normal is its own.
+        # The added mass acts at mid-chord, where the normal speed differs from that of the quarter chord.
         middle_speed = motion.normal_speed - 0.25 * motion.chord * motion.turning
         given = given + across * middle_speed + couple * motion.turning
         normal = normal + across
@@ -94,7 +94,7 @@ def _in_wake(case: StripCase, moving: StripMotion, kernel: Kernel) -> StripMotio
     travelled = 0.5 * (speed + following)[: len(steps)] * steps[:, None]
     shed = shed_downwash(kernel, moving.chord, moving.chord_speed, moving.normal_speed, moving.turning)
     wake = wake_downwash(shed, travelled, case.period is not None)
-    # A downwash of the air is a climb of the strip through it.
+    # In air that moves down, the strip moves up relative to the air.
     return replace(moving, normal_speed=moving.normal_speed + wake)
 
 

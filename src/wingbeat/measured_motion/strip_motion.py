@@ -26,12 +26,13 @@ class StripMotion:
     Attributes
     ----------
     chord, width : of the strips [m], shape (n, strips).
-    ahead, normal : unit vectors along the chord, forward, and across it, to the upper side, shape (n, strips, 3).
+    ahead, normal : unit vectors, shape (n, strips, 3): `ahead` along the chord to the leading edge, `normal` across
+        the chord to the upper side.
     outward : unit vector along the span, to the left, shape (n, strips, 3).
     velocity : of the quarter chord [m/s], shape (n, strips, 3).
     chord_speed, normal_speed : of the quarter chord along `ahead` and `normal` [m/s], shape (n, strips).
     turning : of the chord about the span, leading edge up [rad/s], shape (n, strips).
-    turning_rate : its rate of change [rad/s2].
+    turning_rate : rate of change of `turning` [rad/s2].
     middle_rate : rate of change of the normal speed of the mid-chord [m/s2].
     notes : notes for the reader.
     """
@@ -52,7 +53,7 @@ class StripMotion:
     def in_moving_air(self, case: StripCase, air: tuple[float, float]) -> StripMotion:
         """Return the motion through air that moves forward and up at a constant velocity [m/s]."""
         wind = np.array([air[0], 0.0, air[1]])
-        # The wind is constant; what the wing meets of it along its normal changes as the normal turns.
+        # The wind is constant; its component along the wing's normal changes as the normal turns.
         change = smoothed_slopes(case.times, self.normal @ wind, case.frequency, case.period)[1]
         return replace(
             self,
@@ -124,7 +125,7 @@ def semi_span(case: StripCase) -> float:
 
 
 def moves_down(case: StripCase, motion: StripMotion) -> NDArray[np.bool_]:
-    """Return at which times the wings are in the downstroke, or in the forward stroke if it is level, shape (n,).
+    """Return at which times the wings are in the downstroke, shape (n,); for a level stroke, in the forward stroke.
 
     It is the half of the stroke in which the farthest strip moves down along the line of its largest motion.
 
@@ -159,7 +160,7 @@ def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
     forward = case.position[..., 0] @ _shares(case)
     advance = float(span @ (forward - forward.mean()) / (span @ span))
     moves = abs(advance - case.speed) < abs(advance)
-    # What advances does not repeat; less its advance it does, so that the beat can be continued.
+    # Positions that advance do not repeat. Without the advance they do, so that the beat can be continued.
     drift = np.zeros(3) if not moves else np.array([case.speed, 0.0, 0.0])
     at_rest = case.position - times[..., None] * drift
     rates = smoothed_slopes(case.times, at_rest, case.frequency, case.period)[1]
@@ -177,8 +178,9 @@ def _shares(case: StripCase) -> Array:
 def _sections(case: StripCase, chord: Array, width: Array) -> _Sections:
     """Return the axes of the sections: along the chord, along the span, and across both, to the upper side.
 
-    The span is the line of quarter chords less its part along the chord; that of a lone strip points to the side.
-    It runs to the left on both wings, so that the normal points to the upper side on both.
+    The span is the line of quarter chords minus the component of this line along the chord. If a wing has a single
+    strip, the span points to the side. On both wings the span runs to the left, so that the normal points to the
+    upper side.
     """
     ahead = case.chord / chord[..., None]
     outward = np.zeros_like(ahead)
@@ -200,7 +202,7 @@ def _sections(case: StripCase, chord: Array, width: Array) -> _Sections:
 
 
 def wing_ranges(case: StripCase, ahead: Array, width: Array) -> list[tuple[int, int]]:
-    """Return the first strip of each wing and the one after its last.
+    """Return for each wing its first strip and the strip after its last.
 
     Strips of a wing lie side by side, run one way, and are on one side of the body.
     """
@@ -213,7 +215,7 @@ def wing_ranges(case: StripCase, ahead: Array, width: Array) -> list[tuple[int, 
     other_side = (left[1:] != left[:-1]) & (not case.mirrored)
     starts = [0]
     for i in range(len(apart)):
-        # The step after one that begins a wing has no step of that wing before it to turn back from.
+        # The first step within a wing has no earlier step to turn back from.
         if apart[i] > _APART or other_side[i] or (back[i] and i != starts[-1]):
             starts.append(i + 1)
     return list(zip(starts, [*starts[1:], case.area.shape[1]], strict=True))

@@ -24,7 +24,7 @@ _COLUMNS = {
 _OPTIONAL = ("velocity", "rear_velocity")
 # Faults of one kind that are listed one by one.
 LISTED = 5
-# Cells of the table of times and strips for each row of the file; a full one has one.
+# Most cells of the table of times and strips for each row of the file; a table without gaps has one.
 _MOST_CELLS = 100
 
 
@@ -46,7 +46,7 @@ class StripTable(NamedTuple):
 
 
 def check_columns(faults: FaultList, sheet: Sheet, needed: Iterable[str], known: Iterable[str]) -> bool:
-    """Note columns that are missing, unknown or named twice; return whether there are none."""
+    """Note columns that are missing, unknown or named twice; return True if there are none."""
     before = len(faults.faults)
     where = f"{sheet.file} row {sheet.header_row}"
     known = list(known)

@@ -24,10 +24,10 @@ from wingbeat.second_opinion.vortex_lattice import code_version, fly_lattice
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
 
-ATTACHED = math.radians(15.0)  # beyond it no attached flow can be expected, and a lattice knows no other
+ATTACHED = math.radians(15.0)  # flow beyond it is probably not attached, but a lattice has only attached flow
 # Each term of our loads alone, and both together: (unsteady, inflow).
 TERMS = (("none", "none"), ("thin-aerofoil", "none"), ("none", "momentum"), ("thin-aerofoil", "momentum"))
-_FINE = 3600  # to which share of a beat a lag is resolved
+_FINE = 3600  # steps of a beat, to which a lag is resolved
 _SMALL = 1e-3  # of the weight: a mean force below it has no ratio
 
 

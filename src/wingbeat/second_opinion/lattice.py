@@ -96,7 +96,7 @@ def panel_velocities(
     frequencies = np.fft.rfftfreq(len(corners), step)
     spectrum = np.fft.rfft(corners, axis=0) * (2j * np.pi * frequencies[:, None, None, None])
     if len(corners) % 2 == 0:
-        spectrum[-1] = 0.0  # a wave of two samples has no slope at them
+        spectrum[-1] = 0.0  # a wave with a period of two samples has zero slope at the samples
     rates = np.fft.irfft(spectrum, len(corners), axis=0)
     chord, chord_rate = (_mean_of_neighbours(a[:, 1:] - a[:, :-1], 2) for a in (corners, rates))
     span = _mean_of_neighbours(corners[:, :, 1:] - corners[:, :, :-1], 1)

@@ -48,7 +48,7 @@ class Motion:
         from scipy.interpolate import CubicHermiteSpline
 
         time = dataset["phase"].values / wingbeat.frequency
-        # Values and slopes are both in the file: the cubics between the samples meet both.
+        # The file has values and slopes; the cubics between the samples match both.
         splines = {
             name: CubicHermiteSpline(time, dataset[name].values, dataset[rate].values)
             for name, rate in (_PLACES | _RATES).items()

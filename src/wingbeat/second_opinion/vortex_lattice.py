@@ -1,10 +1,10 @@
 """PteraSoftware's unsteady ring vortex lattice, fed with the corners of panels at every step.
 
-Its own movements are sums of sines of the angles of a wing's axes, and no wing here moves like that: ours flap,
-pitch, twist, fold and sweep, change span, and ride on a body that heaves and pitches. So we build the lattice of
-each step here, with subclasses of three of its classes: a wing whose mesh is given, a movement that is a list of
-airplanes, and a solver that reports progress. Its geometry axes are aft, right and up; half a turn about the
-third converts them to ours.
+PteraSoftware's own movements are sums of sines of the angles of a wing's axes. They cannot describe our wings,
+which flap, pitch, twist, fold and sweep, change span, and ride on a body that heaves and pitches. So we build the
+lattice of each step here, with subclasses of three PteraSoftware classes: a wing whose mesh is given, a movement
+that is a list of airplanes, and a solver that reports progress. PteraSoftware's geometry axes are aft, right and
+up; half a turn about the up axis converts them to ours.
 """
 
 from __future__ import annotations

@@ -30,8 +30,8 @@ class Score:
     measurement : as read.
     speeds : the flown speeds to which it applies [m/s]; none for the speed of minimum power.
     predicted : lowest and highest prediction at these speeds; None if none is certified.
-    ratio : lowest and highest ratio of prediction to the middle of the measured values; None if there is none, or
-        for the speed of minimum power.
+    ratio : lowest and highest ratio of prediction to the middle of the measured values; None without a prediction,
+        or for the speed of minimum power.
     agrees : whether every prediction is within the measured range or outside it by at most the factor in `AGREES`;
         no factor applies to a range that begins at 0, because its upper end is a limit. The speed of minimum power
         may be outside by 3 m/s. None if no flight is certified.
@@ -49,7 +49,7 @@ class Score:
 def compared(prediction: Prediction) -> list[Score]:
     """Return a score for each measurement that can be compared.
 
-    A measurement of muscle is left out where the model has none.
+    A measurement of muscle is left out if the model has no muscle.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def compared(prediction: Prediction) -> list[Score]:
 
 
 def _is_known(prediction: Prediction, quantity: str) -> bool:
-    """Return whether the model gives the quantity; also true if no flight is certified to show it."""
+    """Return whether the model gives the quantity; True also if no flight is certified."""
     flown = [one for one in prediction.flown if one.values]
     return not flown or any(quantity in one.values for one in flown)
 

@@ -62,7 +62,8 @@ class MeasuredFlights:
     Attributes
     ----------
     species : name of a built-in species, or of a species file beside this one.
-    speeds : speeds to fly it at [m/s], increasing; they include those of measurements at one speed.
+    speeds : speeds at which to fly the species [m/s], increasing; they include each speed of a measurement at a
+        single speed.
     measurements : the numbers to compare with.
     """
 

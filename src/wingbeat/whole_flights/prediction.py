@@ -138,7 +138,7 @@ def predict_flights(
     draws : number of draws of the animal's numbers at each speed; 0 for no band.
     seed : of starts and draws.
     processes : Python processes that share the draws.
-    progress : called with (flights and draws done, all).
+    progress : called with (flights and draws done, flights and draws in all).
 
     Raises
     ------

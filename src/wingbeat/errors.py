@@ -50,11 +50,11 @@ class ClusterError(WingbeatError):
 
 
 class ForkError(WingbeatError, RuntimeError):
-    """A forked process cannot run JAX if its parent has used JAX; the message says how to start one that can."""
+    """A forked process cannot run JAX if its parent has used JAX; the message says what to do instead."""
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or two have died on the same work; the message says how."""
+    """A worker process cannot be started, or two have died on the same work; the message says which."""
 
 
 def install_extra(extra: str) -> str:

@@ -102,7 +102,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """
     beside: Path | None = None
     try:
-        # A link keeps pointing where it pointed: the file behind it is what gets replaced.
+        # A link stays a link: the file that it points to is replaced.
         target = Path(os.path.realpath(path))
         if target.exists() and not target.is_file():
             kind = "a folder" if target.is_dir() else "not a plain file"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
 _CHORD_AND_TWIST = ("chord_retraction", "twist_mean")
-# Records name these only if they are on, and species only if they are given.
+# Records name these laws only if they are on; species name them only if the file gives them.
 NAMED_IF_ON = ("tail_tilt", *_CHORD_AND_TWIST, "sweep_harmonics", "chord_harmonics", "twist_harmonics")
 _OPTIONAL = ("pitch_phase", "downstroke_fraction", *_SWEEP, "stroke_plane_tilt", "tail_tilt", *_CHORD_AND_TWIST)
 
@@ -54,8 +54,8 @@ class Wingbeat:
     span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
     chord_retraction : share of the chord lost at mid-upstroke, 0 to below 1. Only the chord that meets the air
         shrinks; the wing's mass stays distributed over the full chord, and the quarter-chord line does not move.
-    twist_mean : angle at the tip that is added to the pitch there, and elsewhere in proportion to the span
-        fraction [rad].
+    twist_mean : angle that is added to the pitch at the tip; elsewhere, this angle times the span fraction is added
+        [rad].
     sweep_harmonics : cosine and sine of order 2, of order 3 and so on [rad].
     chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord over the full chord.
     twist_harmonics : cosine and sine of order 1, 2 and so on, of the angle whose mean is `twist_mean` [rad].

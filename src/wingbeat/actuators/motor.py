@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class Motor:
     """A motor with brushes, or a brushless one with its controller, that flaps both wings; it does not pitch them.
 
-    For two motors, one for each wing, give twice the rotor inertia and the no-load current, the same torque
-    constant, and half of the resistance. Torques and currents are then sums of both motors.
+    For two motors, one for each wing, give the same torque constant, half of the resistance, twice the rotor
+    inertia and twice the no-load current. Torques and currents are then sums of both motors.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class MotorState(NamedTuple):
     torque : that turns gear and rotor, without friction [N m].
     current : [A].
     voltage : at its terminals [V].
-    power : electrical power, negative where it returns some [W].
+    power : electrical power, negative where the motor returns power [W].
     """
 
     speed: Series
@@ -86,10 +86,10 @@ class MotorState(NamedTuple):
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
     """Return the state of the motor while it gives the flap hinges a torque at a flap rate.
 
-    Equations: ``omega = N rate``, ``torque = load / N + J omega'`` with the gear's loss added to the load while
-    the motor drives, and subtracted from it while the wings drive the motor, ``i = torque/kt + sign(omega) i0``,
-    ``v = R i + kt omega``, ``P = v i``. Behind a crank, the speed is ``N 2 pi f``, the load is the
-    flap hinges' power over the crank's speed, and the rotor's inertia has no effect.
+    Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``,
+    ``v = R i + kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings,
+    and subtracted from the load while the wings drive the motor. Behind a crank, the speed is ``N 2 pi f``, the
+    load is the flap hinges' power over the crank's speed, and the rotor's inertia has no effect.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ MUSCLE_DENSITY = 1060.0
 # Largest eccentric force, over isometric force, and the steepness of its rise: Alexander 1997, doi
 # 10.1006/jtbi.1996.0262, as implemented by others.
 _LARGEST, _STEEPNESS = 1.8, 7.56
-# Beyond this share of the largest speed the isometric force that a torque needs goes on along its tangent.
+# Beyond this share of the largest speed the isometric force that a torque needs continues along its tangent.
 _LAST_SHARE = 0.95
 
 
@@ -144,8 +144,8 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
     """Return the metabolic power of elevators and of depressors [W]; only the positive part counts.
 
     Equation: ``T omega_max Phi(q)``, with T the isometric torque of the active fibres and omega_max the flap rate
-    at which they exert none. The elevators exert upward torques, and the depressors downward ones; the other muscle
-    rests, and its value is negative. The power of the rest of the body is not included.
+    at which they exert no torque. The elevators exert upward torques, and the depressors downward ones. The muscle
+    that does not exert the torque rests; its value is negative. The power of the rest of the body is not included.
 
     Parameters
     ----------

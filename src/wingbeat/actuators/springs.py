@@ -55,7 +55,7 @@ class Driven(NamedTuple):
     Attributes
     ----------
     torque : up positive [N m].
-    rate : of its own angle, referred to the flap angle [rad/s].
+    rate : of the actuator's angle, converted to an angle of the flap hinge [rad/s].
     acceleration : [rad/s2].
     """
 
@@ -93,8 +93,9 @@ def spring_torque(stiffness: Any, flap: Series, rest_angle: Any) -> Series:
 def actuated(springs: Springs, flap: Series, rate: Series, torque: Series, period: Any) -> Driven:
     """Return what the actuators of the flap hinges must do with these springs.
 
-    Equations: the actuators give the torque that the springs beside them do not. All of it passes through the
-    springs in series, so that the actuators' angle is ahead of the flap angle by ``compliance * torque``.
+    Equations: the actuators give the torque that the springs beside them do not give. All of this torque passes
+    through the springs in series, so that the actuators' angle is ahead of the flap angle by
+    ``compliance * torque``.
 
     Parameters
     ----------

@@ -247,9 +247,9 @@ def FeatheredFlapping(extension: str = "mirrored", blend_width_deg: float = 1.0)
 def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> CamberedCoefficients:
     """Return a bat's wing of aspect ratio 6: a thin plate with the measured camber of bats; the rest is a guess.
 
-    We found no readable polar of a bat's wing. Two things are measured: the camber of 12 species, 6.5 to 9 % of the
-    chord, which gives the angle of zero lift, and the lift slope of thin plates. `WING_ESTIMATES` marks every other
-    number as a guess, with a wide interval. The model ignores that a compliant wing stalls later.
+    We found no readable polar of a bat's wing. Two things are measured: the lift slope of thin plates, and the
+    camber of 12 species, 6.5 to 9 % of the chord. The camber gives the angle of zero lift. `WING_ESTIMATES` marks
+    every other number as a guess, with a wide interval. The model ignores that a compliant wing stalls later.
 
     Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J. Aircraft
     37:825, read off a figure.

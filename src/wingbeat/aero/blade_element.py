@@ -61,11 +61,13 @@ class BladeElement:
     unsteady : "thin-aerofoil" adds rotation, added mass and the couples of a thin aerofoil
         (`wingbeat.aero.unsteady`); "none", as in Su et al., leaves them out.
     inflow : "momentum" adds the induced flow of wings that carry the weight (`wingbeat.aero.inflow`) and uses
-        sectional coefficients. Coefficients of a finite wing are converted to sectional ones. "none" leaves it out.
+        sectional coefficients. Coefficients of a finite wing are converted to sectional ones. "none" leaves the
+        induced flow out.
     induced_factor : induced power divided by that of an ideal disc, a ratio; 1.2 after Pennycuick 2008.
     hand : coefficients of the strips outside `hand_from`, given like `coefficients`. Then `coefficients` are those
         of the arm. "none" uses `coefficients` from root to tip.
-    hand_from : span fraction where the hand begins. A strip whose centre lies at or inside it belongs to the arm.
+    hand_from : span fraction where the hand begins. A strip whose centre lies at or inside this fraction belongs to
+        the arm.
     upstroke_factor : factor from 0 to 1 on lift and drag of the coefficients where air meets the wing from above.
         It is below 1 if feathers separate and let air through. The wake of a pigeon in slow flight shows vortices
         of the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), as with a factor
@@ -265,7 +267,7 @@ def _unit_forces(
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
     alpha = _wrapped(pitch - atan2(normal_speed, chord_speed))
     c_l, c_d = _coefficients(kernel, alpha)
-    planar, share = speed, speed  # V^2 over the planar speed: what times a velocity in the plane is a force
+    planar, share = speed, speed  # V^2 over the planar speed; times a velocity in the plane, it is a force
     if span_speed:
         whole = squared + span_speed[0] * span_speed[0]
         share = jnp.where(moving, whole / jnp.where(moving, planar, 1.0), 0.0)

@@ -49,7 +49,7 @@ def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the same for the odd polynomial that has `jet` at `width`, after it is divided by the distance."""
+    """Return the same for the odd polynomial that has `jet` at `width`, divided by the distance."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
         (15 * f - 7 * s + k) / (8 * width),

@@ -10,8 +10,8 @@ mirrored
 signed-drag
     as mirrored, but C_D is the formula at the signed angle for -90 < a < 0.
 signed
-    as signed-drag, and C_L (and x_cp of a table) likewise, unless its formula has an exponential term, which
-    diverges at negative angles.
+    as signed-drag, and C_L (and x_cp of a table) is also the formula at the signed angle for -90 < a < 0. An
+    exception is a formula with an exponential term, which diverges at negative angles: it stays mirrored.
 clipped-drag
     as mirrored, but C_D is the formula's value at 0 for every a < 0.
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 INFLOWS = ("none", "momentum")
 # Newton's steps; outside the vortex ring 12 leave less than 1e-12 m/s to gain.
 _STEPS = 16
-# Keeps the direction of no force, and the slope at rest without induced flow, from dividing by 0.
+# Avoids a division by 0 in the direction of a zero force, and in the slope at rest without induced flow.
 _TINY = 1e-30
 
 

@@ -22,7 +22,7 @@ KIND = "wing coefficients"
 MAX_BYTES = 1 << 16
 _WAVE = ("constant", "amplitude", "rate", "phase_deg")
 _DECAY = ("decay_amplitude", "decay_rate")
-# The tables of terms that a file may have: what their terms are, and the names of these.
+# The tables of terms that a file may have: the type and the names of their terms.
 _TABLES: dict[str, tuple[type[FormulaTerms] | type[CentreTerms] | type[CamberedTerms], tuple[str, ...]]] = {
     "lift": (FormulaTerms, (*_WAVE, *_DECAY)),
     "drag": (FormulaTerms, (*_WAVE, *_DECAY)),
@@ -36,9 +36,9 @@ _FIT = ("free", "covariance", "r_squared", "aicc", "points")
 
 
 def read_model(path: str | Path) -> Fitted:
-    """Read a model file with the covariance of its terms; a curve without one has an empty covariance.
+    """Read a model file with the covariance of its terms; where the file states none, the covariance is empty.
 
-    A file with the table ``[wing]`` is that of a cambered wing.
+    A file with the table ``[wing]`` describes a cambered wing.
 
     Raises
     ------
@@ -186,7 +186,8 @@ def _covariance(
     matrix = np.array(rows, dtype=np.float64).reshape(size, size)
     spread = np.sqrt(np.maximum(np.diag(matrix), 0.0))
     scale = np.outer(spread, spread)
-    # The correlations, since variances of a phase in degrees and of a rate differ by many powers of ten.
+    # Check the correlations, because the variances of a phase in degrees and of a rate differ by many powers of
+    # ten.
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
     invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
     if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):

@@ -20,8 +20,8 @@ from wingbeat.errors import Fault, InvalidInputError
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Spline
 
-# Knots of the tables over the whole turn: a spline through them is within 1e-6 of the formulas of the library,
-# but for the blends, where it is within 1e-4.
+# Knots of the tables over the whole turn: a spline through them is within 1e-6 of the formulas of the library, and
+# within 1e-4 in the blends.
 _CELLS = 1440
 _PASSES = 10
 
@@ -87,7 +87,7 @@ def _wing_angles(model: CoefficientModel, aspect_ratio: float, section: np.ndarr
         rule = f"has no sectional coefficients: its lift rises too fast for an aspect ratio of {aspect_ratio:g}"
         raise InvalidInputError([Fault("aero.coefficients", model.name, rule, "check aspect_ratio")])
     alpha = np.interp(section, there, fine, period=2 * math.pi)
-    # np.interp leaves angles in [-pi, pi] of a period apart; each pass divides what is left by 3 or more.
+    # np.interp may return an angle that is off by a whole turn. Each pass divides the remaining error by 3 or more.
     alpha = section + np.remainder(alpha - section + math.pi, 2 * math.pi) - math.pi
     for _ in range(_PASSES):
         alpha = section + turned(alpha)

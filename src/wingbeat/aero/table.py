@@ -149,7 +149,7 @@ class TableCoefficients(CoefficientModel):
 
     def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this table."""
-        # Slow to import, which the formulas need not pay for.
+        # Imported here, because SciPy is slow to import and the formulas do not need it.
         from scipy.interpolate import CubicSpline
 
         knots = np.deg2rad(self.alpha_deg)

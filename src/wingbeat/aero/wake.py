@@ -1,13 +1,13 @@
 """The lag of the wake: how the vorticity that a strip has shed reduces the downwash at its chord.
 
 When the circulation of a strip changes, the opposite circulation leaves at the trailing edge, drifts away with
-the air and slows the change. On a thin aerofoil the lift after a step of the downwash w at three quarters of the
-chord is that of ``w phi(s)``, s in semi-chords travelled, with Wagner's function in the form of Jones 1940 (NACA
-Report 681): ``phi = 1 - 0.165 exp(-0.0455 s) - 0.335 exp(-0.3 s)``. A history of steps adds up (Duhamel; Leishman
-2006, Principles of Helicopter Aerodynamics, chapter 8): the lift is that of ``w - X``, and the wake's own
-downwash is ``X = sum A_i (w - z_i)``, where z_i follows w with ``dz_i/ds = b_i (w - z_i)``. For a sine this is
-Theodorsen's ``C(k) = 1 - sum A_i i k / (b_i + i k)`` (1935, NACA Report 496), within 0.02 of his Bessel
-functions.
+the air and slows the change. On a thin aerofoil, let the downwash w at three quarters of the chord rise in a step.
+After s semi-chords of travel, the lift is that of the downwash ``w phi(s)``. Here phi is Wagner's function in the
+form of Jones 1940 (NACA Report 681): ``phi = 1 - 0.165 exp(-0.0455 s) - 0.335 exp(-0.3 s)``. The effects of many
+steps add up (Duhamel; Leishman 2006, Principles of Helicopter Aerodynamics, chapter 8): the lift is that of
+``w - X``. The downwash of the wake itself is ``X = sum A_i (w - z_i)``, where z_i follows w with
+``dz_i/ds = b_i (w - z_i)``. For a sine this gives ``C(k) = 1 - sum A_i i k / (b_i + i k)``, within 0.02 of
+Theodorsen's C(k), which contains Bessel functions (1935, NACA Report 496).
 
 The wake moves the air across the chord, and the strip meets this air as any other wind: its polar, attached or
 stalled, is read at the angle of attack in the moved air, and its forces turn with that air. With ``C_L = 2
@@ -54,9 +54,10 @@ def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
 def shed_downwash(kernel: Kernel, chord: Array, chord_speed: Array, normal_speed: Array, turning: Array) -> Array:
     """Return the downwash that determines a strip's circulation [m/s], of the arrays' shape.
 
-    When it changes, the strip sheds circulation. It is the downwash at three quarters of the chord, ``-v_n + c
-    omega/2``. Past the angle a_s of largest lift, circulation follows lift and not the angle: there ``V sin(a_s)
-    C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. It vanishes, like the lift, for a plate broadside to the air.
+    When it changes, the strip sheds circulation. Below the angle a_s of largest lift, it is the downwash at three
+    quarters of the chord, ``-v_n + c omega/2``. Past a_s, circulation follows lift and not the angle: there ``V
+    sin(a_s) C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. The replacement vanishes, like the lift, for a plate broadside
+    to the air.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def _beyond(kernel: Kernel, alpha: Array) -> tuple[NDArray[np.bool_], NDArray[np
 
 
 def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
-    """Return the downwash X of the shed wake [m/s], shape (n, strips); ``w - X`` remains for the polar.
+    """Return the downwash X of the shed wake [m/s], shape (n, strips); the polar sees ``w - X``.
 
     Between two samples w is taken as linear in s, and the states are integrated exactly. In a motion that repeats,
     the states repeat too; any other motion starts with the wake of steady flight, X = 0.
@@ -101,8 +102,8 @@ def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
     Parameters
     ----------
     downwash : w of `shed_downwash` at each time [m/s], shape (n, strips).
-    travelled : semi-chords from each time to the next, shape (n - 1, strips); where the motion repeats, (n, strips)
-        with those from the last time to the first of the next beat.
+    travelled : semi-chords from each time to the next, shape (n - 1, strips). In a motion that repeats, shape (n,
+        strips): the last row leads from the last time to the first time of the next beat.
     repeats : whether the motion repeats.
 
     >>> step = np.array([[0.0], [1.0], [1.0]])  # a step of w at once, then 5 semi-chords
@@ -138,6 +139,6 @@ def _repeating(fading: Array, pushes: Array, at_rest: Array) -> Array:
     for fade, push in zip(fading, pushes, strict=True):
         held, gained = fade * held, fade * gained + push
     lost = 1 - held
-    # A strip that travels nowhere has no wake. Below the rounding of 1 the sum of its steps says nothing.
+    # A strip that does not travel has no wake. If `lost` is below the rounding error of 1, it is meaningless.
     moves = lost > 1e-9
     return np.where(moves, gained / np.where(moves, lost, 1.0), at_rest)

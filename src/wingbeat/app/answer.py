@@ -57,7 +57,7 @@ class Headline:
 
 
 def _message(answer: dict[str, Any]) -> str:
-    # Of a certified orbit the two statements say it already.
+    # For a certified orbit, the two statements already say this.
     parts = [] if answer["record"]["status"] == "converged" else [str(answer["record"]["message"])]
     if answer.get("from_file"):
         parts.append(f"From the file {answer['from_file']}; not solved here.")

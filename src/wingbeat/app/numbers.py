@@ -46,7 +46,7 @@ class Numbers:
     def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
         self._species, self._change = species, change
         self._scenario = scenario
-        # A species without a part, such as a tail, has empty fields for one.
+        # If a species lacks a part, such as a tail, the part's fields are empty.
         self._numbers = {key.path: Number((), key.unit) for key in _OF_PARTS} | species.numbers
         # Parameters that the species holds fixed, and that bounds make free.
         self._freed = [name for name in (TAIL_TILT,) if name not in species.bounds]

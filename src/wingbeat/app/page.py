@@ -55,11 +55,11 @@ class Page:
 
     def _come(self) -> None:
         """Solve the scenario in the address once a browser has connected; fetching the page starts nothing."""
-        if self._asked:  # the socket was lost, and is back
+        if self._asked:  # the socket was lost, and has connected again
             return
         self._asked = True
         self._session.ask(whole=True)
-        if self._refusals:  # told after it is asked, for asking takes away what was told before
+        if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
 
     @property

@@ -162,7 +162,7 @@ def _built_in(name: str) -> Species:
 def species_in(scenario: Scenario) -> Species:
     """Return the species with the numbers of its file and of its model, before the user's changes.
 
-    A species of unknown kind gets none from the model; `problem_of` then refuses a model that needs the kind.
+    A species of unknown kind gets no numbers from the model; `problem_of` then refuses a model that needs the kind.
     """
     own = own_species(scenario)
     return model_of(scenario.model, own).species(own) if own.kind else own

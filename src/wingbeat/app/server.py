@@ -104,11 +104,11 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
     InvalidInputError : the address cannot be opened.
     KeyboardInterrupt : it was interrupted.
     """
-    host = host.strip() or _LOOPBACK  # for the system an empty one would be every address there is
+    host = host.strip() or _LOOPBACK  # to the system, an empty host means every address
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         listening = socket.create_server((host, port), family=family)
-    except (OSError, TypeError, UnicodeError, ValueError) as error:  # the latter three of names that none can have
+    except (OSError, TypeError, UnicodeError, ValueError) as error:  # the last three: impossible host names
         rule = f"cannot be opened: {system_reason(error)}"
         raise InvalidInputError([Fault("--host, --port", f"{host}:{port}", rule, "try --port 0")]) from None
     house = House(processes)
@@ -122,7 +122,8 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
             _Server(configure(house, host)).run(sockets=[listening])
         finally:
             house.close()
-    # Only a signal ends the server. Now and then, on a busy machine, the one raised again is lost.
+    # Only a signal ends the server, which then raises this signal again. On a busy machine the signal is sometimes
+    # lost.
     raise KeyboardInterrupt
 
 
@@ -137,7 +138,7 @@ def _announce(host: str, listening: socket.socket) -> str:
         where = "every address of this machine" if shown != host else f"{host}, a public address"
         print(
             f"warning: the explorer listens on {where}. Anyone who reaches it can use this machine's processors: "
-            "there are no passwords. Leave --host out to keep it to this machine.",
+            "there are no passwords. Leave --host out, and only this machine can reach it.",
             file=sys.stderr,
             flush=True,
         )

@@ -15,7 +15,7 @@ from wingbeat.workers.fair_pool import Event, FairPool, Job
 
 # Seconds without a change after which an answer that was continued is searched for anew, from every start.
 _CALM = 0.35
-# A continuation that takes no longer is worth waiting for while the slider moves on.
+# If a continuation takes at most this time, its result is awaited while the slider moves on.
 _BRIEF = 0.4
 # A continued orbit must be better by this share before the page says so.
 _BETTER = 1e-4
@@ -108,7 +108,7 @@ class Session:
             return False
         near = None if whole or self.answer is None else self.answer.get("near")
         if self._brief_since is not None and self._loop.time() - self._brief_since < _BRIEF and not whole:
-            self._again = True  # it ends in a blink, and its answer is on the way to this one
+            self._again = True  # the running search ends soon, and this one can continue from its result
             return True
         self._submit(near)
         return True

@@ -11,7 +11,8 @@ from nicegui.elements.mixins.text_element import TextElement
 
 from wingbeat.app.formatting import from_shown, not_a_number
 
-# What is being typed is kept where the page is drawn from, or the next change of anything would undo it.
+# The typed text is stored in the properties from which the page is drawn; otherwise the next change of any element
+# would undo it.
 _KEEP = "(event) => { element.props.value = event.target.value; }"
 # The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.
 _EMIT = "(event) => { element.props.value = event.target.value; emit(event.target.value); }"

@@ -84,7 +84,7 @@ def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: in
 def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], beat: FilmedBeat, json: bool) -> None:
     """Print velocities, body pitch and powers of a flight whose body moves as filmed, and what the model lacks.
 
-    It lacks the force and moment that its air loads would have to add to give the filmed motion.
+    The model lacks the force and moment that must be added to its air loads to give the filmed motion.
 
     Parameters
     ----------

@@ -69,7 +69,8 @@ def curve(
     """Find the curves of power and frequency against speed, their branches and their characteristic speeds.
 
     Every optimum found is continued to the next lower and higher speeds. A mark on the curve shows where the best
-    orbit changes branch or reaches other bounds. Exit code 0: some speeds certified, gaps reported. 3: none.
+    orbit changes branch or reaches other bounds.
+    Exit code 0: some speeds are certified, and gaps are reported. 3: no speed is certified.
 
     Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
     wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
     from wingbeat.results.spread import Spread
 
-# Number of other films of the same beat that are tried for an error bar, which is then good to an eighth of itself.
+# Number of random draws of the film that are solved for an error bar, which is then accurate to an eighth.
 DRAWS = 32
 Kinematics = Annotated[
     Path | None,

@@ -51,8 +51,8 @@ def paper(
     """Test Su et al. (arXiv 2302.09602): draw figures 1 to 8, judge every claim, and save the orbits behind them.
 
     `wingbeat paper assumptions` samples the assumptions that Su et al. leave open, and counts the sets under which
-    each claim holds. An interrupted run resumes. Finished pieces lie in the subfolder `pieces`. Other machines can
-    run pieces with --only; copy theirs there too. Page, table and figure cover the pieces in that folder.
+    each claim holds. An interrupted run resumes. Finished pieces are in the subfolder `pieces`. Other machines can
+    run pieces with --only; copy their pieces into this subfolder. Page, table and figure cover all pieces there.
 
     Examples: wingbeat paper --quick -o paper; wingbeat paper assumptions --sets 2000 --only 1 -o assumptions
     """

@@ -42,8 +42,8 @@ def polar(
 ) -> None:
     """Print or draw lift, drag, moment and centre of pressure of a coefficient model.
 
-    The columns are alpha_deg, c_l, c_d, c_n, c_m (nose-up positive) and x_cp (in chords from the leading
-    edge); the last two are empty where the model has no centre of pressure.
+    The columns are alpha_deg, c_l, c_d, c_n, c_m (nose-up positive) and x_cp (in chords from the leading edge). If
+    the model has no centre of pressure, c_m and x_cp are empty.
 
     Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. Models of animal wings: feathered,
     feathered-revolving, feathered-flapping, membrane; --extension has no effect on these. A table has the columns

@@ -39,7 +39,7 @@ def print_orbit(record: dict[str, Any], console: Console) -> None:
     """Print an orbit record: closure, plausibility, every group of its numbers, and warnings."""
     if record.get("status") == "converged":
         said = statements(record)
-        # The green word stands where both statements hold; each is its own.
+        # The words are green only if both statements hold; each statement is printed on its own.
         _print_status("certified", "green" if said.good else "", said.closes, console)
         _print_status("plausible", "green" if said.good else "yellow", said.plausible, console)
     else:

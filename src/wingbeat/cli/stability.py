@@ -62,7 +62,7 @@ def stability(
             consume_multiple=True,
             negative=(),
             help="Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ... Default: "
-            "those free ones whose jumps harmonics can undo.",
+            "the free parameters whose jumps harmonics can undo.",
         ),
     ] = None,
     height: Annotated[bool, Parameter(negative="", help="Make the height z part of the state.")] = False,
@@ -78,10 +78,10 @@ def stability(
 ) -> int:
     """Find what grows and what decays when an orbit is disturbed, from beat to beat.
 
-    It prints the modes of body pitch, velocity and pitch rate. --json prints the linear maps from one top of the
-    stroke to the next: A of the state, B of the inputs, G of a gust that is constant for one beat. With several
-    speeds it prints a list, in which a speed without a certified orbit has its status and message.
-    Exit code 0: some speeds certified. 3: none.
+    The command prints the modes of body pitch, velocity and pitch rate. --json prints the linear maps from one top
+    of the stroke to the next: A of the state, B of the inputs, G of a gust that is constant for one beat. With
+    several speeds it prints a list; there, a speed without a certified orbit has its status and message.
+    Exit code 0: some speeds are certified. 3: no speed is certified.
 
     Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;
     wingbeat stability pigeon --speed 4:20:2 --plot locus.png

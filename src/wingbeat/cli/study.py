@@ -63,7 +63,7 @@ def run(
         bool, Parameter(negative="", help="Exit with 0 even if points are not certified.")
     ] = False,
 ) -> int:
-    """Solve all points without a result, and keep every result in the store beside the file.
+    """Solve all points that have no result yet, and keep every result in the store beside the file.
 
     Ctrl-C waits one second, saves the points that finish in that time, and stops; run the study again to resume.
     Exit codes: 0 all points certified, 2 bad input, 3 some points not certified, 130 interrupted, 143 terminated.

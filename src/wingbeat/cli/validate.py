@@ -86,7 +86,7 @@ def validate(
 ) -> int:
     """Compute air loads on a measured motion, or an animal's whole flights, and compare them with measurements.
 
-    With a strip-motion case, or none, it computes the loads of every coefficient model.
+    With a strip-motion case, or if no case is named, the command computes the loads of every coefficient model.
 
     The rows of a coefficient model add terms step by step: no terms, then rotation and added mass, then the lag of
     the wake, each with and without momentum inflow. One row is recommended, by a rule that never sees the measured

@@ -23,7 +23,7 @@ Gust = Annotated[
 ]
 Turbulence = Annotated[
     str | None,
-    Parameter(help=f"Dryden turbulence 30 m above the ground: {', '.join(LEVELS)}. --wind-seed draws it."),
+    Parameter(help=f"Dryden turbulence 30 m above the ground: {', '.join(LEVELS)}. See --wind-seed."),
 ]
 WindSeed = Annotated[Whole, Parameter(help="Seed of the turbulence.")]
 

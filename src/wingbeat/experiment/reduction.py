@@ -18,7 +18,8 @@ LAST_SECONDS = 20.0
 # Repeats of one point: a positioning stage returns within a quarter degree, a stream within some per cent.
 SAME_ALPHA_DEG = 0.5
 SAME_REYNOLDS = 1.05
-# A ratio is no measurement if its denominator is as small as its own error, or too small beside the moment's error.
+# x_cp is a ratio with C_N in the denominator. It is left out if C_N is less than CENTRE_SIGNAL times its own error,
+# or less than CENTRE_FLOOR, because an error of the moment then has a large effect.
 CENTRE_SIGNAL = 5.0
 CENTRE_FLOOR = 0.02
 # Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.

@@ -23,7 +23,8 @@ from wingbeat.files import write_atomically
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0
-# Where a cambered wing acts like a plate: from 45 degrees on, as `Feathered`, or this far beyond the measurements.
+# A cambered wing acts like a plate from 45 degrees on, as `Feathered`, or from 20 degrees beyond the measurements,
+# whichever angle is larger.
 _PLATE_FROM_DEG, _JOIN_DEG = 45.0, 20.0
 
 

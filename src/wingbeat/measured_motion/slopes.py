@@ -102,7 +102,8 @@ def _bent(roughness: Array, product: Array, step: Array, bends: Array, stiffness
 def _stiffness(roughness: Array, product: Array, step: Array, bends: Array, kept: float) -> float:
     """Return the stiffness that generalised cross-validation chooses, for all series together."""
     count = len(step) + 1
-    # Eigenvalues of R^-1 Q'Q for equal steps, but for the corners; they count the numbers that a spline spends.
+    # Eigenvalues of R^-1 Q'Q for equal steps, except for the corners. They give the spline's effective number of
+    # parameters.
     angle = math.pi * np.arange(1, count - 1) / (count - 1)
     own = 3 * (2 - 2 * np.cos(angle)) ** 2 / (2 + np.cos(angle))
     best, least = 0.0, math.inf

@@ -101,7 +101,7 @@ def panel_velocities(
     chord, chord_rate = (_mean_of_neighbours(a[:, 1:] - a[:, :-1], 2) for a in (corners, rates))
     span = _mean_of_neighbours(corners[:, :, 1:] - corners[:, :, :-1], 1)
     axis = span / np.linalg.norm(span, axis=-1, keepdims=True)
-    # About the span, as far as the chord of the panel turns: the couple of a panel has no other part.
+    # Only the turning of the chord about the span, because the couple of a panel has no other component.
     turned = np.sum(np.cross(axis, chord) * chord_rate, axis=-1) / np.sum(chord * chord, axis=-1)
     centre = _mean_of_neighbours(_mean_of_neighbours(rates, 1), 2)
     return centre + np.array([velocity[0], 0.0, velocity[1]]), turned[..., None] * axis

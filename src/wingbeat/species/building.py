@@ -29,7 +29,7 @@ _RECORDS = {
 }
 _ARTICLES = {"tail": "a tail", "muscle": "a muscle", "motor": "a motor", "springs": "springs"}
 _OF_PARTS = {key.path: key for keys in PARTS.values() for key in keys}
-# A species that is not given these has no number of the name.
+# If a species is not given these numbers, it has none of them, not even as a default.
 UNNAMED_PATHS = (*_OF_PARTS, *(f"wingbeat.{name}" for name in NAMED_IF_ON))
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
@@ -76,7 +76,7 @@ def has_part(numbers: Mapping[str, Number], part: str) -> bool:
 
 
 def complete_parts(numbers: dict[str, Number]) -> None:
-    """Add defaults for the missing numbers of each optional part of which some number is given."""
+    """Add defaults for the missing numbers of each optional part, if some number of the part is given."""
     for part, keys in PARTS.items():
         if not has_part(numbers, part):
             continue

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from wingbeat.species_schema import Number
 
-# In the source of a number that a law gave outside its data: precedes the value and the range that it leaves.
+# In the source of a number that a law gave outside its data, this text precedes the value of the input and the
+# range of the data.
 OUTSIDE = "outside its data: "
 
 

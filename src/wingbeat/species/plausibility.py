@@ -20,7 +20,7 @@ JUDGED = (
 UNKNOWN = "nothing is known: the species file gives no range"
 _NO_LAW = "nothing is known: no law of robots was found"
 
-# Power of flight muscle in short maximal bursts [W/kg]: what no flight that goes on can exceed.
+# Power of flight muscle in short maximal bursts [W/kg]; sustained flight cannot exceed it.
 _MUSCLE = 460.0
 _MUSCLE_SOURCE = (
     "flight muscles give 360 to 460 W/kg in short maximal bursts, animals of 0.0002 to 5 kg "

@@ -54,7 +54,7 @@ class Species:
     vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
     free : the free parameters of the wingbeat.
     bounds : lowest and highest value of each free parameter, in SI units and radians.
-    guessed_bounds : those of `free` and of `path_bounds` whose bounds are a guess.
+    guessed_bounds : the names in `free` and in `path_bounds` whose bounds are a guess.
     path_bounds : limits along the whole path: ``body_pitch``, and ``flap`` of arm and hand [rad].
     reasons : the reason for each bound.
     numbers : every number by its path, with unit, source and plausible range.
@@ -190,7 +190,7 @@ class Species:
         return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
 
     def with_payload(self, payload: float) -> Species:
-        """Return this species carrying a load at its body's centre of mass: a heavier body; nothing else changes.
+        """Return this species with a load at the body's centre of mass; the body is heavier, nothing else changes.
 
         Parameters
         ----------

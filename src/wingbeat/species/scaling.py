@@ -1,7 +1,8 @@
 """Published laws that give a flying animal's numbers from its mass, wing span and wing area.
 
 Where we found no law, we scale one animal or robot by isometry, or guess; the source says which. Each law names the
-data it was fitted to. If an animal is outside their range, the number's source says so and the species warns.
+data it was fitted to. If an animal is outside the range of these data, the number's source says so and the species
+warns.
 """
 
 from __future__ import annotations

@@ -7,7 +7,8 @@ from typing import Any
 from wingbeat.errors import FaultList, FileError, suggest
 from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
-# The rule that a path which names no number breaks; a study tells it from a value that is refused.
+# The rule in the fault of a path that names no number; by it, a study distinguishes such a path from a refused
+# value.
 NO_SUCH_PATH = "no number has this path"
 # The whole mass is not among them: it follows from body and wings, and nothing changes unasked.
 _SETTABLE = {

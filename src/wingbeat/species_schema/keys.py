@@ -76,7 +76,7 @@ KEYS = (
     *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in FIRST_ORDER),
     *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
 )
-# Parts that a vehicle may lack: one without a part has none of its numbers.
+# Parts that a vehicle may lack; a vehicle without a part has none of the part's numbers.
 PARTS = {
     part: tuple(key for key in KEYS if key.path.startswith(f"vehicle.{part}."))
     for part in ("tail", "muscle", "motor", "springs")

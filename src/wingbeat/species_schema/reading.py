@@ -249,7 +249,7 @@ def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
 
 
 def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, float] | None:
-    """Return a pair of numbers in SI units, or None if it is not one."""
+    """Return a pair of numbers in SI units, or None if the value is not a pair."""
     if not has_shape("stations", pair) or not isinstance(pair, list) or len(pair) != 2:
         return None
     lowest, highest = (to_si(value, path) for value in pair)

@@ -67,8 +67,8 @@ class DaskEngine:
         self._name = uuid.uuid4().hex
         self._asked: dict[int, list[Unit]] = {}
         self._flying: dict[int, Future] = {}
-        # A Dask worker that dies takes along whatever it has: each of those batches goes once more without others
-        # beside it, and only one that loses its worker then is lost.
+        # If a Dask worker dies, all its batches fail. Each of them is sent once more, alone. A batch is lost only
+        # if its worker dies then, too.
         self._suspects: deque[int] = deque()
         self._alone: int | None = None
         self._done: queue.SimpleQueue[int] = queue.SimpleQueue()
@@ -130,7 +130,7 @@ class DaskEngine:
 
         try:
             return future.result(timeout=_FETCH)
-        except TimeoutError:  # whoever had the answer died just now: Dask has it done again
+        except TimeoutError:  # the worker that had the answer just died: Dask repeats the work
             self._watch(batch, future)
         except KilledWorker:
             if batch == self._alone:

@@ -10,7 +10,7 @@ from pathlib import Path
 from wingbeat.errors import FileError
 from wingbeat.studies.pages import whole_answers
 
-# Stands in the file's head, where `file` and we tell a store from another database: "wbst".
+# A mark in the file's head, by which the program `file` and we recognise a store: "wbst".
 APPLICATION = 0x77627374
 # Raised whenever the tables change.
 FORM = "2"

@@ -15,7 +15,7 @@ from wingbeat.studies.engine import Ended, Engine
 from wingbeat.studies.store import Store, Waiting
 from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
 
-# Seconds of work that make a batch: long beside what handing it out costs, short beside a user's patience.
+# Seconds of work in a batch: much longer than handing it out takes, but short for a waiting user.
 _BATCH_SECONDS = 1.5
 _MOST = 256
 # Processes that may die over a point, by how they ended, before the point is given up. A kill from outside
@@ -50,7 +50,7 @@ class Stop:
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Take SIGINT as a request to stop soon, a second SIGINT or SIGTERM to stop at once; `told` gets the level."""
+    """Take SIGINT as a request to stop soon; SIGTERM or a second SIGINT, to stop at once. `told` gets the level."""
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
@@ -181,7 +181,7 @@ def drive(
     progress: Progress | None = None,
     retry_failed: bool = False,
 ) -> Tally:
-    """Solve all points of a store without a result, and save the results of each batch at once.
+    """Solve all points of a store that have no result yet, and save the results of each batch as soon as it ends.
 
     Parameters
     ----------

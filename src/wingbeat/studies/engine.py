@@ -22,7 +22,8 @@ _ONE_THREAD = {
 }
 # After this many workers in a row that die before they are ready, no more are started: no point is to blame.
 _STARTS = 3
-# A worker that its driver cannot end ends itself after a silence of this many timeouts plus these seconds.
+# If the driver cannot end a worker, the worker ends itself after a silence of this many timeouts plus these
+# seconds.
 _BACKSTOP, _BACKSTOP_SECONDS = 2.0, 60.0
 
 

@@ -63,7 +63,7 @@ def only_one(store: Path) -> Iterator[None]:
             os.close(descriptor)
             fix = "wait for it, or look at it with `wingbeat study status`"
             raise FileError(f"another process is running the study of {str(store)!r}; {fix}") from None
-        # Whoever ended just now took the name away between our opening it and our locking it.
+        # A process that just ended may have deleted the file between our opening and our locking of it.
         with suppress(OSError):
             if os.path.samestat(os.fstat(descriptor), os.stat(path)):
                 break

@@ -60,7 +60,8 @@ def _rows(path: Path) -> Iterator[tuple[Any, ...]]:
                 held = whole[page * PAGE : (page + 1) * PAGE]
                 yield from _cells(held, whole, {})
             for _, held in logged:
-                # A row goes on where the log or, before it was changed there, the database says.
+                # A row may continue on a page of the log or, if that page is newer than the row, on the page of the
+                # database.
                 yield from _cells(held, whole, latest)
                 yield from _cells(held, whole, {})
 

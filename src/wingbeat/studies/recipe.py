@@ -23,7 +23,7 @@ from wingbeat.species.settings import NO_SUCH_PATH, settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken
 from wingbeat.studies.objective import from_inputs
 
-# Every point says these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
+# Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
 # The numbers and words of the coefficients, and those of the air loads, in the order of their constructors.
 OF_COEFFICIENTS = ("extension", "blend_width_deg")

@@ -44,7 +44,7 @@ def check_files(path: Path, mine: bool) -> None:
     FileError : the store is damaged, or cannot be read.
     """
     fault = log_fault(path)
-    if fault is not None and not mine:  # or a driver was just writing: look again once there is none
+    if fault is not None and not mine:  # perhaps a driver was just writing: look again if no driver is running
         fault = None if is_locked(path) else log_fault(path)
     try:
         with open(path, "rb") as file:
@@ -54,7 +54,8 @@ def check_files(path: Path, mine: bool) -> None:
         raise FileError(f"cannot open the store {str(path)!r}: {reason}; check its permissions") from None
     if fault is None and head.startswith(_MAGIC):
         alike = all(head[at : at + len(held)] == held for at, held in _HEAD.items())
-        # 1 without a log, 2 with one; SQLite cannot write, or not read, what says anything else.
+        # Both format versions are 1 without a log and 2 with a log; other values keep SQLite from writing or
+        # reading the file.
         alike = alike and {*head[18:20]} <= {1, 2}
         # Databases of other programs may differ; a store is known by its mark, or by an answer in it.
         if not alike and (head[68:72] == APPLICATION.to_bytes(4, "big") or whole_answers(path)):

@@ -244,7 +244,7 @@ class Store:
             for number, group in groupby(rows, key=lambda row: row[0]):
                 found = list(group)
                 wanted = [i for i, row in enumerate(found) if row[4]]
-                # Of a chain, those after the last one wanted are not needed.
+                # In a chain, the points after the last wanted one are not needed.
                 tasks = tuple(Task(row[1], json.loads(row[2])) for row in found[: wanted[-1] + 1])
                 yield Waiting(Unit(self._inputs(found[0][3]), tasks), tuple(found[i][1] for i in wanted))
                 last = number

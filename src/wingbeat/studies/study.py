@@ -88,7 +88,7 @@ class Study:
         progress: Progress | None = None,
         dask: str | Cluster | None = None,
     ) -> Summary:
-        """Solve all points without a result; every result is saved at once.
+        """Solve all points that have no result yet; each result is saved as soon as it is known.
 
         The first Ctrl-C waits one second for batches that end, and saves them; a second one stops at once. The next
         run resumes.
@@ -143,7 +143,7 @@ class Study:
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
     ) -> Tally:
-        """Solve all points without a result, with your own engine.
+        """Solve all points that have no result yet, with your own engine.
 
         Parameters
         ----------

@@ -66,7 +66,6 @@ def animate(
         figure.draw_without_rendering()
         figure.set_layout_engine("none")  # else every frame is laid out anew
         writer = PillowWriter(fps=round(_FRAMES / _SECONDS))
-        # Pillow names the kind of file by its suffix, which the file beside the wanted one lacks.
         with writer.saving(figure, beside, dpi=110):
             for frame in range(_FRAMES):
                 for panel in panels:

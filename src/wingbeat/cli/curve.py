@@ -18,11 +18,13 @@ from wingbeat.cli.options import (
     Output,
     Seed,
     Settings,
+    Stable,
     Whole,
     WithinPlausible,
     check_files,
     check_outputs,
     check_result,
+    with_stability,
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
@@ -52,6 +54,7 @@ def curve(
         ),
     ] = None,
     subject_to: Limits = None,
+    stable: Stable = False,
     power_limit: Annotated[
         float | None,
         Parameter(help="Sustainable power [W]; the slowest and the fastest speed within this power are printed."),
@@ -87,7 +90,7 @@ def curve(
         climb=climb,
         bounds="plausible" if within_plausible else {},
         minimise=minimise,
-        subject_to=subject_to or (),
+        subject_to=with_stability(subject_to, stable),
     )
     check_outputs(output, plot)
     with progress_bar(f"{problem.species.name} along speed") as progress:

@@ -14,6 +14,7 @@ from cyclopts import Parameter, Token
 
 from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.files import writing
+from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
 from wingbeat.results.aero_record import NotInFileError
 from wingbeat.results.saving import check_result_name
 from wingbeat.species import Species, parse_setting
@@ -36,6 +37,10 @@ Limits = Annotated[
     list[str] | None,
     Parameter(consume_multiple=True, negative=(), help="Limits: 'peak_power<=30' 'frequency=6' ..."),
 ]
+Stable = Annotated[
+    bool,
+    Parameter(negative="", help="Find an orbit on which disturbances decay: short for 'spectral_radius<=0.995'."),
+]
 Settings = Annotated[
     list[str] | None,
     Parameter(
@@ -54,6 +59,11 @@ WingsMayCross = Annotated[
     bool,
     Parameter(negative="", help="Let the wings pass through the plane of symmetry and each other."),
 ]
+
+
+def with_stability(limits: list[str] | None, stable: bool) -> list[str]:
+    """Return the limits of ``--subject-to``, with that of ``--stable``."""
+    return [*(limits or ()), *([f"spectral_radius<={STABLE_RADIUS}"] if stable else [])]
 
 
 def with_settings(species: Species, settings: list[str] | None, payload: float = 0.0) -> Species:

@@ -28,6 +28,7 @@ from wingbeat.cli.options import (
     Payload,
     Seed,
     Settings,
+    Stable,
     Whole,
     WingsMayCross,
     WithinPlausible,
@@ -36,6 +37,7 @@ from wingbeat.cli.options import (
     check_result,
     given_beside,
     unpacking,
+    with_stability,
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
@@ -82,6 +84,7 @@ def orbit(
             help="Limits: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
         ),
     ] = None,
+    stable: Stable = False,
     starts: Annotated[
         Whole | None,
         Parameter(
@@ -150,7 +153,7 @@ def orbit(
         assert species is not None
         assert speed is not None
         animal, whole = model.flown(species, set_, payload)
-        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), list(subject_to or ())
+        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), with_stability(subject_to, stable)
         if within_plausible and bounds:
             limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
         asked: dict[str, Any] = {"climb": climb, "subject_to": limits}

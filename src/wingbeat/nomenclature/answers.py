@@ -106,6 +106,8 @@ ANSWER = (
         short="response to gusts",
     ),
     Term("stable", "1", "whether every Floquet multiplier lies within the unit circle"),
+    Term("free_objective", "1", "minimised quantity without limits of stability"),
+    Term("price_of_stability", "1", "rise of the minimised quantity due to limits of stability, as a share"),
     Term("warnings", "", "what to know before trusting the orbit"),
     Term("solve_seconds", "s", "time to solve"),
     Term("version", "", "version of wingbeat"),

@@ -49,8 +49,7 @@ def first_searches(
     """
     problem, options = programme.problem, programme.options
     if problem.asks_for_stability:
-        easier = first_searches(Transcription(problem.easier(), options), starts, seed, threads, progress)
-        return _stable_searches(programme, easier, threads)
+        return stable_searches(programme, easier_searches(programme, starts, seed, threads, progress), threads)
     limited = bool(problem.subject_to)
     found: list[Candidate] = []
     for candidate in search_from_starts(programme, range(starts), seed, threads):
@@ -73,7 +72,15 @@ def search_from_optima(programme: Transcription, easier: Iterable[Candidate], th
     return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
 
 
-def _stable_searches(programme: Transcription, easier: list[Candidate], threads: int) -> list[Candidate]:
+def easier_searches(
+    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+) -> list[Candidate]:
+    """Search as `first_searches` does, for the problem whose optima a search for stability starts from."""
+    easier = Transcription(programme.problem.easier(), programme.options)
+    return first_searches(easier, starts, seed, threads, progress)
+
+
+def stable_searches(programme: Transcription, easier: list[Candidate], threads: int) -> list[Candidate]:
     """Search for stable orbits from the optima without limits of stability; return where the searches end.
 
     No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the

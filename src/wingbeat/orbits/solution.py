@@ -60,7 +60,8 @@ class Solution:
     `optima` holds the best uncorrected optimum of each family. If there is no orbit, wingbeat and initial state are
     those of the closest wingbeat; `deficits` are the deficits of the balances that fail, the largest first; and
     `relaxations` are the single changes with which an orbit exists, the smallest first. `reduced_hessian` helps to
-    solve similar problems; `options` are the options of the solvers.
+    solve similar problems; `options` are the options of the solvers; `free_objective` is the objective without limits
+    of stability, if the problem has such limits.
     """
 
     problem: OrbitProblem
@@ -81,6 +82,7 @@ class Solution:
     relaxations: tuple[Relaxation, ...] = ()
     reduced_hessian: ReducedHessian | None = None
     options: SolverOptions = DEFAULTS
+    free_objective: float | None = None
 
     @property
     def starts_at_best(self) -> int:
@@ -114,6 +116,13 @@ class Solution:
         if minimise.parameter:
             return float(self.unknowns[self.problem.unknowns().names.index(minimise.parameter)])
         return self.value_of(minimise)
+
+    @property
+    def price_of_stability(self) -> float | None:
+        """How much more the orbit costs than without limits of stability, as a share of that objective."""
+        if self.free_objective is None or self.status is not Status.CONVERGED:
+            return None
+        return (self.objective - self.free_objective) / abs(self.free_objective)
 
     def as_optimum(self) -> tuple[Optimum, ...]:
         """Return the orbit as an optimum in which one start ended; return nothing if the orbit is not certified."""

@@ -13,12 +13,14 @@ from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.infeasible.without_orbit import Ending, unexplained, without_orbit
 from wingbeat.orbits.multistart import (
     Progress,
+    easier_searches,
     first_searches,
     load_programs,
     optima_of,
     optimal,
     search_from_optima,
     search_from_starts,
+    stable_searches,
 )
 from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified, follow_to_certificate, size
 from wingbeat.orbits.nlp.local_search import Candidate, active_bounds, refine, violation
@@ -83,11 +85,12 @@ def find_orbit(
     begun = time.perf_counter()
     threads = threads or core_count()
     programme = Transcription(problem, options)
-    best, found = _searched(programme, starts, most, seed, threads, progress)
+    best, found, free = _searched(programme, starts, most, seed, threads, progress)
     ending = None
     if best is None:
         best, ending = without_orbit(programme, found, threads, advise, progress) if explain else unexplained(found)
-    return _found(programme, best, found, len(found), seed, begun, ending)
+    solution = _found(programme, best, found, len(found), seed, begun, ending)
+    return dataclasses.replace(solution, free_objective=_certified_objective(free))
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
@@ -126,10 +129,18 @@ def _searched(
     seed: int,
     threads: int,
     progress: Progress | None = None,
-) -> tuple[Corrected | None, list[Candidate]]:
-    """Return the best certified orbit that the starts lead to, if any, and where all local searches ended."""
+) -> tuple[Corrected | None, list[Candidate], list[Candidate]]:
+    """Return the best certified orbit that the starts lead to, if any, and where all local searches ended.
+
+    The last list holds the ends of the searches without limits of stability, if the problem has such limits.
+    """
     load_programs(programme, start_point(programme.problem, 0, seed, programme.options.search))
-    found = first_searches(programme, starts, seed, threads, progress)
+    easier: list[Candidate] = []
+    if programme.problem.asks_for_stability:
+        easier = easier_searches(programme, starts, seed, threads, progress)
+        found = stable_searches(programme, easier, threads)
+    else:
+        found = first_searches(programme, starts, seed, threads, progress)
     best = first_certified(programme, found)
     for led in _where_limits_hold(programme, starts, seed, threads) if best is None else ():
         found += led
@@ -142,7 +153,13 @@ def _searched(
             progress(done, max(starts, most))
         if (best := first_certified(programme, [candidate])) is not None:
             break
-    return best, found
+    return best, found, easier if programme.problem.minimise == programme.problem.easier().minimise else []
+
+
+def _certified_objective(found: list[Candidate]) -> float | None:
+    """Return the objective of the best candidate that can be certified, if any."""
+    best = first_certified(found[0].programme, found) if found else None
+    return None if best is None else best.programme.objective(best.scaled) * best.programme.problem.minimise.scale
 
 
 def _found(

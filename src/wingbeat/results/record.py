@@ -96,12 +96,20 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "alpha_three_quarter_span": alpha_range(beat, 0.75),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
+        **_stability_price(solution),
         "warnings": orbit_warnings(solution, beat),
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
     record["plausibility"] = plausibility(problem, beat, record)
     return finite_or_none(record)
+
+
+def _stability_price(solution: Solution) -> dict[str, float | None]:
+    """Return what stability costs, if the problem has limits of it and the search looked beyond them."""
+    if solution.free_objective is None:
+        return {}
+    return {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
 
 
 def beat_mean(values: np.ndarray) -> float:

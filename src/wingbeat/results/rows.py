@@ -146,6 +146,9 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
         rows.append(("minimised", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
     for constraint, value in (record.get("constraints") or {}).items():
         rows.append((f"constraint {constraint}", _number(value, "", 1.0)))
+    if record.get("price_of_stability") is not None:
+        price = f"{100 * record['price_of_stability']:.2g} % more {record['objective'].replace('_', ' ')}"
+        rows.append(("price of stability", f"{price} than {record['free_objective']:.5g} without the limit"))
     if closure:
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))
         residual = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"

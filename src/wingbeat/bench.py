@@ -119,11 +119,11 @@ def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, An
 
     Returns
     -------
-    Times, versions and device. ``rhs_ns``: one evaluation of the equations of motion, of many that run together.
+    Times, versions and device. ``rhs_ns``: one evaluation of the equations of motion, when many run together.
     ``jacobian_ms``: a flight with derivatives. ``pigeon_ms`` and ``bat_ms``: an orbit with its certificate, without
-    compilation (medians over 20 speeds). ``solve_ms`` and ``certify_ms``: the parts of these times that the search
-    with its correction and the certificate take. ``batch_ms``: an orbit in a batch. ``batch_certified``: the number
-    of certified orbits in the batch.
+    compilation (medians over 20 speeds). ``certify_ms``: the part of these times that the certificate takes.
+    ``solve_ms``: the rest, for search and correction. ``batch_ms``: an orbit in a batch. ``batch_certified``: the
+    number of certified orbits in the batch.
     """
     with _one_core():
         return _measure(batch, progress)

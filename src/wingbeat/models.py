@@ -33,7 +33,7 @@ _WINGS = {
     "bat": ("membrane", "a membrane wing: a thin plate with the camber of a bat's wing; mostly guesses"),
     "robot": ("su-fan", "a rigid wing: the flat plate measured by Su et al. 2023"),
 }
-# Free beyond what the species file frees: bounds [rad, 1] and their reasons.
+# Parameters that are free in addition to those of the species file: bounds [rad, 1] and their reasons.
 _FREE = {
     "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: no measured range of a tail's tilt was found"),
     "downstroke_fraction": ((0.4, 0.6), "guess: in measured birds and bats it is near 0.5 and changes with speed"),

@@ -31,7 +31,7 @@ class CosineGust:
     ----------
     u, w : largest velocity of the air, forward and up [m/s].
     start : time at which the gust begins [s].
-    duration : time from its begin to its end [s].
+    duration : time from its beginning to its end [s].
 
     Raises
     ------

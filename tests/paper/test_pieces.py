@@ -150,8 +150,8 @@ def test_another_sample_in_the_folder_is_refused(whole, tmp_path, monkeypatch, c
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        (lambda text: text[: len(text) // 2], "remove it to run it again"),
-        (lambda text: "", "remove it to run it again"),
+        (lambda text: text[: len(text) // 2], "remove the file to run the piece again"),
+        (lambda text: "", "remove the file to run the piece again"),
         (lambda text: text.replace('"seed": 4', '"seed": 5'), "belongs to another sample"),
         (lambda text: text.replace('"number": 1', '"number": 2'), "another piece"),
         (lambda text: text.replace("wing_mass_share", "share"), "its columns do not match"),

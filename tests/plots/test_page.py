@@ -217,7 +217,7 @@ def test_one_strip_is_enough(orbit):
 def test_a_dataset_of_another_origin_is_refused(orbit):
     for dataset, part in (
         (orbit.dataset.assign_attrs(wingbeat_kind="sweep"), "is neither an orbit nor a flight"),
-        (orbit.dataset.drop_vars(["alpha"]), "dataset = ['alpha']: is missing from it"),
+        (orbit.dataset.drop_vars(["alpha"]), "dataset = ['alpha']: is missing from the dataset"),
         (orbit.dataset.assign_attrs(vehicle="{"), "cannot be understood"),
         (orbit.dataset.assign_attrs(aero="[]"), "cannot be understood"),
         (orbit.dataset.assign_attrs(air=json.dumps({})), "attributes = \"'gravity'\": cannot be understood"),

@@ -21,9 +21,9 @@ T = TypeVar("T")
 
 
 def _configure() -> None:
-    # XLA on CPU then compiles a loop of small arrays into one function instead of some 20 calls per iteration: a
-    # march takes a third of the time. JAX reads the flag when it first compiles. If it has already compiled
-    # something, marches are slower.
+    # With this flag, XLA on CPU compiles a loop of small arrays into one function instead of some 20 calls per
+    # iteration: a march takes a third of the time. JAX reads the flag when it first compiles. If JAX has already
+    # compiled something, marches are slower.
     flags = os.environ.get("XLA_FLAGS", "")
     if "xla_backend_extra_options" not in flags:
         loops = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=100000000"

@@ -34,8 +34,8 @@ from wingbeat.errors import ForkError
 # Threads that trace at the same time slow one another down. If they take turns, XLA compiles one program while the
 # next is traced.
 _TRACING = threading.Lock()
-# XLA's older way to make loops of fused operations compiles in half the time of the newer one. Its programs are as
-# fast, except for the flight of the search, which takes a tenth longer.
+# XLA's older way to make loops of fused operations compiles in half the time of the newer one. Programs made the
+# older way are as fast, except for the flight of the search, which takes a tenth longer.
 _SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
 _NOTHING = np.zeros(0)
 
@@ -182,7 +182,7 @@ def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct
     """
     lowered = jax.jit(program.call).lower(*arguments)
     if jax.default_backend() == "cpu" and not hot:
-        with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice
+        with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
             return lowered.compile(_SOON_ON_CPU)
     return lowered.compile()
 
@@ -198,7 +198,7 @@ def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]
     @functools.wraps(function)
     def call(*args: Any) -> Any:
         if jax.default_backend() == "cpu" and trace_state_clean():
-            with suppress(jax.errors.JaxRuntimeError):  # of an XLA that no longer has the choice
+            with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
                 return soon(*args)
         return plain(*args)
 

@@ -40,7 +40,8 @@ class AirPower(NamedTuple):
         the polar was measured on a finite wing, it contains that wing's induced drag.
     induced : power spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow.
     parasite : power against the loads of body and tail.
-    unsteady : power against rotation, added mass and couples; the air stores and returns the part on added mass.
+    unsteady : power against rotation, added mass and couples; the air stores and returns the part due to
+        added mass.
     """
 
     profile: Phases
@@ -60,8 +61,8 @@ class AirForces(NamedTuple):
     strips : loads on the strips of the left wing, shape (..., N).
     strip_force : force on each strip in the world [N], shape (..., N, 3).
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
-    added_mass : inertia of the air, minus the derivative of f_aero with respect to q'', shape (..., 5, 5)
-        [kg, kg m, kg m2]; zero without unsteady terms.
+    added_mass : inertia of the air, which is the negative derivative of f_aero with respect to q'', shape
+        (..., 5, 5) [kg, kg m, kg m2]; zero without unsteady terms.
     """
 
     generalised: Coordinates

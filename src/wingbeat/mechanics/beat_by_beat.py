@@ -67,7 +67,7 @@ def fly_beats(
 
     Raises
     ------
-    InvalidInputError : a wind or a controller that returns something else.
+    InvalidInputError : a wind that gives no finite velocities, a controller that returns no wingbeat.
     """
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
     pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []

@@ -96,7 +96,7 @@ def wing_loads(
     """
     strips = strip_loads(kernel, density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
-    across = motion.flap_cosine  # of the span: what of a moment about it is in the plane of symmetry
+    across = motion.flap_cosine  # share of a moment about the span that pitches the body
     if motion.unpitched is not None:
         forward, up = (
             strips.chordwise * motion.unpitched[0],
@@ -174,8 +174,8 @@ def body_air(
     drag, tail = body_drag(vehicle.body.drag_area, density, velocity), vehicle.tail
     if tail is None:
         return BodyAir(drag, None)
-    # Behind the barriers, geometry and force are computed once for all directions of a derivative: a flight with a
-    # tail takes 1.15 times as long as one without this way, and 1.5 without the barriers.
+    # Behind the barriers, geometry and force are computed once for all directions of a derivative. A flight with a
+    # tail then takes 1.15 times as long as one with no tail. Without the barriers it takes 1.5 times as long.
     incidence = (tail.incidence if tilt is None else tail.incidence + tilt) - axes
     (ahead, above), normal = from_world(axes, -tail.arm, tail.height), (-sin(incidence), cos(incidence))
     (ahead, above), normal = fusion_barrier(((ahead, above), normal))

@@ -282,7 +282,8 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) 
     """
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    # The air loads depend on the pitch state in three ways only, so three derivatives of the loads serve all four.
+    # Without inflow, the air loads depend on the pitch state through three numbers only: the velocity in stroke
+    # axes and the pitch rate. So three derivatives of the loads give those by all four parts of the state.
     loads = air_loads(model, motion, attitude, u, w, pitch_rate)
     ax, az, pitch_acceleration = accelerations(
         model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate, unsteady_density(model)

@@ -23,12 +23,13 @@ if TYPE_CHECKING:
 RTOL = 1e-10
 # Absolute tolerance divided by the relative one; states are in SI units and of order one.
 _ATOL = 1e-2
-# The integrator steps onto every fourth of the times asked for. It may take so many further steps in a beat and
-# in a flight with driven wings; the polynomials of all steps are kept.
+# The integrator steps onto every fourth of the times asked for (_BETWEEN). It may take _IN_A_BEAT further steps in
+# a beat, and _IN_A_FLIGHT in a flight with driven wings. The polynomials of all steps are kept.
 _BETWEEN = 4
 _IN_A_BEAT = 1024
 _IN_A_FLIGHT = 4096
-# The air's velocity is tabulated at so many equal phases of a beat; a cubic through four of them gives it between.
+# The air's velocity is tabulated at this many equal phases of a beat. Between two of them, it is a cubic that
+# depends on the nearest four.
 _AIR_SAMPLES = 64
 # Strips that a vector unit takes at a time. A flight with 16 strips, six of them without effect, takes 0.8 of the
 # time of a flight with 10.
@@ -125,7 +126,8 @@ def _fly_in_wind(
     def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat, AirTable]) -> Any:
         flown, beat, table = args
         wind = _between(table, phase)
-        # The loads depend on the velocity through the air, and both frames have the same accelerations.
+        # The loads depend on the velocity through the air. The accelerations relative to the air and to the ground
+        # are equal.
         through_air = state_rates(flown, beat, phase, state.at[3:5].add(-wind))
         return through_air.at[:2].add(wind) / beat.frequency
 
@@ -169,7 +171,7 @@ def fly_through(
     given = model, wingbeat, np.array(state, dtype=float), phases, rtol
     states, at, there = _fly(*given) if air is None else _fly_in_wind(*given, air)
     count = int(np.isfinite(at).sum())
-    # Copies, for all of the program's outcome lives as long as a view of any part.
+    # Copies, because a view of any part would keep the whole result of the program in memory.
     return states.copy(), Steps(at[:count].copy(), there[:count].copy())
 
 

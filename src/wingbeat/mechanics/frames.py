@@ -1,10 +1,10 @@
 """Frames: the world, body axes and stroke axes, vectors as tuples of components.
 
 World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive). Stroke axes:
-body axes turned further, until the third axis lies in the stroke plane, in which the wings flap and retract; they
-turn with the body. All these turns are in the plane of symmetry. Vectors in this plane are pairs (forward, up),
-others are triples (forward, left, up). Components are separate arrays because XLA, JAX's compiler, works along the
-last axis on a CPU, and an axis of three is short.
+body axes turned further, until the third axis lies in the stroke plane, in which the wings flap and retract. Stroke
+axes turn with the body. All these turns are in the plane of symmetry. Vectors in this plane are pairs (forward,
+up), others are triples (forward, left, up). Components are separate arrays because XLA, JAX's compiler, works along
+the last axis on a CPU, and an axis of three is short.
 """
 
 from __future__ import annotations

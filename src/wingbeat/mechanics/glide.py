@@ -88,7 +88,7 @@ class Glide(NamedTuple):
 
 # The number of a posture that each trim turns.
 _COLUMNS = {"body-pitch": 2, "flap": 3, "tail": 5}
-# A posture that is none: no balance was found.
+# Stands for the posture where no balance was found.
 _NO_POSTURE = Posture(*[math.nan] * 6)
 
 
@@ -199,7 +199,7 @@ class GlideSolver:
     def _closed_form(self, alpha: float) -> tuple[float, float]:
         """Return speed and glide angle of a simple wing that approximates this one, in closed form."""
         vehicle, air = self.model.vehicle, self.model.air
-        # One strip, which stands for all: the balance only starts here.
+        # One strip stands for all: this glide is only where the search for the balance starts.
         lift, drag = (float(c[0]) for c in self.model.kernel.lift_drag(jnp.asarray([alpha])))
         area = 2.0 * vehicle.wing.semi_span * vehicle.wing.mean_chord
         drag += vehicle.body.drag_area / area
@@ -224,8 +224,10 @@ class GlideSolver:
 
         found = root(residual, held[free], tol=1e-14)
         posture = Posture(*numbers(found.x).tolist())
-        balanced = np.abs(residual(found.x)).max() <= _BALANCED  # what `root` calls a failure may be one bit off
-        ahead = posture.speed > 0.0 and abs(posture.glide_angle) < 0.5 * math.pi  # a wing can fall broadside, too
+        # `root` may report a failure where the residual is one bit too large.
+        balanced = np.abs(residual(found.x)).max() <= _BALANCED
+        # The forces also balance where a wing falls broadside.
+        ahead = posture.speed > 0.0 and abs(posture.glide_angle) < 0.5 * math.pi
         return posture if balanced and ahead else None
 
     def _glide_of(self, posture: Posture, trimmed: bool) -> Glide:

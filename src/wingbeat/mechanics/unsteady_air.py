@@ -1,10 +1,10 @@
 """The unsteady loads on a motion of the wing, from sums over the strips that depend on time alone.
 
 Rotation, added mass and couples of a thin aerofoil (`wingbeat.aero.unsteady`) are at most products of two speeds.
-With ``xi = (V_x, V_z, psi')`` the motion of the body through the air in stroke axes, each speed of a strip is
-linear in xi, with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C +
-psi' (D . xi + E))``, a the acceleration of the body, with A to E tabulated like the moments of the wing's mass.
-Only the couple against the turning of the chord needs the airspeed of each strip.
+The motion of the body through the air in stroke axes is ``xi = (V_x, V_z, psi')``. Each speed of a strip is linear
+in xi, with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C +
+psi' (D . xi + E))``, where a is the acceleration of the body. A to E are tabulated like the moments of the wing's
+mass. Only the couple against the turning of the chord needs the airspeed of each strip.
 """
 
 from __future__ import annotations
@@ -74,7 +74,8 @@ def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: Pe
     shape, rate, second : of the wing, and its first and second time derivatives.
     chord : of the strips [m].
     """
-    # Without this the tangents of every sum over the strips compute the shape anew: 1.3 times the time of a flight.
+    # Without this, the tangents of every sum over the strips would compute the shape anew, and a flight would take
+    # 1.3 times as long.
     shape, rate, second = computed_once((shape, rate, second))
     along, along_rate, along_second = _unpitched(shape, rate, second)
     normal, normal_rate = (None, -shape.flap_sine, shape.flap_cosine), (None, -rate.flap_sine, rate.flap_cosine)

@@ -157,7 +157,7 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's wing pitch over the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``."""
+    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
@@ -240,7 +240,8 @@ def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar)
     def rate(at: Any) -> tuple[Any, Any]:
         return jax.jvp(function, (at,), (one,))
 
-    # By phase first: how the frequency scales the rates is then known without differentiating the function.
+    # Derivatives are by phase first. The frequency only scales them, so a derivative by the frequency does not
+    # differentiate the function.
     (value, first), (_, second) = jax.jvp(rate, (phase,), (one,))
 
     def scaled(tree: Any, factor: Any) -> Any:

@@ -68,7 +68,8 @@ SERIES = (
     Term("kinetic_energy", "J", "kinetic energy of body and wings", "E_kin"),
     Term("potential_energy", "J", "potential energy of body and wings", "E_pot"),
 )
-# Series that most flights do not have: laws that are off, and what a body takes that moves as filmed.
+# Series that most flights do not have: moving air, laws that are mostly off, and the missing loads of a body that
+# moves as filmed.
 SERIES_WHERE_ON = (
     Term("air_u", "m s-1", "velocity of the air, forward"),
     Term("air_w", "m s-1", "velocity of the air, up"),

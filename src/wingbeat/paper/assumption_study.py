@@ -36,8 +36,8 @@ _LEFT_OUT = {
     "differentiable",
     "few-degrees",
 }
-# Starts of each orbit, one of them from the solution at the previous speed, and how reliable they are. Six starts
-# missed 10 of the same orbits and gave too high a frequency for 4 of them, at 1.4 times the cost.
+# Starts of each orbit, one of them from the solution at the previous speed, and how reliable they are. Of the
+# same 103 orbits, six starts missed 10 and gave too high a frequency for 4, at 1.4 times the cost.
 STARTS = 4
 SURENESS = (
     f"for 12 sets, 20 starts found 103 orbits; {STARTS} starts miss 11 of them and find 2 with a frequency more "

@@ -167,9 +167,9 @@ class Pieces:
             own = about.pop("number")
             judged = _judged(rest)
             if own != number or len(judged.sets) != len(self.sample.range(number)):
-                raise ValueError("it is incomplete, or another piece")
+                raise ValueError("it is incomplete, or holds another piece")
         except (KeyError, TypeError, ValueError, AttributeError) as error:
-            fix = "remove it to run it again"
+            fix = "remove the file to run the piece again"
             raise FileError(f"cannot read {str(path)!r} as a piece of a sample: {error}; {fix}") from None
         _check_same(about, self.sample, path)
         return judged, seconds

@@ -42,7 +42,7 @@ class Posture(NamedTuple):
 
 
 class Section(NamedTuple):
-    """The cross-section of one strip: angles [rad] from the direction of its chord at zero pitch, speed and forces.
+    """A strip's cross-section: speed, forces, and angles [rad] from the direction of the chord at zero pitch.
 
     ``pitch`` is the angle of the chord, ``motion`` that of the velocity, and ``alpha`` their difference. ``lift``
     and ``drag`` are those of one strip [N].

@@ -50,8 +50,8 @@ class Published:
 def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figure:
     """Draw power and wingbeat frequency of a curve's orbits against speed.
 
-    The thick line is the best orbit of each speed, broken where it changes branch; thin grey lines are the other
-    certified optima found, and the grey band spans them all.
+    The thick line is the best orbit of each speed, broken where it changes branch. Thin grey lines are the other
+    certified optima found. The grey band spans all optima.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ def fit_page(fit: WingFit) -> Figure:
             _draw_curve(axes, fit.curves[name])
         elif name == "C_M":
             _draw_moment(axes, fit)
-        if name != "x_cp":  # which never comes near 0, and would lie flat under it
+        if name != "x_cp":  # x_cp is never near 0; with 0 on the axis, its curve would look flat
             axes.axhline(0.0, color="0.6", linewidth=0.6, zorder=0)
         axes.grid()
         axes.set(ylabel=_LABELS[name])

@@ -32,7 +32,7 @@ def glide_page(dataset: xr.Dataset) -> Figure:
     """
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "glide":
-        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give that of a GlidePolar")
+        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give GlidePolar.dataset")
     faults.raise_if_any()
     speed = dataset["speed"].values
     with drawing():

@@ -125,10 +125,11 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
         (panels[2], force[..., 1], "vertical force / weight [-]"),
     ):
         _over_phase(axes, dataset, label)
-        if flown(dataset).any():  # alone, it would set limits of some 1e-17
+        if flown(dataset).any():  # without data, this line would set limits of some 1e-17
             axes.axhline(0, color=_MEAN["color"], linewidth=0.5)
         for station, name, style in ((0.25, "1/4 span", FIRST), (0.75, "3/4 span", SECOND)):
-            # Strip centres need not lie there: we interpolate linearly, and take the last centre's value beyond it.
+            # Strip centres need not lie at these span fractions: we interpolate linearly between centres.
+            # Beyond the last centre, we take its value.
             line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
             axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
         legend_above(axes, axes.get_lines()[-2:])

@@ -81,7 +81,7 @@ def study_page(
 def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:
     """Return the points, and the name, of each combination of the study's other requested values."""
     columns = [str(name) for name in frame.columns]
-    # What was asked for stands between the status and the record, which begins with its message.
+    # The columns of the requested values lie between the status and the record, whose first column is `message`.
     end = columns.index("message" if "message" in columns else "certificate")
     asked = [name for name in columns[2:end] if name not in varied]
     others = [name for name in asked if len({str(value) for value in frame[name]}) > 1]

@@ -29,8 +29,8 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
     a: wing kinematics; b: body pitch; c: power; d to f: phase portraits; g: effective angle of attack; h and i:
     horizontal and vertical force on the strips at 1/4 and 3/4 of the span, both wings together, over the weight.
-    Two statements at the top say how well the orbit closes and whether it is plausible. They are green if both
-    are true; a false one is red.
+    Two statements at the top say how well a certified orbit closes and whether it is plausible. Both are green if
+    it is plausible; otherwise the second is red. Without a certificate, one red line gives the reason.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
     if kind not in ("orbit", "flight"):
         faults.add("dataset", kind, "is neither an orbit nor a flight of wingbeat", "give orbit.dataset")
     elif missing := [name for name in _NEEDED if name not in dataset]:
-        faults.add("dataset", missing, "is missing from it", "solve or fly it again")
+        faults.add("dataset", missing, "is missing from the dataset", "solve the orbit or fly the flight again")
     faults.raise_if_any()
     try:
         vehicle, air, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat"))
@@ -84,7 +84,7 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
         title = _orbit_title if kind == "orbit" else _flight_title
         return title(dataset, f"{beat['frequency']:.4g} Hz"), weight
     except (KeyError, TypeError, ValueError) as error:
-        faults.add("attributes", str(error), "cannot be understood", "solve or fly it again")
+        faults.add("attributes", str(error), "cannot be understood", "solve the orbit or fly the flight again")
     faults.raise_if_any()
     raise AssertionError
 

@@ -71,7 +71,7 @@ class CarriedFlight(Saveable):
     def summary(self) -> dict[str, float]:
         """Means over the flight [SI], and the mean and root mean square of the missing force and moment.
 
-        Missing forces are over the weight, the missing moment over weight times mean chord. A positive
+        Missing forces are divided by the weight, the missing moment by weight times mean chord. A positive
         ``missing_force_z_mean`` is the share of the weight that the model's air loads do not support.
         """
         data, vehicle = self.dataset, self.model.vehicle

@@ -25,11 +25,11 @@ def characteristic_speeds(
 
     Returns
     -------
-    ``minimum_power``, ``maximum_range`` (minimum power over speed, the tangent from the origin) and, with a limit,
-    ``fastest_sustained`` and ``slowest_sustained``; an entry is None if the curve has no such speed. Each entry
-    holds ``speed`` [m/s], ``power`` [W], ``at_edge`` (the range of speeds ends there or a gap begins, so the true
-    speed may lie beyond) and ``jump_beside`` (the curve changes branch there). The first two also hold
-    ``within_2_percent``: the speeds between which the minimised value is within 2 % of its minimum.
+    ``minimum_power``; ``maximum_range``, where power divided by speed is smallest (the tangent from the origin);
+    and, with a limit, ``fastest_sustained`` and ``slowest_sustained``. An entry is None if the curve has no such
+    speed. Each entry holds ``speed`` [m/s], ``power`` [W], ``at_edge`` (the range of speeds ends there or a gap
+    begins, so the true speed may lie beyond) and ``jump_beside`` (the curve changes branch there). The first two
+    also hold ``within_2_percent``: the speeds between which the minimised value is within 2 % of its minimum.
 
     >>> u = np.arange(4.0, 13.0)
     >>> found = characteristic_speeds(u, 60 / u + 0.01 * u**3, np.ones(8, bool))

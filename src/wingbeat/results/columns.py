@@ -28,7 +28,7 @@ def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the same as `flat`, except that lists of anything but numbers remain lists."""
+    """Yield the same as `flat`, except that a list remains a list unless it holds only numbers."""
     for key, value in record.items():
         path = f"{before}{key}"
         if isinstance(value, dict):

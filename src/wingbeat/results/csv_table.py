@@ -35,7 +35,7 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
 
     Parameters
     ----------
-    dataset : an orbit's, a flight's, a curve's or a glide polar's.
+    dataset : that of an orbit, a flight, a curve or a glide polar.
     results : the content of its attributes, from `results_of`.
     """
     kind = results["wingbeat_kind"]
@@ -74,7 +74,7 @@ def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
 
 def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
     """Return the endings of a column's name and meaning for one index along a dimension; indices start at 1."""
-    if dim == "optimum":  # the best of each speed is what most readers want, so it has the plain name
+    if dim == "optimum":  # most readers want the best optimum of each speed, so its column has the plain name
         return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
     label = dataset[dim].values[index]
     if isinstance(label, str):

@@ -207,7 +207,7 @@ def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
     shown = repr(os.fspath(path))
     if dataset.attrs.get(KIND) != "curve":
         raise FileError(
-            f"cannot read {shown} as a curve: it is not one; give a file that `wingbeat curve -o` wrote"
+            f"cannot read {shown} as a curve: it does not hold a curve; give a file that `wingbeat curve -o` wrote"
         )
     try:
         curve = Curve(dataset)

@@ -33,7 +33,8 @@ class Flight(Saveable):
 
     Attributes
     ----------
-    model, wingbeat : the flight model and its wingbeat, in a controlled flight that of the first beat.
+    model : the flight model.
+    wingbeat : the wingbeat; in a controlled flight, that of the first beat.
     phase : beats since the start, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s]; not-a-number after the
         integrator gave up.

@@ -41,8 +41,10 @@ class GlidePolar(Saveable):
     aero : its air loads.
     trim : the angle that was turned until the pitching moment vanished.
     glides : one for each angle of attack, in the given order.
-    least_sink, best_ratio : the glides of slowest sink and of flattest path within the given angles of attack; None
-        if the optimum is at the smallest or largest angle.
+    least_sink : the glide of slowest sink within the given angles of attack; None if the slowest sink is at the
+        smallest or largest angle.
+    best_ratio : the glide of flattest path within the same angles; None if the flattest path is at the smallest or
+        largest angle.
     """
 
     species: Species
@@ -97,9 +99,9 @@ def glide_polar(
 ) -> GlidePolar:
     """Find the steady glides of a species with its wings held still, spread as in mid-downstroke.
 
-    Lift, drag and weight balance, with the same air loads as in flapping flight. The pitching moment vanishes too
-    if possible. If no angle trims the moment, the body stays along the path, and `Glide.tail_moment` is the
-    moment that a tail would need to supply.
+    The sum of lift, drag and weight is zero; the air loads are the same as in flapping flight. If possible, the
+    pitching moment is zero too. If no angle trims the moment, the body stays along the path, and
+    `Glide.tail_moment` is the moment that a tail would need to supply.
 
     Parameters
     ----------
@@ -107,8 +109,9 @@ def glide_polar(
     aero : as in `OrbitProblem`, `SuFan()` if not given.
     angles_of_attack : of the root chord at zero flap angle [rad]; default 1 to 30 degrees.
     flap : flap angle at which the wings are held [rad].
-    trim : what turns until the pitching moment is zero: ``"body-pitch"`` (the wings keep their angle of attack),
-        ``"flap"`` or ``"tail"`` (the body stays along the path); without a tail, ``"tail"`` turns nothing.
+    trim : what turns until the pitching moment is zero. With ``"body-pitch"``, the wings keep their angle of
+        attack; with ``"flap"`` or ``"tail"``, the body stays along the path. Without a tail, ``"tail"`` turns
+        nothing.
 
     Raises
     ------
@@ -134,7 +137,7 @@ def glide_polar(
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
     loads = blade_element_of(SuFan() if aero is None else aero)
-    # Each glide sets the inflow of its own velocity.
+    # This velocity is replaced: each glide sets the inflow for a velocity of its own.
     model = FlightModel(species.vehicle, loads, species.air, velocity=(1.0, 0.0))
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)

@@ -14,7 +14,7 @@ from wingbeat.results.columns import result_unit
 if TYPE_CHECKING:
     import xarray as xr
 
-# What MATLAB takes as a name (`namelengthmax`).
+# Longest name that MATLAB accepts (`namelengthmax`).
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
 
 
@@ -23,7 +23,7 @@ def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
 
     Parameters
     ----------
-    dataset : an orbit's, a flight's, a curve's or a glide polar's.
+    dataset : that of an orbit, a flight, a curve or a glide polar.
     results : the content of its attributes, from `results_of`.
     """
     from scipy.io import savemat
@@ -65,7 +65,7 @@ def _value(value: Any) -> Any:
     if isinstance(value, dict):
         if all(_NAME.fullmatch(key) for key in value):
             return {key: _value(item) for key, item in value.items()}
-        # A limit such as "peak_power<=30" is no name of a field.
+        # MATLAB does not accept a limit such as "peak_power<=30" as the name of a field.
         return _value([{"name": key, "value": item} for key, item in value.items()])
     if isinstance(value, list):
         return _listed(value)

@@ -32,9 +32,10 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     A dictionary for JSON; all values are None if the flight diverged. ``mean_power`` and ``mean_positive_power``
     are those of the hinges. ``braking`` is the mean power of negative work. ``cost_by_returned`` holds pairs
     (share, mean power): the mean power if this share of negative work is returned; at share -1, negative work costs
-    as much as positive work. ``shares`` has the parts aerodynamic, inertial and body, each with mean, minimum
-    (``least``) and maximum (``most``). ``spent`` divides the power of all actuators in the same way, into profile,
-    induced, parasite and unsteady air loads, and inertial, the rate of change of kinetic and potential energy.
+    as much as positive work. ``shares`` has the aerodynamic, the inertial and the body part of the hinge power,
+    each with mean, minimum (``least``) and maximum (``most``). ``spent`` does the same for the power of all
+    actuators. Its parts are profile, induced, parasite and unsteady, which are spent on the air, and inertial, the
+    rate of change of kinetic and potential energy.
     ``best_spring`` gives, for both flap springs together, ``stiffness`` [N m/rad], ``rest_angle`` [rad]
     (None if no spring helps) and the remaining ``mean_positive_power``.
 
@@ -88,5 +89,5 @@ def check_orbit(dataset: xr.Dataset) -> None:
             "dataset", dataset.attrs.get(KIND), "is not an orbit: only a closed wingbeat has a power account"
         )
     elif missing := [name for name in (*SHARES.values(), *SPENT.values()) if name not in dataset]:
-        faults.add("dataset", missing, "is missing from it", "solve the orbit again")
+        faults.add("dataset", missing, "is missing from the dataset", "solve the orbit again")
     faults.raise_if_any()

@@ -139,7 +139,7 @@ def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def _asked_for(quantity: Quantity) -> str:
-    """Return the name that restores a quantity; a user's function cannot be restored and gets a name that fails."""
+    """Return the name that restores a quantity; for a user's function, a name that the reader refuses."""
     try:
         known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
     except InvalidInputError:

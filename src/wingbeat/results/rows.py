@@ -11,7 +11,7 @@ from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 
 Rows = list[tuple[str, str]]
 
-# Values that switch off the laws beyond the paper's; such rows are left out.
+# Values that switch off a law that the paper does not have; a row with such a value is left out.
 _OFF: dict[str, Any] = {
     **dict.fromkeys(
         ("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"), 0.0

@@ -40,9 +40,9 @@ def solve_orbit(
     Parameters
     ----------
     problem : the orbit problem.
-    starts : number of starts; more may find better optima. Default: 6; 12 if the objective or a limit is a quantity
-        of the flown wingbeat; 24 if the wingbeat's bounds differ from the species' or the largest value of a series
-        is minimised.
+    starts : number of starts; more may find better optima. The default is 24 if the wingbeat's bounds differ from
+        the species', or if the largest value of a series is minimised. Otherwise it is 12 if the objective or a
+        limit is a quantity of the flown wingbeat, and else 6.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.

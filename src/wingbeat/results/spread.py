@@ -1,4 +1,4 @@
-"""How errors of the measured wingbeat spread an orbit's numbers: the flight is solved for random draws of it."""
+"""How errors of a measured wingbeat spread an orbit's numbers: the flight is solved for each random draw."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Spread(NamedTuple):
 
     Attributes
     ----------
-    values : numbers of the draws that were certified, by their name in the record, shape (certified,) each.
+    values : by the name of a number in the record, its values in the certified draws, shape (certified,) each.
     estimates : the same numbers for the orbit itself.
     asked : number of draws, certified or not.
     """

@@ -117,7 +117,7 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
         fix = f"{suffix} is for other programs; save the result as .nc too"
         raise FileError(f"cannot read {shown}: wingbeat reads results from .nc files; {fix}")
     try:
-        # A pipe or a terminal would wait for ever.
+        # Reading from a pipe or a terminal could wait for ever.
         mode = os.stat(path).st_mode
         if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
             raise FileError(f"cannot read {shown}: it is not a plain file; {_GIVE}")
@@ -133,9 +133,11 @@ def load_dataset(path: str | PathLike[str]) -> xr.Dataset:
 
     try:
         with h5py.File(path, "r") as whole:
-            dict(whole.attrs)  # if these are damaged, h5netcdf would complain once more on stderr when it is freed
+            # If the attributes are damaged, this raises before h5netcdf opens the file. A freed h5netcdf file would
+            # complain once more on stderr.
+            dict(whole.attrs)
         return xr.load_dataset(path, engine="h5netcdf")
     except Exception as error:
-        # HDF5 reports damage through many kinds of exception, each with its own inner words.
+        # HDF5 reports damage through many kinds of exception, each with a text of its own.
         reason = str(error).split("\n")[0]
         raise FileError(f"cannot read {shown}: it is damaged or cut short ({reason}); solve it again") from None

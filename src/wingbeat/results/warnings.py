@@ -20,10 +20,10 @@ from wingbeat.vehicle import Air, Vehicle
 # The wake matters up to about three times the induced velocity of hover: there it changes alpha by about 10 %.
 _SLOW = 3.0
 _MENTION = 0.01
-# Pitching by this much within a wingbeat turns a sixth of the lift into thrust and drag in turn.
+# Pitching by this much within a wingbeat turns a sixth of the lift alternately into thrust and drag.
 _SWING = math.radians(20.0)
-# Phases at which a stroke is checked; a warning is due this far across the plane of symmetry (share of the
-# semi-span) or this far past the shoulder's range [rad].
+# Phases at which a stroke is checked. There is a warning if the wing is farther than this across the plane of
+# symmetry (share of the semi-span), or farther than this past the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
 # Reduced frequency above which the lag of the wake matters.
 _LAG = 0.3
@@ -51,7 +51,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     if swing > _SWING:
         notes.append(
             f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
-            "no flying animal we know of does"
+            "no flying animal that we know of pitches so much"
         )
     notes += crossing(problem.vehicle, problem.aero.strips, solution.wingbeat, problem.bounds["flap"])
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):

@@ -110,7 +110,7 @@ def _is_moved(jumps: np.ndarray) -> np.ndarray:
 
 
 def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
-    """Return those of some parameters whose jumps harmonics can undo."""
+    """Return the names of those parameters whose jumps harmonics can undo."""
     if not names:
         return ()
     moved = _is_moved(_jump(wingbeat, tuple(names)))
@@ -150,7 +150,7 @@ def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     rows = [i for i, law in enumerate(_LAWS) if law in FIRST_ORDER and moved[i].any()]
     own = _jump(wingbeat, tuple(names))[rows].reshape(len(names), -1)
     shares = np.linalg.solve(own, -jumps[rows].reshape(len(names), -1))
-    # Where the twist follows the pitch, its own harmonics have nothing left to undo.
+    # Where the twist follows the pitch, the harmonics of the twist have nothing left to undo.
     used = [bool(np.abs(row).max() > _NOTHING) for row in shares]
     kept = tuple(name for name, is_used in zip(names, used, strict=True) if is_used)
     return Compensation(kept, np.where(np.abs(shares) > _NOTHING, shares, 0.0)[used])
@@ -163,5 +163,5 @@ def _harmonics(faults: FaultList, law: str, inputs: Sequence[str]) -> list[str]:
         if not set(pair) & set(inputs):
             return pair
     rule = f"leaves no order of the {law} harmonics that can keep the wing from jumping"
-    faults.add("inputs", list(inputs), rule, f"leave one order up to {HIGHEST_ORDER} out")
+    faults.add("inputs", list(inputs), rule, f"leave out one order up to {HIGHEST_ORDER}")
     return []

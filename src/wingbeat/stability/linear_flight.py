@@ -33,9 +33,9 @@ GUSTS = ("gust_u", "gust_w")
 class LinearFlight:
     """A certified orbit linearised from beat to beat; made by `linearise`.
 
-    A small disturbance x of the state at the top of the stroke, changes y of the inputs and a gust g, each constant
-    for one beat, lead to ``A x + B y + G g`` at the next top of the stroke. An input ``frequency`` changes the time
-    of its beat; `dt` is that of the undisturbed orbit.
+    A small disturbance x of the state at the top of the stroke leads to ``A x + B y + G g`` at the next top of the
+    stroke. Here y are changes of the inputs and g is a gust, both constant for one beat. An input ``frequency``
+    changes the time of its beat; `dt` is the time of a beat of the undisturbed orbit.
 
     Attributes
     ----------
@@ -202,7 +202,7 @@ def linearise(
     scales = _scales(problem, beat)
     miss = float(np.abs((flown.path[-1] - flown.path[0]) / scales).max())
     if not miss <= options.closure:
-        faults.add("orbit", miss, "does not close when this version flies it", "solve it again")
+        faults.add("orbit", miss, "does not close when this version flies it", "solve the orbit again")
     faults.raise_if_any()
     averaged = averaged_jacobian(problem.model, beat, flown.path)
     return LinearFlight(
@@ -224,8 +224,8 @@ def _matrices(
     by_inputs = flown.by_parameters[:, :count]
     if harmonics.names:
         by_inputs = by_inputs + flown.by_parameters[:, count:] @ harmonics.shares
-    # Relative to the air, the body starts with its velocity less that of the air; at the end that of the air is
-    # added again.
+    # At the start, the velocity of the air is subtracted from that of the body. At the end of the beat, it is added
+    # again.
     by_gust = (np.eye(5) - flown.by_state)[:, 2:4]
     by_gust[0, 1] += dt  # the air lifts the body
     rows = slice(0 if height else 1, None)

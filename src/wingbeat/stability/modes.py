@@ -23,7 +23,7 @@ class Mode:
     ----------
     kind : ``divergence`` grows and ``subsidence`` decays without oscillating; an ``oscillation`` has a pair of
         complex multipliers; a ``flip`` changes sign every beat.
-    multiplier : Floquet multiplier, of a pair the one with positive imaginary part.
+    multiplier : Floquet multiplier; of a complex pair, the one with positive imaginary part.
     time_to_double, time_to_half : [s]; None for the one that does not apply.
     period : of an oscillation, or of a flip, which takes two beats [s]; None for others. The map gives the
         frequency of an oscillation only up to multiples of the wingbeat frequency; this is the longest period.

@@ -14,7 +14,7 @@ from wingbeat.errors import first_line
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
 
-# Processes that end before they are ready, in a row, after which no more are started for the same job.
+# After this many processes in a row that end before they are ready, no more are started for the same job.
 _FALSE_STARTS = 3
 # A job that is no longer wanted may end by itself within this time [s]; then its process is ended.
 _GRACE = 20.0
@@ -218,7 +218,7 @@ class FairPool:
                 ending = self._see_through(desk, job)
                 with self._lock:
                     desk.job = None
-                    if ending is None:  # its process had gone before it took the job: once more
+                    if ending is None:  # its process had ended before it took the job
                         self._waiting.append(job)
                     else:
                         job.tell(ending)
@@ -228,8 +228,8 @@ class FairPool:
 
     def _seat(self, desk: _Desk) -> None:
         """Start a process and wait until it is ready; if it cannot start, the next job tries again."""
-        # The libraries keep the threads they have on the command line: with others they add up in another order,
-        # and the tenth digit of an answer would not be the command line's.
+        # The libraries keep the number of threads that they have on the command line. With another number they
+        # would add in another order, and the tenth digit of an answer would differ from the command line's.
         worker = WorkerProcess(self._work, desk.heard.put, memory=self._memory)
         with self._lock:
             desk.worker, desk.ready = worker, False
@@ -243,14 +243,14 @@ class FairPool:
             worker.bury()
             self._seat(desk)
         else:
-            desk.heard.put(None)  # the next job hears it again
+            desk.heard.put(None)  # the next job learns again that the process ended
 
     def _see_through(self, desk: _Desk, job: Job) -> Event | None:
         """Return how a job ended; None if its process had ended before it took the job."""
         worker = desk.worker
         assert worker is not None
         desk.late, took, leaves, ending = False, False, False, None
-        with self._lock:  # who cancels the job comes before its request, or sends its stop after it
+        with self._lock:  # a cancellation either comes before the request, or sends its stop after the request
             if job.unwanted:
                 return Event("stopped")
             worker.request(job.what)
@@ -258,7 +258,7 @@ class FairPool:
         while ending is None and (message := desk.heard.get()) is not None:
             event = Event(*message)
             if event.kind == "failed":
-                traceback.print_exception(event.value)  # the server's log has all of it, its visitor a line
+                traceback.print_exception(event.value)  # all of it for the log, one line for the visitor
                 event = Event("failed", first_line(event.value)[:300])
             if event.kind == "leaving":
                 leaves = True

@@ -34,7 +34,7 @@ class Message(NamedTuple):
     ----------
     kind : ``ready`` at first; for each request ``started``, any number of ``progress``, and an ending: ``done``
         (value: the answer), ``stopped`` or ``failed`` (value: the exception). ``leaving`` comes before the ending
-        of the last request of a process that has outgrown its memory.
+        of the last request of a process that exceeds its memory limit.
     value : see `kind`.
     """
 
@@ -88,7 +88,7 @@ class _Requests:
         return self._taken <= self._stopped
 
     def _listen(self) -> None:
-        code = 1  # whatever else ended this thread would leave a process that nobody can end
+        code = 1  # if this thread fails, the process must end too, because nobody could end it
         try:
             # Not through sys.stdin: a process that ends while a thread reads from that aborts with exit code 134.
             with open(os.dup(0), "rb") as pipe:

@@ -16,11 +16,11 @@ from typing import Any
 from wingbeat.workers.leftovers import Leftover
 from wingbeat.workers.main import NO_MEMORY, Message
 
-# Not `-m`, by which the module would be there twice, as `__main__` too.
+# Not `-m`, which would load the module twice: under its own name and as `__main__`.
 _PROGRAM = "from wingbeat.workers.main import main; main()"
-# Seconds that a process which is about to end gets for it, so that its exit code is its own.
+# A process that is about to end has this many seconds to end by itself, so that its exit code is its own.
 _LEAVING = 2.0
-# How the system and the C++ libraries end a process that has no memory left, among other reasons.
+# Signals with which the system and the C++ libraries end a process that has no memory left, or for other reasons.
 _WITHOUT_MEMORY = (signal.SIGABRT, *([signal.SIGKILL] if hasattr(signal, "SIGKILL") else []))
 
 

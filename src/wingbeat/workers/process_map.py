@@ -21,7 +21,7 @@ from wingbeat.workers.process import WorkerProcess
 T = TypeVar("T")
 R = TypeVar("R")
 
-# Processes that one item may take along: a kill from outside hardly meets the same one twice.
+# Number of processes that may die on one item. A kill from outside hardly hits the same item twice.
 _TRIES = 2
 
 
@@ -86,7 +86,7 @@ class _Callers:
         self.count = count
         # What a new process needs to import this one's main module; it refuses to start more from within that.
         self._main = spawn.get_preparation_data("worker")
-        del self._main["authkey"]  # which does not let itself be pickled
+        del self._main["authkey"]  # cannot be pickled
         self._all = [_Caller(core) for core in cores_of(count)]
         self._idle: queue.LifoQueue[_Caller] = queue.LifoQueue()
         for caller in self._all:
@@ -136,8 +136,8 @@ def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) ->
     """Call a function with an item in a worker process; the request contains both pickled, and a core."""
     main, pickled, core = request
     work, item = _Unpickler(main, pickled).load()
-    # After the imports: a BLAS that sees one core has one thread, and adds up in another order than in the process
-    # that asks.
+    # Pin after the imports: a BLAS that sees only one core has one thread, and adds in another order than in the
+    # process that asks.
     pin_to(core)
     return work(item)
 

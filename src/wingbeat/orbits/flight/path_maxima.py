@@ -105,7 +105,7 @@ def _weights(samples: Quarters, xp: Any) -> Quarters:
     The first of these two is the higher. Samples and weights are the first axis; `xp` is their array module.
     """
     before, here, there, after = samples
-    # Coefficients of the cubic, linear to cubic, from the highest sample, at 0, to its higher neighbour, at 1.
+    # Coefficients of the cubic, from linear to cubic. The highest sample is at 0, its higher neighbour at 1.
     slope, slope_there = 0.5 * (there - before), 0.5 * (after - here)
     bend = 3.0 * (there - here) - 2.0 * slope - slope_there
     twist = 2.0 * (here - there) + slope + slope_there

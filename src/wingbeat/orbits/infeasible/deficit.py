@@ -141,11 +141,12 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes, or else the closest beat if one balance may fail, or else if all may fail.
+        """Return a beat that closes, or else the closest beat, in which one balance fails if possible.
 
-        If any one of several balances may be the one that fails, the one with the smallest deficit is reported. An
-        excess of force is reported only if no deficit explains the failure, because excess force can mostly be
-        removed at the expense of another balance.
+        All balances may fail only if no beat with a single failing balance was found. If each of several balances
+        can be the only one that fails, the balance with the smallest deficit is reported. An excess of force is
+        reported only if no deficit explains the failure, because excess force can mostly be removed at the expense
+        of another balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []

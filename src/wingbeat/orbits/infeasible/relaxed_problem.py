@@ -192,7 +192,8 @@ def least_change(
         share = min(share, change.widest)
         try:
             changed = with_change(problem, change.name, change.sign, change.moved(share))
-        except InvalidInputError:  # such as a descent into the wings' own wake, below which there is a faster one
+        except InvalidInputError:
+            # For example, a descent into the wings' own wake is refused, but a faster descent is possible.
             continue
         easy = Transcription(changed, options)
         for start in (start_point(easy.problem, 0, 0, search), near):

@@ -24,8 +24,8 @@ def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
 def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
     """Return the number that describes a term in a problem, its value without the term, and its unit.
 
-    It is the upstroke factor or the tail's area. For a term that can only be on or off it is 1, and 0 without the
-    term.
+    The number is the upstroke factor or the tail's area. For a term that can only be on or off, the number is 1,
+    and its value without the term is 0.
     """
     if name == UPSTROKE:
         return problem.aero.upstroke_factor, 1.0, "1"

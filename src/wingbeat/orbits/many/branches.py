@@ -42,7 +42,7 @@ class Landing(NamedTuple):
 
 
 class Branches(NamedTuple):
-    """The optima of each problem, best first, and their links; a problem without an orbit has a failed one."""
+    """The optima of each problem, best first, and their links; a problem without an orbit has a failed solution."""
 
     optima: tuple[tuple[Solution, ...], ...]
     links: tuple[BranchLink, ...]

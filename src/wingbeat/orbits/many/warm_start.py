@@ -94,7 +94,7 @@ def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarra
 
 
 def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` members from the middle on, each the farthest from those before it."""
+    """Return `count` members: the one nearest to the middle, then each time the farthest from those returned."""
     here = places[members] - places[members].mean(axis=0)
     order, away = [], np.full(members.size, np.inf)
     nearest = np.linalg.norm(here, axis=1).argmin()

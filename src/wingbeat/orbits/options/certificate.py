@@ -48,8 +48,8 @@ class CertificateOptions:
     Parameters
     ----------
     closure_tolerance : largest residual of a certified orbit [m, rad, m/s, rad/s].
-    limit_tolerance : body pitch, the stroke and constraints may exceed their limits by this [rad, wing lengths, the
-        constraint's scale].
+    limit_tolerance : body pitch and flap angles [rad], corners of the wing [wing lengths] and constraints [the
+        constraint's scale] may exceed their limits by this.
     aimed_closure : target of the correction, stricter than the tolerance so that rounding does not decide [m, rad,
         m/s, rad/s].
     rtol : relative tolerance of the certifying flight (Dopri8).

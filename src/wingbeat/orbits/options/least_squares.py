@@ -23,7 +23,7 @@ class LeastSquaresOptions:
     accepted : a step that gains less than this share of the linear model's prediction is rejected.
     trusted : only a step that gains more than this share of the prediction may be the last.
     bound_changes : largest number of active-set iterations of one step, divided by the number of unknowns. Each
-        makes one bound active or inactive.
+        iteration makes one bound active or inactive.
     """
 
     evaluations: int = 150

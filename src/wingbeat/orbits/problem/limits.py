@@ -37,7 +37,7 @@ class Constraint:
         if isinstance(self.quantity, str):
             object.__setattr__(self, "quantity", named_quantity(self.quantity))
         if not isinstance(self.quantity, Quantity):
-            faults.add("constraint.quantity", self.quantity, "is not a Quantity", "give one, or its name")
+            faults.add("constraint.quantity", self.quantity, "is not a Quantity", "give a Quantity or its name")
         faults.number("constraint.limit", self.limit)
         faults.raise_if_any()
 

@@ -16,8 +16,8 @@ from wingbeat.vehicle import Air
 _WAY_OUT = "leave out 'plausible', or correct the range in the species file"
 # A fixed number or the Reynolds number may exceed the end of a range by rounding.
 _ROUNDING = 1e-9
-# A limit is inside the end of its range by this share of it. For three orbits at such a limit (bat at 5 m/s, pigeon
-# at 10 m/s) the record exceeded it by at most 7e-5.
+# A limit is set inside the end of the plausible range, by this share of the end. For three orbits at such a limit
+# (bat at 5 m/s, pigeon at 10 m/s) the record exceeded the limit by a share of at most 7e-5.
 _INSET = 2e-4
 
 

@@ -57,7 +57,7 @@ class AirForces(NamedTuple):
     ----------
     generalised : generalised forces f_aero, shape (..., 5) [N, N m].
     power : power of the air loads on wings, body and tail [W], shape (...).
-    spent : the same power by cause, with the opposite sign.
+    spent : `power` by cause, with the opposite sign.
     strips : loads on the strips of the left wing, shape (..., N).
     strip_force : force on each strip in the world [N], shape (..., N, 3).
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).

@@ -2,8 +2,8 @@
 
 These are the first three of the equations of motion of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), summed over
 mass points: ``sum m r'' = F + M g`` and ``sum m (dr/dpsi) . (r'' - g) = moment``, with
-``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` in axes that turn with the body. E turns a vector nose-up
-by a right angle.
+``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` in axes that turn with the body. Here p is the position
+of the body, b that of a point relative to the body, and E turns a vector nose-up by a right angle.
 """
 
 from __future__ import annotations

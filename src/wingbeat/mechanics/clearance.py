@@ -82,7 +82,7 @@ def _half_width(
 
 
 def has_room(vehicle: Vehicle) -> bool:
-    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its side.
+    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its own side.
 
     If the shoulder is in the plane itself, some corner of the root crosses it in any stroke. The wing then counts
     as on its side if neither arm nor hand flaps by more than a right angle.

@@ -51,8 +51,8 @@ class Loads(NamedTuple):
     hinge_power, actuator_power : of the hinges, and of all actuators [W].
     aerodynamic_power, inertial_power, body_power : parts of the hinge power [W], see `HingeLoads`.
     air_power : power of the air loads on wings, body and tail [W].
-    profile_power, induced_power, parasite_power, unsteady_power : parts of that power by cause, with the opposite
-        sign [W]; see `AirPower`.
+    profile_power, induced_power, parasite_power, unsteady_power : parts of `air_power` by cause, with the
+        opposite sign [W]; see `AirPower`.
     centre_of_mass : x and z [m], shape (..., 2).
     momentum : x and z [kg m/s], shape (..., 2).
     angular_momentum : about the centre of mass, nose-up positive [kg m2/s].

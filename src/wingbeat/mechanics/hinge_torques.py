@@ -3,8 +3,9 @@
 By d'Alembert's principle, the generalised force that drives a motion of the wing is
 ``sum m (r'' - g) . v - F . v``. Here v is the velocity that the motion gives each point: dr/d(angle) for a hinge
 torque, dr/dt in body axes for the power of all actuators. In stroke axes
-``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''`` with b the position of a point. So all sums over mass
-points depend on time alone, as in `body_dynamics`.
+``r'' = p'' + psi'' E b - psi'^2 b + 2 psi' E b' + b''``. Here p is the position of the body, b that of a point
+relative to the body, and E turns a vector nose-up by a right angle. So all sums over mass points depend on time
+alone, as in `body_dynamics`.
 """
 
 from __future__ import annotations

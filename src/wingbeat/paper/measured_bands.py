@@ -36,7 +36,8 @@ class Measured:
     speeds : lowest and highest flight speed of the measurement [m/s]; equal for a single point.
     value : function that returns the frequency, in `unit`, for a vehicle, its air and a flight speed [m/s].
     spread : half width, in `unit`; 0 where the source states none.
-    source, grade : the citation; A if the value is as in the source, D if we computed it from the source.
+    source : the citation.
+    grade : A if the value is as in the source, D if we computed it from the source.
     unit : of value and spread.
     """
 

@@ -33,7 +33,7 @@ class TermTrace:
     Attributes
     ----------
     problem : the problem with the full terms, at share 1.
-    orbits : the best orbit of each share, in order; the message of an uncertified one says why.
+    orbits : the best orbit of each share, in order. If it is not certified, its message says why.
     branches : every optimum that was found, and how they are linked.
     seconds : computing time [s].
     """

@@ -40,7 +40,7 @@ class LinearFlight:
     Attributes
     ----------
     orbit : the orbit.
-    state : names of the state: body_pitch, u, w, pitch_rate [rad, m/s, m/s, rad/s]; height z [m] in front if asked.
+    state : names of the state: body_pitch, u, w, pitch_rate [rad, m/s, m/s, rad/s]; with `height`, z [m] comes first.
     inputs : names of the parameters of the wingbeat that change from beat to beat.
     A : derivative of the state after a beat by the state before it, shape (n, n).
     B : derivative of the state after a beat by the inputs, shape (n, inputs).
@@ -48,8 +48,9 @@ class LinearFlight:
         shape (n, 2).
     dt : time of a beat [s].
     modes : of body_pitch, u, w, pitch_rate; the fastest growing first.
-    averaged_modes : those of the averaged model: derivatives of the rates by the state, averaged along the orbit.
-    compensation : harmonics that go with the inputs, so that the wing does not jump; empty if not asked.
+    averaged_modes : modes of the averaged model, whose matrix holds the derivatives of the rates by the state,
+        averaged along the orbit.
+    compensation : harmonics that go with the inputs, so that the wing does not jump; empty without `smooth`.
     """
 
     orbit: Orbit

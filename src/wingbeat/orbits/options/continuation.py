@@ -16,8 +16,8 @@ class ContinuationOptions:
     max_step : an orbit within this distance of another, in the optimiser's scale, may be its continuation. The
         default is 2 degrees of flap amplitude or of body pitch, 0.9 Hz, or 0.15 m/s. Orbits farther apart belong to
         one branch only if orbits between them lead from one to the other.
-    first_speed_step, least_speed_step : steps of speed [m/s]. A branch ends if the smallest step cannot continue
-        it.
+    first_speed_step, least_speed_step : first and smallest step of speed [m/s]. A branch ends if the smallest step
+        cannot continue it.
     first_share_step, least_share_step : the same along the share of a term of the air loads.
     step_growth : the next step is at most this multiple of the last.
     aimed_step : the next step is chosen so that the orbit moves by this share of `max_step`.

@@ -40,11 +40,11 @@ class DiagnosisOptions:
     back_times : the number is moved back at most this often, each time from the last end point.
     raised_bounds : multiples of the lower bound of frequency that are tried where the lowest frequency may be at
         this bound.
-    raised_starts : number of starts for each of these bounds.
+    raised_starts : number of starts for each of these raised bounds.
     term_starts : number of starts of the search without one term of the air loads. The closest wingbeat is one
         more start.
-    term_trace : this search first keeps this share of the term, because the compiled programs then still apply. The
-        problem without the term needs programs of its own. It is solved only if the first search closes.
+    term_trace : a first search keeps this share of the term, because the compiled programs then still apply. The
+        problem without the term needs programs of its own, and is solved only if the first search closes.
     """
 
     nearest_ends: int = 6
@@ -89,7 +89,7 @@ class ChangeOptions:
     wide_frequency : the upper bound of frequency may rise to this multiple of itself, or to 200 Hz if that is more.
         The lower bound may fall to its value divided by this number, or to 0.1 Hz if that is less. A scaling law
         that was used outside its data, for a bat of 10 kg, gave bounds that were 9 times too low.
-    raised_frequency : increases of the upper bound of frequency that are tried first, as shares of it.
+    raised_frequency : increases of the upper bound of frequency that are tried first, as shares of this bound.
     beyond : mass, climb and shoulder are first moved by this multiple of the deficit, as a share of their scale.
     chords : largest shift of the shoulder [chords].
     low_speed : if the problem's speed is lower than this, a change of speed or climb by this much is large [m/s].

@@ -22,8 +22,8 @@ class SolverOptions:
     search : options of the starts and the local searches.
     certificate : options of the correction of an optimum, and of the flight that certifies it.
     continuation : options of the continuation of orbits along speed, and from problem to problem.
-    diagnosis, changes : if there is no orbit: options of the diagnosis of the balance that fails, and options of
-        the changes that are tried.
+    diagnosis : options of the diagnosis of the balance that fails if there is no orbit.
+    changes : options of the changes that are tried if there is no orbit.
     sensitivity : options of the derivatives of an optimum.
 
     Raises

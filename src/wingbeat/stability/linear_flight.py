@@ -40,7 +40,7 @@ class LinearFlight:
     Attributes
     ----------
     orbit : the orbit.
-    state : names of the state: body_pitch, u, w, pitch_rate [rad, m/s, m/s, rad/s]; with `height`, z [m] comes first.
+    state : names of the state: body_pitch, u, w, pitch_rate [rad, m/s, m/s, rad/s]; with `height`, z [m] is first.
     inputs : names of the parameters of the wingbeat that change from beat to beat.
     A : derivative of the state after a beat by the state before it, shape (n, n).
     B : derivative of the state after a beat by the inputs, shape (n, inputs).

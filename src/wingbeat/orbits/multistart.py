@@ -84,7 +84,7 @@ def stable_searches(programme: Transcription, easier: list[Candidate], threads: 
     """Search for stable orbits from the optima without limits of stability; return where the searches end.
 
     No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
-    derivatives of the stroke map takes nine times as long. If stability is dear, its limits are tightened step by
+    derivatives of the stroke map takes five times as long. If stability is dear, its limits are tightened step by
     step too, because a search may otherwise end in another family.
     """
     found = search_from_optima(programme, easier, threads)

@@ -60,8 +60,8 @@ class Solution:
     `optima` holds the best uncorrected optimum of each family. If there is no orbit, wingbeat and initial state are
     those of the closest wingbeat; `deficits` are the deficits of the balances that fail, the largest first; and
     `relaxations` are the single changes with which an orbit exists, the smallest first. `reduced_hessian` helps to
-    solve similar problems; `options` are the options of the solvers; `free_objective` is the objective without limits
-    of stability, if the problem has such limits.
+    solve similar problems; `options` are the options of the solvers. `free_objective` is the objective without
+    limits of stability, if the problem has such limits.
     """
 
     problem: OrbitProblem

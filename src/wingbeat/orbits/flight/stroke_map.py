@@ -11,8 +11,9 @@ from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.shooting import Flown, flier
 
-# Distances from the start at which flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
-_BESIDE = (1e-4, 1e-3, 1e-3, 2e-3)
+# Distances from the start at which flights begin: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]. The first
+# derivatives of a flight are exact to 1e-13, so one-sided differences of them can have steps as short as this.
+_BESIDE = (1e-7, 1e-6, 1e-6, 1e-6)
 
 
 class StrokeMap(NamedTuple):
@@ -65,7 +66,7 @@ def map_and_changes(
 
     The derivatives have the shape (unknowns, 4, 4). Second derivatives of the flight do not depend on the order of
     differentiation, so those of the map by all unknowns are changes of the exact first derivatives by the four
-    states alone: eight flights, however many parameters are free.
+    states alone: four flights, however many parameters are free.
 
     Parameters
     ----------
@@ -73,8 +74,7 @@ def map_and_changes(
     values, start, blocks : its arguments.
     flown : the flight from there.
     """
-    changes = []
-    for step in np.diag(_BESIDE):
-        ahead, behind = (np.asarray(fly(values, start + to, blocks).end_jacobian)[2:] for to in (step, -step))
-        changes.append((ahead - behind) / (2.0 * step.sum()))
-    return np.asarray(flown.end_jacobian)[2:, :4], np.stack(changes, axis=-1).transpose(1, 0, 2)
+    here = np.asarray(flown.end_jacobian)[2:]
+    beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]
+    changes = [(there - here) / step for there, step in zip(beside, _BESIDE, strict=True)]
+    return here[:, :4], np.stack(changes, axis=-1).transpose(1, 0, 2)

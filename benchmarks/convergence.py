@@ -84,11 +84,11 @@ def main() -> None:
         "# Convergence\n",
         "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, all orbits "
         "have minimum frequency, with the\ndefault wings and bounds, Su-Fan coefficients and the mirrored "
-        "extension. Each is solved from the first start only, so that a column\nfollows one family of orbits; "
-        "others of lower frequency may exist.\n",
+        "extension. Each is solved from the first start only, so that a column\nfollows one family of orbits. "
+        "Families of lower frequency may exist.\n",
         "For the first two tables, we flew a certified orbit with fixed steps. The tables give the largest "
         "difference\nbetween the final state of this flight and the final state of the certifying flight. "
-        "In the other tables, *closure* is the largest residual "
+        "In the tables after these two, *closure* is the largest residual "
         "when the certifier flies the orbit.\n",
     ]
     for title, make in (

@@ -18,11 +18,11 @@ SPEEDS = (("min_power_speed", "minimum-power speed"), ("max_range_speed", "maxim
 HEAD = """
 ## Better than wing loading alone?
 
-*As predicted* is the scatter of predicted over measured speed about its mean, with nothing else fitted. *Fitted*
-is the scatter that is left if a factor times a power of the prediction, or of wing loading, is fitted to the
-measured speed: each predictor then has the same two fitted numbers. *Change* is the relative change of the
-logarithm of the fitted scatter if the predictor replaces wing loading. Its 95 % interval is from {samples}
-bootstrap samples of the species. A decrease of {clearly:.0%} or more counts as better.
+*As predicted* is the scatter of predicted over measured speed about its mean, with nothing else fitted. For
+*fitted*, we fit a factor times a power of the predictor to the measured speed, and give the scatter that is left.
+Each predictor thus has two fitted numbers. *Change* is the relative change of the logarithm of the fitted scatter
+if the predictor replaces wing loading. Its 95 % interval is from {samples} bootstrap samples of the species. A
+decrease of {clearly:.0%} or more counts as better.
 
 | predictor of the measured speed | as predicted | fitted | change |
 | --- | --- | --- | --- |
@@ -90,6 +90,6 @@ def _answer(model: str, as_is: float, left: float, gained: tuple[float, float, f
         verdict = "**only if fitted**" if gained[0] <= -CLEARLY and gained[2] < 0 else "**no**"
     return (
         f"- `{model}`: {verdict}. With nothing fitted, the better of the model's two speeds has a scatter of "
-        f"{as_is:.2f}. With a fit, the better of the two has a scatter of {math.exp(left):.2f}, and wing loading "
-        f"one of {math.exp(alone):.2f}."
+        f"{as_is:.2f}. With a fit, the scatter is {math.exp(left):.2f} for the better of the two speeds, and "
+        f"{math.exp(alone):.2f} for wing loading."
     )

@@ -31,15 +31,15 @@ objective before any comparison with the radar. The tables also hold the positiv
 
 Each bird flies with least power at several speeds. These speeds are multiples of the speed at which a wing of lift
 coefficient 1 carries the bird, so they do not depend on the measured airspeed. The model `paper` has seven
-multiples, from 0.65 to 1.6. The model `animal` has five, from 1.1 to 1.5; if power, or power over speed, is least
-at an end, further speeds follow. A parabola through the point of lowest power and its two neighbours gives the
-minimum-power speed. In the same way, power over speed gives the maximum-range speed. Each bird also flies at its
-measured airspeed, with least power and with minimum frequency.
+multiples, from 0.65 to 1.6. The model `animal` has five, from 1.1 to 1.5. If its power, or its power over speed, is
+least at an end of the flown speeds, further speeds follow beyond that end. A parabola through the point of lowest
+power and its two neighbours gives the minimum-power speed. In the same way, power over speed gives the
+maximum-range speed. Each bird also flies at its measured airspeed, with least power and with minimum frequency.
 
 For `paper`, one batch solves all problems. If a bird's power does not change smoothly with speed, its orbits are
 solved again, each starting from the results at the neighbouring speeds. For `animal`, the birds are solved in order
-of mass. Each bird starts from the orbits of the bird before, and at some speeds also from its own stock wingbeat.
-Each orbit then serves as a start at the neighbouring speeds, until no orbit improves.
+of mass. Each bird starts from the orbits of the next lighter bird, and at some speeds also from its own stock
+wingbeat. Each orbit then serves as a start at the neighbouring speeds, until no orbit improves.
 {certified}
 
 The orbits are the best found; better ones may exist. The tables behind this page are
@@ -131,8 +131,8 @@ def spread_table(moved: list[Moved]) -> str:
     head = (
         "\n## Sensitivity to the derived numbers\n\nThese are results of the model `paper`. Each number is changed "
         "alone, to the low or high end of its plausible range. The ends for span retraction are 0 and 0.5; "
-        "*body-drag* is the bird with body drag, by the law for birds ([tails](tails.md#body-drag)); without it "
-        "the body has no drag. Each cell gives three changes in percent: of the "
+        "in the row *body-drag* the body has drag, by the law for birds ([tails](tails.md#body-drag)), and in all "
+        "other rows it has none. Each cell gives three changes in percent: of the "
         "minimum-power speed / of the maximum-range speed / of the minimum power. A dash means that power, or "
         "power over speed, has no minimum within the speeds flown.\n\n"
     )
@@ -201,21 +201,22 @@ For the model `paper`:
 - Nothing was fitted. The model ranks the species by speed, but no better than wing loading alone does. Both
   predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the coefficients
   do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low wing loading fly far
-  faster than that. The model predicts the airspeed of a species no better than one speed for all birds does.
+  faster than a fixed multiple says. The model predicts the airspeed of a species no better than one speed for all
+  birds does.
 - Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight
   outside that range therefore does not explain the differences by itself.
-- Two possible explanations are in the air loads, and the model `animal` changes both. First, the model `paper` has
-  no induced flow. It underestimates the power of slow flight, so both speeds are too low. Second, a thick plate has
-  high drag at small angles. The model overestimates the power of fast flight, and this too makes both speeds too
-  low.
+- The air loads offer two possible explanations, and the model `animal` differs from `paper` in both. First, the
+  model `paper` has no induced flow. It underestimates the power of slow flight, so both speeds are too low. Second,
+  a thick plate has high drag at small angles. The model `paper` overestimates the power of fast flight, and this
+  too makes both speeds too low.
 - We did not test two other explanations. Small birds fold their wings between bursts of flapping, which the models
   cannot do. Migrating birds may not choose their speed for power or range.
 - The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
   the law but hardly confirms it: the law's exponents come from dimensional reasoning, which our model obeys too.
 - The model's orbits of least power have about twice the frequency of live animals. In {leaning} of {count} of these
   orbits the frequency is at its upper bound. With the measured flap amplitude of the alcids (auks), the frequency
-  of least power is even higher: {low:.0f} to {high:.0f} Hz. Positive hinge power does not grow with frequency
-  as such, but the energy that a muscle needs does.
+  of least power is even higher: {low:.0f} to {high:.0f} Hz. Frequency as such does not raise the positive hinge
+  power, but it raises the energy that a muscle needs.
 - The predicted power is several times the measured power. Do not take a power from this model for an animal's.
 - The uncertainty of the derived numbers does not explain the differences from measurement. In the table above,
   most derived numbers change either speed by at most about a tenth and power by at most about a quarter. The
@@ -224,17 +225,17 @@ For the model `paper`:
 """
 
 BESIDE = """
-For the model `animal`, with the values of `paper` in brackets:
+For the model `animal` (values of `paper` in brackets):
 
-- The median ratio of the maximum-range speed to the measured one is {range_animal:.2f} (`paper` {range_paper:.2f}),
-  that of the minimum-power speed {power_animal:.2f} ({power_paper:.2f}). The predicted maximum-range speed rises
-  with wing loading by the exponent {exponent_animal:.2f} ({exponent_paper:.2f}), the measured speed by
-  {exponent_measured:.2f}. Induced flow and wings of less drag thus {explain}.
-- Both speeds are again near a multiple of the speed at lift coefficient 1: {low:.2f} to {high:.2f} times for
-  the maximum-range speed of nine tenths of the species ({low_paper:.2f} to {high_paper:.2f}).
-- The positive hinge power at the minimum-power speed is {hinge_animal:.0f} W/kg in the median ({hinge_paper:.0f}).
-- At the measured airspeed, least power needs {beat_animal:.2f} times the frequency of Pennycuick's law, median
-  ({beat_paper:.2f}).
+- The median ratio of predicted to measured speed is {range_animal:.2f} ({range_paper:.2f}) for the maximum-range
+  speed and {power_animal:.2f} ({power_paper:.2f}) for the minimum-power speed. The predicted maximum-range speed
+  rises with wing loading by the exponent {exponent_animal:.2f} ({exponent_paper:.2f}), the measured speed by the
+  exponent {exponent_measured:.2f}. Induced flow and wings of less drag thus {explain}.
+- Both speeds are again nearly fixed multiples of the speed at lift coefficient 1. For nine tenths of the species,
+  the maximum-range speed is {low:.2f} to {high:.2f} ({low_paper:.2f} to {high_paper:.2f}) times that speed.
+- The positive hinge power at the minimum-power speed is {hinge_animal:.0f} ({hinge_paper:.0f}) W/kg in the median.
+- At the measured airspeed, least power needs {beat_animal:.2f} ({beat_paper:.2f}) times the frequency of
+  Pennycuick's law, in the median.
 """
 
 

@@ -57,9 +57,10 @@ not fitted. `drag_induced` is below that of an ideal wing, 0.053, because the wa
 the lift of its tail and body.
 """
 LEFT_OUT = """
-For each gull wing, the median of the other eight wings predicts its glide at its own aspect ratio. The drag
-is that of the prints, not of the live bird. *Ratio* is the lift-to-drag ratio. *Sink* is the least sink speed
-in units of `sqrt(2 W / (rho S))`, with W the weight and S the wing area.
+We leave out each gull wing in turn. The median of the other eight wings predicts the glide of this wing, at
+this wing's aspect ratio. The drag is that of the prints, not of the live bird. *Ratio* is the lift-to-drag
+ratio. *Sink* is the least sink speed in units of `sqrt(2 W / (rho S))`, with W the weight and S the wing
+area.
 """
 LEFT_OUT_VERDICT = """
 Our goal was an error of at most {goal:.0%} for wings that the fit did not see. **Not every gull wing meets
@@ -102,20 +103,20 @@ speed.
 """
 GUESSES = (
     """- `feathered` is a wing of aspect ratio 6, and its drag includes induced drag. With `--inflow momentum`
-    wingbeat first converts it to a section, which has none.""",
+    wingbeat first converts it to a section, which has no induced drag.""",
     """- `feathered-revolving` has the delayed stall of revolving, dried pigeon wings: a C_L of 1.64 at 43
     degrees (Usherwood 2009, PMC3380271) and a largest lift-to-drag ratio of 6.3 (Crandell and Tobalske 2011,
     J. Exp. Biol. 214:1867). It states no aspect ratio, because coefficients of a revolving wing already
     include its induced flow. For its C_D beyond stall, the sources differ by a factor of three: 0.49 follows
     from the lift-to-drag ratio of 3.33 that Crandell and Tobalske give at 46 degrees, and 1.53 from a force
-    normal to the wing, as on revolving plates. The model uses their geometric mean. Use this model for hover
-    and slow flight.""",
-    """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so it
-    holds for slow and fast flight. That the two join in this way is a guess. Do not use this model for glides,
-    in which wings stall earlier.""",
+    normal to the wing, as on revolving plates. The model uses the geometric mean of these two values. Use
+    this model for hover and slow flight.""",
+    """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so
+    it holds for slow and fast flight. It is a guess that this flow and this stall join. Do not use this model
+    for glides, in which wings stall earlier.""",
     """- `membrane` is largely a guess, because we found no polar of a bat's wing in a source that we could
     access. Only two of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie
     2007, doi 10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8
     (Muijres et al. 2008, doi 10.1126/science.1153019); no model here reaches that.""",
-    "- Choose a model by the kind of wing, not by the flight that it gives.",
+    "- Choose a model by the kind of wing, not by the flight that the model gives.",
 )

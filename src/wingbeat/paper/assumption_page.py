@@ -74,9 +74,9 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "*Testable* is the share of sets that have the orbits to test the claim. *Holds* is the share of the "
         "testable sets that satisfy it, with its standard error. Each set gives one number for the claim; the "
         "claim calls it *Ours*. We fit a quadratic response surface to the ranks of these numbers. *Depends on* "
-        "names each assumption that explains at least a twentieth of their variance, with the share that it "
-        "explains. *Quality* is the share of the variance that the surface explains in numbers not used in the "
-        f"fit. Below {TRUSTED:g} the surface says little.",
+        "names each assumption that explains at least a twentieth of the variance of these ranks, with the share "
+        "that it explains. *Quality* is the share of the variance that the surface explains in numbers that were "
+        f"not used in the fit. Below {TRUSTED:g} the surface says little.",
         "",
         "| claim | holds [%] | testable [%] | depends on | quality |",
         "| --- | --- | --- | --- | --- |",
@@ -146,7 +146,7 @@ def _apart(study: Judged) -> list[str]:
     never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
     if never:
         lines.append(f"- no set satisfies any of these: {', '.join(f'`{name}`' for name in never)}")
-    return lines or ["- any two claims that each hold in many sets hold together in some set"]
+    return lines or ["- for any two claims, each of which holds in many sets, there is a set in which both hold"]
 
 
 @drawing(font=9.0)

@@ -65,7 +65,7 @@ def premise_claims() -> list[Claim]:
             "discussion, experiment",
             "The peak of C_L near 40 deg is in line with that of Dickinson's insect wing. Tested: at 40 deg the "
             f"insect wing's C_L is at most {100 * IN_LINE:.0f} % below its maximum, which is at {peak:.0f} deg. "
-            "Elsewhere the paper calls agreement this close very good. Ours: the shortfall at 40 deg, as a "
+            "Elsewhere the paper calls such close agreement very good. Ours: the shortfall at 40 deg, as a "
             "share of the maximum.",
             0.0,
             "1",

@@ -20,7 +20,8 @@ HEAD = """# {count} birds against radar measurements
 `python validation/alerstam.py` writes this page and computes every number in its tables. Alerstam et al. 2007
 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0) measured the airspeeds of birds by radar. For
 {count} of their species, mass, span and area are known. `wb.bird` builds each of these species from the three
-numbers; scaling laws give the rest. Each bird is flown by one or both [models](models.md), and nothing is fitted.
+numbers; scaling laws give the rest. Each bird is flown by the [models](models.md) `paper` and `animal`, and nothing
+is fitted.
 
 The model `paper` computes air loads from the Su-Fan coefficients, without induced flow and without body drag. Its
 least power is the least positive hinge power, because it has no muscle. The model `animal` has feathered wings. Its

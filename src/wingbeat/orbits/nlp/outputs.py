@@ -39,7 +39,9 @@ class Outputs:
         self._velocity = problem.speed, problem.climb
         objective = [] if problem.minimise.parameter else [problem.minimise]
         self._functions = OutputFunctions(objective, problem.subject_to, problem.aero.strips, problem.vehicle.drive)
-        self._reader = beat_reader(problem.model, problem.species.wingbeat, problem.free, self._velocity)
+        self._reader = beat_reader(
+            problem.model, problem.species.wingbeat, problem.free, self._velocity, self._functions.fields
+        )
         self.of_objective = self._functions.counts[0] if objective else 0
         self.minimises_peaks = self.of_objective > 1
         self.count = sum(self._functions.counts)

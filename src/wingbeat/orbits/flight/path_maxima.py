@@ -6,6 +6,7 @@ alternate between peaks of equal height.
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -37,13 +38,26 @@ def peaks(series: SampledSeries) -> Quarters:
 
 def _quarters(series: SampledSeries) -> np.ndarray:
     """Return the indices of the samples of each quarter, ends included, shape (quarters, samples)."""
-    part = (series.shape[0] - 1) // PARTS
+    return _quarters_of(series.shape[0])
+
+
+@functools.lru_cache(32)
+def _quarters_of(count: int) -> np.ndarray:
+    part = (count - 1) // PARTS
     return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
+
+
+def _at(series: SampledSeries, index: Any, xp: Any) -> Any:
+    """Return the samples at indices along the first axis; all other axes are those of the series."""
+    # Every flight of a search needs the peaks of one path, and `take_along_axis` takes ten times as long.
+    return series[index] if xp is np and series.ndim == 1 else xp.take_along_axis(series, index, axis=0)
 
 
 def _taken(series: SampledSeries, around: SamplesOfPeaks, xp: Any) -> Any:
     """Return the samples at indices of shape (4, quarters, ...)."""
-    return xp.stack([xp.take_along_axis(series, index, axis=0) for index in around])
+    if xp is np and series.ndim == 1:
+        return _at(series, around, xp)
+    return xp.stack([_at(series, index, xp) for index in around])
 
 
 def _samples_around(series: SampledSeries, xp: Any) -> Any:
@@ -56,7 +70,7 @@ def _samples_around(series: SampledSeries, xp: Any) -> Any:
     top = begin + xp.argmax(series[quarters], axis=1)
 
     def beside(way: int) -> Any:
-        return xp.take_along_axis(series, (top + way) % count, axis=0)
+        return _at(series, (top + way) % count, xp)
 
     way = xp.where(beside(1) >= beside(-1), 1, -1)
     # Where the curve would rise beyond the quarter, its peak is the sample at the end.
@@ -83,8 +97,9 @@ class WeightedSamples:
         For a change of the path, the result is the change of its peaks, because a shift of a peak's phase has no
         first-order effect.
         """
-        more = tuple(range(self._weights.ndim, series.ndim + 1))
-        around, weights = (np.expand_dims(a, more) for a in (self._around, self._weights))
+        around, weights = self._around, self._weights
+        if more := tuple(range(weights.ndim, series.ndim + 1)):
+            around, weights = (np.expand_dims(a, more) for a in (around, weights))
         return (weights * _taken(series, around, np)).sum(axis=0)
 
     def of_highest(self, count: int) -> np.ndarray:

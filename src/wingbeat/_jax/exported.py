@@ -75,10 +75,13 @@ class StoredFunction:
     named in `static` must be given by keyword, and different values must have different `repr`s.
     """
 
-    def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False) -> None:
+    def __init__(
+        self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False, kept: bool = True
+    ) -> None:
         functools.update_wrapper(self, function)
         self._function = function
         self._hot = hot
+        self._kept = kept
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()
         self._ready: dict[Any, _Ready] = {}
@@ -140,12 +143,12 @@ class StoredFunction:
     def _load(self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]) -> _Ready:
         sizes = [sum(math.prod(shape) for shape in part) for part in (shapes, rest)]
         arguments = [jax.ShapeDtypeStruct((size,), jnp.float64) for size in sizes]
-        name = self._kept_name(tree, (shapes, rest), static)
-        if (kept := kept_program(name)) is not None:
+        name = self._kept_name(tree, (shapes, rest), static) if self._kept else ""
+        if self._kept and (kept := kept_program(name)) is not None:
             with suppress(Exception):  # if JAX can no longer read it, it is traced again
                 program, out_tree, out_shapes = pickle.loads(kept)
                 exported = jax.export.deserialize(bytearray(program))
-                return _Ready(_compiled(exported, arguments, self._hot), out_tree, out_shapes)
+                return _Ready(_compiled(exported.call, arguments, self._hot), out_tree, out_shapes)
         outcome = []
 
         def flat(held: Any, more: Any) -> Any:
@@ -157,10 +160,12 @@ class StoredFunction:
             outcome.append((out_tree, tuple(leaf.shape for leaf in leaves)))
             return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
+        if not self._kept:
+            return _Ready(_compiled(flat, arguments, self._hot), *outcome[0])
         with _TRACING:
             exported = without_repeats(jax.export.export(jax.jit(flat))(*arguments))
         keep_program(name, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        return _Ready(_compiled(exported, arguments, self._hot), *outcome[0])
+        return _Ready(_compiled(exported.call, arguments, self._hot), *outcome[0])
 
     def _kept_name(self, tree: Any, shapes: Any, static: dict[str, Any]) -> str:
         """Return the name of the traced program's file: a digest of everything that could change the program."""
@@ -175,12 +180,12 @@ class StoredFunction:
         return f"traced-{hashlib.sha256(repr(what).encode()).hexdigest()}"
 
 
-def _compiled(program: jax.export.Exported, arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
-    """Compile a traced program, or read it from JAX's cache, before its first call.
+def _compiled(program: Callable[..., Any], arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
+    """Compile a program, or read it from JAX's cache, before its first call.
 
     If the first call compiled it, JAX would keep two copies in memory.
     """
-    lowered = jax.jit(program.call).lower(*arguments)
+    lowered = jax.jit(program).lower(*arguments)
     if jax.default_backend() == "cpu" and not hot:
         with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
             return lowered.compile(_SOON_ON_CPU)
@@ -242,10 +247,17 @@ def _source_digest() -> str:
     return digest.hexdigest()
 
 
-def exported(function: Callable[..., Any] | None = None, *, static: tuple[str, ...] = (), hot: bool = False) -> Any:
+def exported(
+    function: Callable[..., Any] | None = None,
+    *,
+    static: tuple[str, ...] = (),
+    hot: bool = False,
+    kept: bool = True,
+) -> Any:
     """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
 
-    A `hot` function takes longer to compile and then runs faster.
+    A `hot` function takes longer to compile and then runs faster. One that is not `kept` is traced in each process,
+    as a function must be that takes a user's function.
 
     >>> @exported
     ... def double(values):
@@ -254,5 +266,5 @@ def exported(function: Callable[..., Any] | None = None, *, static: tuple[str, .
     3.0
     """
     if function is None:
-        return functools.partial(exported, static=static, hot=hot)
-    return StoredFunction(function, static, hot)
+        return functools.partial(exported, static=static, hot=hot, kept=kept)
+    return StoredFunction(function, static, hot, kept)

@@ -147,6 +147,14 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
 NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
 # Those with a column for each strip. All others are series.
 BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
+# Fields that take longer than the others, by what takes it: columns of strips, and a third motion of the wing.
+_DEAR = (frozenset(BY_STRIP), frozenset({"actuator_power"}))
+
+
+def _with_cheap(fields: Collection[str]) -> tuple[str, ...]:
+    """Return the fields with all that cost little, so that few programs serve all objectives and limits."""
+    dear = [group for group in _DEAR if group.isdisjoint(fields)]
+    return tuple(name for name in Beat._fields if name != "drive" and not any(name in group for group in dear))
 
 
 class _Tables(NamedTuple):
@@ -272,10 +280,9 @@ def beat_reader(
     """Return a function that computes a flight's beat and its derivatives by the unknowns (first axis).
 
     The function takes the values of the parameters named in `free`, and the flight that `flier` computed from them.
-    Only the named fields of the beat are computed; the others are None. A muscle's power needs 6 of 40 fields, in a
-    fifth of the time of all.
+    Of fields that take long, only those that are named are computed; the others are None.
     """
-    part = _part.bind(model, wingbeat, free=free, fields=fields)
+    part = _part.bind(model, wingbeat, free=free, fields=_with_cheap(fields))
     velocity = np.array(mean_velocity)
 
     def read(values: np.ndarray, flown: Flown) -> tuple[Beat, Beat]:

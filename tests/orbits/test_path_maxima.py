@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wingbeat._jax.config import jax
-from wingbeat.orbits.flight.path_maxima import PARTS, highest, peak_weights, peaks, spread
+from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest, peak_weights, peaks, spread
 
 PEAKS = jax.jit(peaks)
 PHASE = np.linspace(0.0, 1.0, 33)
@@ -75,3 +75,12 @@ def test_the_largest_spread_is_the_range():
     fine = np.cos(2 * np.pi * np.linspace(0, 1, 257))
     assert spread(fine).shape == (257, PARTS)
     assert float(spread(fine).max()) == pytest.approx(2.0, rel=1e-4)
+
+
+def test_one_path_and_a_column_of_paths_have_the_same_peaks():
+    random = np.random.default_rng(3)
+    for _ in range(100):
+        two = np.round(random.normal(size=(33, 2)), 1)
+        two[-1] = two[0]
+        together = WeightedSamples(two).peaks
+        assert np.array_equal(together, np.stack([WeightedSamples(one).peaks for one in two.T], axis=1))

@@ -49,7 +49,7 @@ def test_values_and_derivatives_are_those_of_the_whole_beat():
     programme = Transcription(problem)
     unknowns = programme.physical(programme.scaled(start_point(problem, 0, 0)))
     flown = programme.fly(unknowns[4:], unknowns[:4], 1)
-    found, jacobian = programme.outputs.of(unknowns, flown)
+    found, jacobian = programme.outputs.of(unknowns, flown, 1)
     beat, changes = beat_reader(problem.model, pigeon.wingbeat, problem.free, (10.0, 0.0))(unknowns[4:], flown)
     assert beat.lift is not None
     assert changes.actuator_power is not None

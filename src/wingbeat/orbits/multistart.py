@@ -14,6 +14,7 @@ from wingbeat.orbits.flight.shooting import fly_part
 from wingbeat.orbits.nlp.local_search import Candidate, search
 from wingbeat.orbits.nlp.tightening import tightened
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.problem.stable import asks_for_stability, easier, minimises_map
 from wingbeat.orbits.solution import Optimum, families
 from wingbeat.orbits.starts import start_beside, start_point
 
@@ -48,7 +49,7 @@ def first_searches(
     progress : called with (local searches done, local searches in all), including those without limits.
     """
     problem, options = programme.problem, programme.options
-    if problem.asks_for_stability:
+    if asks_for_stability(problem):
         return stable_searches(programme, easier_searches(programme, starts, seed, threads, progress), threads)
     limited = bool(problem.subject_to)
     found: list[Candidate] = []
@@ -76,22 +77,22 @@ def easier_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
     """Search as `first_searches` does, for the problem whose optima a search for stability starts from."""
-    easier = Transcription(programme.problem.easier(), programme.options)
-    return first_searches(easier, starts, seed, threads, progress)
+    free = Transcription(easier(programme.problem), programme.options)
+    return first_searches(free, starts, seed, threads, progress)
 
 
-def stable_searches(programme: Transcription, easier: list[Candidate], threads: int) -> list[Candidate]:
+def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:
     """Search for stable orbits from the optima without limits of stability; return where the searches end.
 
     No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
     derivatives of the stroke map takes five times as long. If stability is dear, its limits are tightened step by
     step too, because a search may otherwise end in another family.
     """
-    found = search_from_optima(programme, easier, threads)
-    free, stable = optimal(easier), optimal(found)
-    if programme.problem.minimises_map or not free:
+    found = search_from_optima(programme, free, threads)
+    best, stable = optimal(free), optimal(found)
+    if minimises_map(programme.problem) or not best:
         return found
-    dear = free[0].objective + programme.options.search.dear_stability * abs(free[0].objective)
+    dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)
     if not stable or stable[0].objective > dear:
         scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
         starts = [optimum.unknowns for optimum in families(optima_of(free), scale, apart)]

@@ -28,6 +28,7 @@ from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
+from wingbeat.orbits.problem.stable import asks_for_stability, minimises_map
 from wingbeat.orbits.solution import Optimum, Solution, better_of, families
 from wingbeat.orbits.starts import start_count, start_point
 from wingbeat.orbits.status import Status
@@ -135,10 +136,10 @@ def _searched(
     The last list holds the ends of the searches without limits of stability, if the problem has such limits.
     """
     load_programs(programme, start_point(programme.problem, 0, seed, programme.options.search))
-    easier: list[Candidate] = []
-    if programme.problem.asks_for_stability:
-        easier = easier_searches(programme, starts, seed, threads, progress)
-        found = stable_searches(programme, easier, threads)
+    free: list[Candidate] = []
+    if asks_for_stability(programme.problem):
+        free = easier_searches(programme, starts, seed, threads, progress)
+        found = stable_searches(programme, free, threads)
     else:
         found = first_searches(programme, starts, seed, threads, progress)
     best = first_certified(programme, found)
@@ -153,7 +154,7 @@ def _searched(
             progress(done, max(starts, most))
         if (best := first_certified(programme, [candidate])) is not None:
             break
-    return best, found, easier if programme.problem.minimise == programme.problem.easier().minimise else []
+    return best, found, [] if minimises_map(programme.problem) else free
 
 
 def _certified_objective(found: list[Candidate]) -> float | None:

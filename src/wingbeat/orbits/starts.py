@@ -17,12 +17,13 @@ from wingbeat.orbits.options.search import SearchOptions
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.options.start_families import StartFamily
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.stable import asks_for_stability, easier
 
 
 def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
     """Return the default number of starts of a problem."""
-    if problem.asks_for_stability:
-        return usual_starts(problem.easier(), options)
+    if asks_for_stability(problem):
+        return usual_starts(easier(problem), options)
     if problem.minimises_peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
     return options.starts_of_outputs if problem.has_outputs else options.starts

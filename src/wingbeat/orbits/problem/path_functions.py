@@ -11,27 +11,29 @@ import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.exported import jit_soon
+from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.actuators import Drive
 from wingbeat.errors import Fault, InvalidInputError, first_line
-from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
+from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.map_quantities import MapQuantity
-from wingbeat.orbits.problem.quantities import Quantity
+from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.problem.traced import ALL_FIELDS, SAMPLES, fields_read, given_by
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import StrokeMatrix
 
 # How to add what a quantity needs to a vehicle.
 _FIXES = {
     "muscle": "add a muscle with species.with_muscle(), or set the numbers muscle.* with --set",
     "motor": "add a motor: set the numbers motor.* with --set or in the species file",
 }
-# Samples of a beat that serves for its shapes only.
-_SAMPLES = 1 + 2 * PARTS
 
 
 # One program for each function serves all objectives and limits that contain it.
@@ -40,10 +42,27 @@ def _value(function: Callable[[Any], Any], given: Any) -> Any:
     return jnp.asarray(function(given), dtype=float)
 
 
+@exported(static=("function", "fields"), kept=False)
+def _changes(
+    drive: Drive, *series: Any, function: Callable[[Beat], Any], fields: tuple[str, ...]
+) -> tuple[Any, Any]:
+    """Return the value of a function of these fields of a beat, and its change for each change of the fields.
+
+    `series` holds the fields and then their changes.
+    """
+
+    def at(*held: Any) -> Any:
+        given = dict.fromkeys(ALL_FIELDS) | dict(zip(fields, held, strict=True))
+        return _value(function, Beat(**given, drive=drive))
+
+    value, along = jax.linearize(at, *series[: len(fields)])
+    return value, jax.vmap(along)(*series[len(fields) :])
+
+
 @functools.partial(jit_soon, static_argnums=0)
-def _changes(function: Callable[[Any], Any], given: Any, changes: Any) -> tuple[Any, Any]:
-    """Return the value of a function of a beat or a stroke map, and its change for each change of that."""
-    value, along = jax.linearize(lambda at: _value(function, at), given)
+def _map_changes(function: Callable[[Any], Any], stroke_map: StrokeMatrix, changes: Any) -> tuple[Any, Any]:
+    """Return the value of a function of the stroke map, and its change for each change of the map."""
+    value, along = jax.linearize(lambda at: _value(function, at), stroke_map)
     return value, jax.vmap(along)(changes)
 
 
@@ -70,20 +89,31 @@ class Read(NamedTuple):
     stroke_map: Any = None
 
 
-class _OfBeat(NamedTuple):
-    """A function of the beat; a series counts by its peaks."""
+class _OfBeat:
+    """A function of the beat; a series counts by its peaks. `fields` are those of the beat that it reads."""
 
-    function: Callable[[Any], Any]
+    def __init__(self, function: Callable[[Any], Any], strips: int, drive: Drive) -> None:
+        self.function = function
+        self._drive = jax.tree.map(float, drive)  # a whole number would make another program
+        self.fields = fields_read(function, strips, jax.tree.structure(drive))
+        self.count = count_of(function, strips, drive, of_map=False)
+        # By number of samples, because a bound program takes arrays of one shape.
+        self._bound: dict[int, Callable[..., Any]] = {}
 
     def value(self, read: Read) -> np.ndarray:
-        value = np.asarray(_value(self.function, read.beat))
+        beat = read.beat._replace(drive=self._drive).only(self.fields)
+        value = np.asarray(_value(self.function, beat))
         return highest(value) if value.ndim else value
 
     def exactly(self, read: Read) -> np.ndarray:
         return self.value(read)
 
     def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
-        value, along = (np.asarray(a) for a in _changes(self.function, read.beat, changes.beat))
+        samples = len(read.beat.phase)
+        if samples not in self._bound:
+            self._bound[samples] = _changes.bind(self._drive, function=self.function, fields=self.fields)
+        series = (getattr(beat, name) for beat in (read.beat, changes.beat) for name in self.fields)
+        value, along = self._bound[samples](*series)
         along = np.moveaxis(along, 0, -1)
         if not value.ndim:
             return value, along
@@ -91,36 +121,31 @@ class _OfBeat(NamedTuple):
         return weighted.peaks, weighted.of(along)
 
 
-class _OfMap(NamedTuple):
-    """A function of the stroke map over a number; the upper limit that it stands for, if it is a smooth excess."""
+class _OfMap:
+    """A function of the stroke map over a number; `smooth_for` is the upper limit whose smooth excess it is."""
 
-    function: Callable[[Any], Any]
-    over: float = 1.0
-    smooth_for: Constraint | None = None
+    fields = ()
+
+    def __init__(
+        self, function: Callable[[Any], Any], over: float = 1.0, smooth_for: Constraint | None = None
+    ) -> None:
+        self.function, self._over, self._smooth_for = function, over, smooth_for
+        self.count = count_of(function, 0, Drive(), of_map=True)
 
     def value(self, read: Read) -> np.ndarray:
-        return np.asarray(_value(self.function, read.stroke_map / self.over))
+        return np.asarray(_value(self.function, read.stroke_map / self._over))
 
     def exactly(self, read: Read) -> np.ndarray:
         """Return the value, or the excess of the quantity itself, as often as it has smooth numbers."""
-        value, limit = self.value(read), self.smooth_for
+        value, limit = self.value(read), self._smooth_for
         if limit is None:
             return value
         return np.full(value.shape, np.max(_value(limit.quantity.of, read.stroke_map)) - limit.limit)
 
     def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
-        given = read.stroke_map / self.over, changes.stroke_map / self.over
-        value, along = (np.asarray(a) for a in _changes(self.function, *given))
+        given = read.stroke_map / self._over, changes.stroke_map / self._over
+        value, along = (np.asarray(a) for a in _map_changes(self.function, *given))
         return value, np.moveaxis(along, 0, -1)
-
-
-def _kept(constraint: Constraint) -> tuple[_OfBeat | _OfMap, float]:
-    """Return a function and its upper limit, within which it keeps a constraint."""
-    quantity, limit, at_most = constraint.quantity, constraint.limit, constraint.at_most
-    kind = _OfMap if isinstance(quantity, MapQuantity) else _OfBeat
-    if isinstance(quantity, MapQuantity) and quantity.excess is not None and at_most:
-        return _OfMap(quantity.excess, limit, constraint), 0.0
-    return kind(quantity.of if at_most else _Lacking(quantity.of)), limit if at_most else -limit
 
 
 class OutputFunctions:
@@ -128,26 +153,36 @@ class OutputFunctions:
 
     Attributes
     ----------
-    counts, constraint_counts : how many values each quantity has, and each constraint.
+    counts, constraint_counts : number of values of each quantity, and of each constraint.
     limits : upper limits of the constraints' values.
+    fields : names of the fields of a beat that the quantities read.
     of_beat, of_map : whether any quantity is one of the beat, and of the stroke map.
     """
 
     def __init__(
         self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int, drive: Drive
     ) -> None:
-        self._drive = jax.tree.map(float, drive)  # a whole number has no derivative
-        minimised = [_OfMap(q.of) if isinstance(q, MapQuantity) else _OfBeat(q.of) for q in quantities]
-        kept = [_kept(constraint) for constraint in constraints]
-        self._functions = (*minimised, *(function for function, _ in kept))
+        def reader(quantity: Quantity, function: Callable[[Any], Any]) -> _OfBeat | _OfMap:
+            return _OfMap(function) if isinstance(quantity, MapQuantity) else _OfBeat(function, strips, drive)
+
+        def kept(limit: Constraint) -> tuple[_OfBeat | _OfMap, float]:
+            quantity = limit.quantity
+            if not limit.at_most:
+                return reader(quantity, _Lacking(quantity.of)), -limit.limit
+            if isinstance(quantity, MapQuantity) and quantity.excess is not None:
+                return _OfMap(quantity.excess, limit.limit, limit), 0.0
+            return reader(quantity, quantity.of), limit.limit
+
+        within = [kept(constraint) for constraint in constraints]
+        self._functions = [*(reader(q, q.of) for q in quantities), *(function for function, _ in within)]
         everything = [*quantities, *(c.quantity for c in constraints)]
         self._names = [q.name for q in everything]
-        reads_map = [isinstance(f, _OfMap) for f in self._functions]
-        self.of_map, self.of_beat = any(reads_map), not all(reads_map)
-        given = zip(self._functions, reads_map, strict=True)
-        self.counts = [_count(f.function, strips, drive, of_map) for f, of_map in given]
+        self.of_map = any(isinstance(f, _OfMap) for f in self._functions)
+        self.of_beat = any(isinstance(f, _OfBeat) for f in self._functions)
+        self.fields = tuple(name for name in Beat._fields if any(name in f.fields for f in self._functions))
+        self.counts = [f.count for f in self._functions]
         self._scale = np.repeat([q.scale for q in everything], self.counts)
-        limits = [limit / c.quantity.scale for (_, limit), c in zip(kept, constraints, strict=True)]
+        limits = [limit / c.quantity.scale for (_, limit), c in zip(within, constraints, strict=True)]
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
 
@@ -160,7 +195,6 @@ class OutputFunctions:
         ------
         InvalidInputError : a quantity is not finite although the flight is.
         """
-        read = self._driven(read)
         return self._joined(read, [f.exactly(read) if exact else f.value(read) for f in self._functions])
 
     def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
@@ -172,16 +206,9 @@ class OutputFunctions:
         ------
         InvalidInputError : a quantity is not finite although the flight is.
         """
-        read = self._driven(read)
-        if changes.beat is not None:
-            still = jax.tree.map(lambda _: np.zeros(changes.beat.phase.shape[0]), self._drive)
-            changes = changes._replace(beat=changes.beat._replace(drive=still))
         found = [f.linearised(read, changes) for f in self._functions]
         derivatives = [along.reshape(-1, along.shape[-1]) for _, along in found]
         return self._joined(read, [value for value, _ in found]), np.concatenate(derivatives) / self._scale[:, None]
-
-    def _driven(self, read: Read) -> Read:
-        return read if read.beat is None else read._replace(beat=read.beat._replace(drive=self._drive))
 
     def _joined(self, read: Read, values: list[np.ndarray]) -> np.ndarray:
         for name, value in zip(self._names, values, strict=True):
@@ -193,30 +220,13 @@ class OutputFunctions:
 
 def value_count(quantity: Quantity, strips: int, drive: Drive) -> int:
     """Return how many values a quantity has: 1 if its function gives a number."""
-    return _count(quantity.of, strips, drive, isinstance(quantity, MapQuantity))
+    return count_of(quantity.of, strips, drive, isinstance(quantity, MapQuantity))
 
 
-def _count(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: bool) -> int:
-    shape = _given_by(function, strips, drive, of_map).shape
+def count_of(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: bool) -> int:
+    """Return how many values a function of a beat or of a stroke map has."""
+    shape = given_by(function, strips, jax.tree.structure(drive), of_map).shape
     return math.prod(shape) if of_map or not shape else PARTS * math.prod(shape[1:])
-
-
-# Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.
-@functools.lru_cache(256)
-def _given_by(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: bool) -> Any:
-    """Return the shapes of the arrays that a quantity's function of a beat, or of a stroke map, returns."""
-    if of_map:
-        return jax.eval_shape(function, jax.ShapeDtypeStruct((4, 4), jnp.float64))
-    return jax.eval_shape(function, _any_beat(strips, drive))
-
-
-def _any_beat(strips: int, drive: Drive) -> Beat:
-    by_strip = jax.ShapeDtypeStruct((_SAMPLES, strips), jnp.float64)
-    number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (_SAMPLES,)))
-    shapes: dict[str, Any] = dict.fromkeys(BY_STRIP, by_strip)
-    shapes |= dict.fromkeys(NUMBERS, number)
-    shapes["drive"] = jax.tree.map(lambda _: number, drive)
-    return Beat(*(shapes.get(name, series) for name in Beat._fields))
 
 
 def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) -> list[Fault]:
@@ -232,7 +242,7 @@ def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) 
         where_said = "MapQuantity" if of_map else "Beat"
         fix = f"write the function in JAX-compatible Python; `{where_said}` documents the function's argument"
         try:
-            found = _given_by(quantity.of, strips, drive, of_map)
+            found = given_by(quantity.of, strips, jax.tree.structure(drive), of_map)
         except Exception as error:  # whatever a user's function raises
             reason = f"fails: {first_line(error)}"
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))
@@ -240,7 +250,7 @@ def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) 
         shape = getattr(found, "shape", None)
         if of_map and (shape is None or len(shape) > 1):
             faults.append(Fault(where, shape, "must give one number, or a row of numbers", fix))
-        elif not of_map and (shape is None or shape[:1] not in ((), (_SAMPLES,)) or len(shape) > 2):
+        elif not of_map and (shape is None or shape[:1] not in ((), (SAMPLES,)) or len(shape) > 2):
             rule = "must give one number, or for each phase a number or a row of numbers"
             faults.append(Fault(where, shape if shape is not None else type(found).__name__, rule, fix))
     return faults

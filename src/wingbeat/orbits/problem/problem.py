@@ -17,11 +17,10 @@ from wingbeat.harmonics import harmonic_place
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
-from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, STABLE_RADIUS, MapQuantity
 from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
-from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency, Quantity, named_objective
+from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.unknowns import Unknowns, check_tilts
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
@@ -214,29 +213,6 @@ class OrbitProblem:
     def has_outputs(self) -> bool:
         """Whether objective or constraints depend on the flown wingbeat, not only on the unknowns."""
         return bool(self._quantities())
-
-    @property
-    def minimises_map(self) -> bool:
-        """Whether the objective is a quantity of the stroke map."""
-        return isinstance(self.minimise, MapQuantity)
-
-    @property
-    def asks_for_stability(self) -> bool:
-        """Whether the objective or a limit is a quantity of the stroke map."""
-        return self.minimises_map or any(isinstance(c.quantity, MapQuantity) for c in self.subject_to)
-
-    def easier(self) -> OrbitProblem:
-        """Return the problem whose optima a search for stability starts from.
-
-        It has no limits of the stroke map. If a quantity of the stroke map is minimised, it has the stable orbit of
-        least frequency instead, or that of least power if the frequency is fixed.
-        """
-        if self.minimises_map:
-            objective = Frequency() if "frequency" in self.free else QUANTITIES["mean_positive_power"]
-            stable = Constraint(MAP_QUANTITIES["spectral_radius"], STABLE_RADIUS)
-            return dataclasses.replace(self, minimise=objective, subject_to=(*self.subject_to, stable))
-        others = tuple(c for c in self.subject_to if not isinstance(c.quantity, MapQuantity))
-        return dataclasses.replace(self, subject_to=others)
 
     @property
     def needs_speed(self) -> bool:

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from wingbeat.errors import InvalidInputError as InvalidInputError
     from wingbeat.errors import WingbeatError as WingbeatError
     from wingbeat.errors import WorkerError as WorkerError
+    from wingbeat.exports.mujoco_flight import MujocoFlight as MujocoFlight
+    from wingbeat.exports.save import export as export
     from wingbeat.kinematics import Wingbeat as Wingbeat
     from wingbeat.measured_motion.comparison import Validation as Validation
     from wingbeat.measured_motion.comparison import ValidationRow as ValidationRow
@@ -133,6 +135,7 @@ _HOME = {
     "LinearOptions": "stability.options",
     "Mode": "stability.modes",
     "Motor": "actuators",
+    "MujocoFlight": "exports.mujoco_flight",
     "Muscle": "actuators",
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
@@ -168,6 +171,7 @@ _HOME = {
     "bird": "species",
     "certify": "orbits.flight.certify",
     "equations_of_motion": "mechanics.equations_of_motion",
+    "export": "exports.save",
     "filmed_problem": "orbits.problem.filmed",
     "filmed_species": "orbits.problem.filmed",
     "flight_loads": "mechanics.flight_loads",

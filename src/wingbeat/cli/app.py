@@ -42,6 +42,7 @@ COMMANDS = {
     "show": "Print a saved result.",
     "plot": "Draw a saved result.",
     "compare": "Compare the air loads of a saved orbit with those of a vortex lattice.",
+    "export": "Write the gait of a saved orbit for robots, MATLAB, motion capture or MuJoCo.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
     "app": "Open the explorer in a browser: choose a problem, move sliders, and see the animal fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",

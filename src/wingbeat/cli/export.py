@@ -1,0 +1,56 @@
+"""``wingbeat export``: the gait of a saved orbit for robot controllers, MATLAB, motion capture and MuJoCo."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import Whole, check_outputs, unpacking
+from wingbeat.errors import FaultList
+from wingbeat.exports.gait import check_samples
+from wingbeat.exports.save import SAMPLES, check_export_name
+from wingbeat.exports.save import export as write_gait
+from wingbeat.orbits.status import Status
+from wingbeat.results.orbit import load_orbit
+
+
+def export(
+    file: Annotated[Path, Parameter(help="A file written by `orbit -o`.")],
+    *,
+    output: Annotated[
+        Path,
+        Parameter(
+            name=["--output", "-o"],
+            help="The file to write: .csv or .mat for the motion and torques of one wing, .c3d for motion capture, "
+            ".xml for MuJoCo.",
+        ),
+    ],
+    samples: Annotated[Whole, Parameter(help="Number of equal phases of the beat.")] = SAMPLES,
+) -> int:
+    """Write the gait of a saved orbit for another tool.
+
+    .csv: time, angles, rates, accelerations, torques and power of one wing, for the controller of a robot. .mat: the
+    same for MATLAB and Simulink. .c3d: points of body and wings in the world; needs the extra c3d. .xml: a MuJoCo
+    model of the vehicle with the gait as keyframe and table. Units are SI, angles in radians.
+    Exit code 3: the orbit is not certified.
+
+    Examples: wingbeat export pigeon.nc -o gait.csv --samples 200; wingbeat export pigeon.nc -o pigeon.xml
+    """
+    faults = FaultList()
+    check_export_name(faults, "--output", output)
+    check_samples(faults, samples)
+    faults.raise_if_any()
+    orbit = load_orbit(file)
+    if orbit.status is not Status.CONVERGED:
+        print(f"{file}: {orbit.status.value}: {orbit.message}", file=sys.stderr)
+        return EXIT_NOT_CERTIFIED
+    with unpacking(file):
+        _ = orbit.problem
+    check_outputs(output)
+    write_gait(orbit, output, samples)
+    print(f"wrote {output}", file=sys.stderr)
+    return EXIT_GOOD

@@ -1,0 +1,192 @@
+"""The exported model flown by MuJoCo: the gait drives the wings, and wingbeat's air loads act on them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.errors import FaultList, FileError, install_extra
+from wingbeat.exports.gait import check_certified, gait_of
+from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts
+from wingbeat.exports.mujoco_model import KEY, mujoco_xml
+from wingbeat.mechanics.equations_of_motion import air_forces
+from wingbeat.results.orbit import Orbit
+
+if TYPE_CHECKING:
+    import mujoco
+
+_BODY = slice(0, len(BODY_JOINTS))
+_WINGS = slice(len(BODY_JOINTS), None)
+# The wings are held to the gait as by critically damped springs of this frequency, in wingbeat frequencies. It takes
+# away what the integrator drifts, and leaves the driving torques alone.
+_HOLD = 4.0
+
+
+class MujocoStates(NamedTuple):
+    """Where MuJoCo's steps led.
+
+    Attributes
+    ----------
+    time : [s], shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
+    torques : of the motors, in the order of the model's actuators, shape (K, motors) [N m; N for slides].
+    """
+
+    time: np.ndarray
+    states: np.ndarray
+    torques: np.ndarray
+
+
+class MujocoFlight:
+    """A certified orbit in MuJoCo, with the gait as the drive of its wings; needs the extra ``mujoco``.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    steps : number of MuJoCo's time steps in a beat.
+
+    Attributes
+    ----------
+    model, data : MuJoCo's model, and its data at the top of the stroke.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified; steps that are not a whole number from 16 to 100000.
+    FileError : MuJoCo is not installed.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon").with_values({"wingbeat.span_retraction": 0.0})
+    >>> flight = wb.MujocoFlight(wb.solve_orbit(wb.OrbitProblem(pigeon, speed=12.0), starts=2), steps=64)
+    >>> flown = flight.fly(beats=1)
+    >>> flown.states.shape
+    (65, 6)
+    """
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+
+    def __init__(self, orbit: Orbit, steps: int = 256) -> None:
+        faults = FaultList()
+        check_certified(faults, orbit)
+        faults.whole("steps", steps, 16, 100_000, "time steps of a beat")
+        faults.raise_if_any()
+        engine = _mujoco()
+        problem, self._wingbeat, self._steps = orbit.problem, orbit.wingbeat, steps
+        self._flown = problem.model
+        self.model = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
+        self.model.opt.timestep = 1.0 / self._wingbeat.frequency / steps
+        self.data = engine.MjData(self.model)
+        self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._wingbeat, problem.model.strips))
+        self._besides = self._joints.without_hinge_angles
+        # What the joints do when one of the five coordinates moves, and forces on the joints that do the work of
+        # forces on the coordinates.
+        self._moved = np.zeros((self.model.nv, 5))
+        self._moved[_BODY, :3] = np.eye(3)
+        self._moved[_WINGS, 3:] = self._joints.by_hinge_angles
+        self._spread = self._moved @ np.linalg.inv(self._moved.T @ self._moved)
+        numbers = range(1, problem.model.strips + 1)
+        self._sites = {s: [self.model.site(f"{s}_strip_{i}").id for i in numbers] for s in SIDES}
+        self.reset()
+
+    def reset(self) -> None:
+        """Go back to the top of the stroke."""
+        engine = _mujoco()
+        engine.mj_resetDataKeyframe(self.model, self.data, self.model.key(KEY).id)
+
+    def drive(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Set the air loads and the motors' torques of an instant, in the form of MuJoCo's control callback.
+
+        Use it as ``mujoco.set_mjcb_control(flight.drive)`` in a simulation of your own. The torques give the wings
+        the accelerations of the gait, whatever the body does. The air loads are set as ``data.qfrc_applied``.
+
+        Parameters
+        ----------
+        model, data : as MuJoCo passes them to the callback.
+        """
+        engine = _mujoco()
+        wanted = np.zeros(model.nv)
+        gait = self._joints.motion(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        hold = _HOLD * 2 * np.pi * self._wingbeat.frequency
+        wanted[_WINGS] = (
+            gait.acceleration
+            + 2 * hold * (gait.rate - data.qvel[_WINGS])
+            + hold**2 * (gait.position - data.qpos[_WINGS])
+        )
+        loads, added = self._air_loads(model, data)
+
+        def resisted(acceleration: np.ndarray) -> np.ndarray:
+            force = np.zeros(model.nv)
+            engine.mj_mulM(model, data, force, acceleration)
+            return force + self._spread @ (added @ (self._spread.T @ acceleration))
+
+        # The body's accelerations follow from its own rows; what the wings' rows then lack, the motors give.
+        own = np.stack([resisted(unit)[_BODY] for unit in np.eye(model.nv)[_BODY]], axis=-1)
+        free = (loads - data.qfrc_bias - resisted(wanted))[_BODY]
+        wanted[_BODY] = np.linalg.solve(own, free)
+        inertia = np.zeros(model.nv)
+        engine.mj_mulM(model, data, inertia, wanted)
+        air = loads - self._spread @ (added @ (self._spread.T @ wanted))
+        data.qfrc_applied[:] = air
+        data.ctrl[:] = (inertia + data.qfrc_bias - air)[_WINGS]
+
+    def _air_loads(self, model: Any, data: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Return the air loads on the joints without those of accelerations, and the added mass, shape (5, 5)."""
+        engine = _mujoco()
+        position, rate = data.qpos.copy(), data.qvel.copy()
+        # What span, fold, sweep and twist do at this time is no matter of the five coordinates.
+        besides = self._besides.motion(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        position[_WINGS] -= besides.position
+        rate[_WINGS] -= besides.rate
+        q, q_dot = self._spread.T @ position, self._spread.T @ rate
+        found = air_forces(self._flown, self._wingbeat, q, q_dot, np.float64(data.time))
+        on_joints, force = np.zeros(model.nv), np.asarray(found.strip_force)
+        for side, sign in SIDES.items():
+            for site, load in zip(self._sites[side], force * [1.0, sign, 1.0], strict=True):
+                at, body = data.site_xpos[site], model.site_bodyid[site]
+                engine.mj_applyFT(model, data, load, np.zeros(3), at, body, on_joints)
+        # Body drag, tail, and what of the strips' loads acts off the quarter chord.
+        rest = np.asarray(found.generalised) - self._moved.T @ on_joints
+        return on_joints + self._spread @ rest, np.asarray(found.added_mass)
+
+    def fly(self, beats: int = 1) -> MujocoStates:
+        """Fly from where `data` stands, by MuJoCo's own steps, and return the states before and after each step.
+
+        Parameters
+        ----------
+        beats : number of wingbeats.
+
+        Raises
+        ------
+        InvalidInputError : beats that are not a whole number of at least 1.
+        """
+        faults = FaultList()
+        faults.whole("beats", beats, 1, 10_000)
+        faults.raise_if_any()
+        engine = _mujoco()
+        found = []
+
+        def note() -> None:
+            data = self.data
+            state = np.concatenate([data.qpos[_BODY], data.qvel[_BODY]])
+            found.append((data.time, state, data.ctrl.copy()))
+
+        before = engine.get_mjcb_control()
+        engine.set_mjcb_control(self.drive)
+        try:
+            engine.mj_forward(self.model, self.data)
+            note()
+            for _ in range(beats * self._steps):
+                engine.mj_step(self.model, self.data)
+                note()
+        finally:
+            engine.set_mjcb_control(before)
+        return MujocoStates(*(np.array(column) for column in zip(*found, strict=True)))
+
+
+def _mujoco() -> Any:
+    try:
+        import mujoco
+    except ImportError:
+        raise FileError(f"MuJoCo is not installed here: {install_extra('mujoco')}") from None
+    return mujoco

@@ -1,0 +1,77 @@
+"""`export`: writes the gait of an orbit for another tool, in the format that the suffix names."""
+
+from __future__ import annotations
+
+import os
+from os import PathLike
+
+from wingbeat.errors import FaultList
+from wingbeat.exports.gait import check_certified, check_samples, gait_of
+from wingbeat.exports.motion_capture import check_c3d, write_c3d
+from wingbeat.exports.mujoco_model import mujoco_xml
+from wingbeat.exports.trajectory import gait_csv, gait_mat
+from wingbeat.files import write_atomically
+from wingbeat.results.orbit import Orbit
+
+SAMPLES = 256
+_WRITERS = {".csv": gait_csv, ".mat": gait_mat, ".xml": mujoco_xml}
+EXPORT_SUFFIXES = (*_WRITERS, ".c3d")
+
+
+def check_export_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
+    """Note a fault unless the suffix of a file name is that of a format for gaits."""
+    if (suffix := _suffix(path)) not in EXPORT_SUFFIXES:
+        fix = "end the name in .csv, .mat (MATLAB), .c3d (motion capture) or .xml (MuJoCo)"
+        if suffix == ".nc":
+            fix += "; an orbit is saved as .nc by `wingbeat orbit -o`"
+        faults.add(where, os.fspath(path), "does not end in a suffix for a gait", fix)
+
+
+def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> None:
+    """Write the gait of a certified orbit for another tool; the suffix of the file's name sets the format.
+
+    ====== ===================================================================================
+    suffix content
+    ====== ===================================================================================
+    .csv   angles, rates, accelerations, torques and power of one wing, a row per phase
+    .mat   the same as structures with time, which Simulink's From Workspace takes
+    .c3d   points of body and wings in the world, a frame per phase; needs the extra ``c3d``
+    .xml   a MuJoCo model with body, wings, motors and the gait as keyframe and table
+    ====== ===================================================================================
+
+    `Orbit.save` is for all results of an orbit, as they were computed; `export` is for the motion alone, sampled at
+    equal phases.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    path : of the file to write.
+    samples : number of equal phases of the beat.
+
+    Raises
+    ------
+    InvalidInputError : another suffix, an orbit that is not certified, samples that are not a whole number from 2
+        to 4096.
+    FileError : the file cannot be written; .c3d without the extra.
+
+    >>> import tempfile, pathlib, wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     wb.export(orbit, pathlib.Path(folder) / "gait.csv", samples=100)
+    ...     len((pathlib.Path(folder) / "gait.csv").read_text().splitlines()) > 100
+    True
+    """
+    faults = FaultList()
+    check_export_name(faults, "path", path)
+    check_samples(faults, samples)
+    check_certified(faults, orbit)
+    faults.raise_if_any()
+    if _suffix(path) == ".c3d":
+        check_c3d()
+        write_c3d(gait_of(orbit, samples), path)
+    else:
+        write_atomically(path, _WRITERS[_suffix(path)](gait_of(orbit, samples)))
+
+
+def _suffix(path: str | PathLike[str]) -> str:
+    return os.path.splitext(os.fspath(path))[1].lower()

@@ -168,13 +168,13 @@ class MujocoFlight:
 
         def note() -> None:
             data = self.data
+            engine.mj_forward(self.model, data)  # a step ends with the torques of its last stage
             state = np.concatenate([data.qpos[_BODY], data.qvel[_BODY]])
             found.append((data.time, state, data.ctrl.copy()))
 
         before = engine.get_mjcb_control()
         engine.set_mjcb_control(self.drive)
         try:
-            engine.mj_forward(self.model, self.data)
             note()
             for _ in range(beats * self._steps):
                 engine.mj_step(self.model, self.data)

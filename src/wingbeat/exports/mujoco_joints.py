@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wingbeat.errors import FaultList
 from wingbeat.exports.gait import LAW_NAMES, laws_at
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.wing_motion import strips_of, twist_factors
@@ -24,7 +25,8 @@ BODY_JOINTS = ("x", "z", "body_pitch")
 NOTHING = 1e-14
 
 _HINGES = [LAW_NAMES.index("flap"), LAW_NAMES.index("wing_pitch")]
-_FLAP, _SWEEP, _PITCH, _SPAN = (1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
+_FLAP, _FOLD = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
+_SWEEP, _PITCH, _SPAN = (0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
 
 
 class Joint(NamedTuple):
@@ -79,15 +81,26 @@ class Part:
 
 def is_rigid(wingbeat: Wingbeat) -> bool:
     """Return whether the wing is one rigid part: its span, fold and twist stand still."""
-    beat = wingbeat
-    return not (
-        beat.span_retraction
-        or beat.span_harmonics
-        or beat.fold_amplitude
-        or beat.twist_ratio != 1.0
-        or beat.twist_mean
-        or beat.twist_harmonics
-    )
+    twists = wingbeat.twist_ratio != 1.0 or wingbeat.twist_mean or wingbeat.twist_harmonics
+    return not (_spans(wingbeat) or wingbeat.fold_amplitude or twists)
+
+
+def check_wing(faults: FaultList, wingbeat: Wingbeat) -> None:
+    """Note a fault if joints cannot represent the wing.
+
+    A hand that folds about the axis of flap on an arm that sweeps would need two hinges with the same axis.
+    """
+    if wingbeat.fold_amplitude and _sweeps(wingbeat):
+        rule = "on a wing that sweeps cannot be represented by MuJoCo's joints"
+        faults.add("wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, "export the gait as .csv, .mat or .c3d")
+
+
+def _sweeps(wingbeat: Wingbeat) -> bool:
+    return bool(wingbeat.sweep_mean or wingbeat.sweep_amplitude or wingbeat.sweep_harmonics)
+
+
+def _spans(wingbeat: Wingbeat) -> bool:
+    return bool(wingbeat.span_retraction or wingbeat.span_harmonics)
 
 
 def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
@@ -99,12 +112,10 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     wingbeat : the laws that move it.
     count : number of strips.
     """
-    strips = strips_of(wing, count)
-    fraction, chord, mass = (np.asarray(a) for a in strips)
-    values = laws_at(wingbeat, np.linspace(0.0, 1.0, 65))[0]
-    sweeps = bool(np.any(values[:, LAW_NAMES.index("sweep")]))
+    fraction, chord, mass = (np.asarray(a) for a in strips_of(wing, count))
     shoulder = [Joint("flap", False, _FLAP, {"flap": 1.0})]
-    shoulder += [Joint("sweep", False, _SWEEP, {"sweep": 1.0})] if sweeps else []
+    if _sweeps(wingbeat):
+        shoulder.append(Joint("sweep", False, _SWEEP, {"sweep": 1.0}))
     if is_rigid(wingbeat):
         shoulder.append(Joint("wing_pitch", False, _PITCH, {"wing_pitch": 1.0}))
         own = [Strip(i + 1, wing.semi_span * fraction[i], chord[i], mass[i]) for i in range(count)]
@@ -112,41 +123,23 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     wrist = wingbeat.wrist if wingbeat.fold_amplitude else 1.0
     factors = np.asarray(twist_factors(wingbeat, fraction))
 
+    def slide(name: str, reach: float) -> tuple[Joint, ...]:
+        return (Joint(f"span_{name}", True, _SPAN, {"span_ratio": reach}),) if _spans(wingbeat) else ()
+
     def part(i: int, inner: float) -> Part:
         reach = wing.semi_span * float(fraction[i] - inner)
         turn = {"wing_pitch": float(factors[i]), "tip_twist": float(fraction[i])}
-        joints = _Slide(wingbeat, reach).joints(f"span_{i + 1}")
-        joints += (Joint(f"wing_pitch_{i + 1}", False, _PITCH, turn),)
-        return Part(f"strip_{i + 1}", reach, joints, (Strip(i + 1, 0.0, chord[i], mass[i]),))
+        pitch = Joint(f"wing_pitch_{i + 1}", False, _PITCH, turn)
+        only = Strip(i + 1, 0.0, chord[i], mass[i])
+        return Part(f"strip_{i + 1}", reach, (*slide(str(i + 1), reach), pitch), (only,))
 
     held = [part(i, 0.0) for i in range(count) if fraction[i] <= wrist]
     outer = tuple(part(i, wrist) for i in range(count) if fraction[i] > wrist)
     if outer:
         reach = wing.semi_span * wrist
-        held.append(Part("hand", reach, _hand_joints(wingbeat, reach, sweeps), (), outer))
+        fold = Joint("fold", False, _FOLD, {"fold": 1.0})
+        held.append(Part("hand", reach, (*slide("hand", reach), fold), (), outer))
     return Part("", 0.0, tuple(shoulder), (), tuple(held))
-
-
-class _Slide(NamedTuple):
-    wingbeat: Wingbeat
-    reach: float
-
-    def joints(self, name: str) -> tuple[Joint, ...]:
-        """Return the slide of what sits at a distance from its shoulder or wrist; none if the span stands still."""
-        if not (self.wingbeat.span_retraction or self.wingbeat.span_harmonics):
-            return ()
-        return (Joint(name, True, _SPAN, {"span_ratio": self.reach}),)
-
-
-def _hand_joints(wingbeat: Wingbeat, reach: float, sweeps: bool) -> tuple[Joint, ...]:
-    """Return the joints of the hand. It flaps less than the arm by the fold, and both sweep by the same angle."""
-    down = -_FLAP[0], -_FLAP[1], -_FLAP[2]
-    fold = Joint("fold", False, down, {"fold": 1.0})
-    before, after = (), ()
-    if sweeps:
-        before = (Joint("hand_unsweep", False, _SWEEP, {"sweep": -1.0}),)
-        after = (Joint("hand_sweep", False, _SWEEP, {"sweep": 1.0}),)
-    return (*_Slide(wingbeat, reach).joints("span_hand"), *before, fold, *after)
 
 
 class JointMotion(NamedTuple):

@@ -8,8 +8,19 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
+from wingbeat.errors import FaultList
 from wingbeat.exports.gait import Gait
-from wingbeat.exports.mujoco_joints import BODY_JOINTS, NOTHING, SIDES, Part, WingJoints, is_rigid, wing_parts
+from wingbeat.exports.mujoco_joints import (
+    BODY_JOINTS,
+    NOTHING,
+    SIDES,
+    Part,
+    Strip,
+    WingJoints,
+    check_wing,
+    is_rigid,
+    wing_parts,
+)
 from wingbeat.vehicle import Tail, Vehicle, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 
@@ -31,7 +42,14 @@ def mujoco_xml(gait: Gait) -> str:
     Parameters
     ----------
     gait : the gait.
+
+    Raises
+    ------
+    InvalidInputError : a wing that joints cannot represent.
     """
+    faults = FaultList()
+    check_wing(faults, gait.orbit.wingbeat)
+    faults.raise_if_any()
     orbit, vehicle, wingbeat = gait.orbit, gait.orbit.problem.vehicle, gait.orbit.wingbeat
     root = wing_parts(vehicle.wing, wingbeat, orbit.problem.model.strips)
     what = orbit.inputs
@@ -100,10 +118,10 @@ def _add_wing(body: Xml.Element, side: str, wing: Wing, stroke_plane_angle: floa
     sine, cosine = math.sin(stroke_plane_angle), math.cos(stroke_plane_angle)
     forward, left, up = wing.shoulder
     place = {"pos": _numbers(forward, SIDES[side] * left, up), "xyaxes": _numbers(sine, 0, cosine, 0, 1, 0)}
-    _add_part(body, side, root, wing.semi_span / max(1, len(_strips(root))), place)
+    _add_part(body, side, root, wing.semi_span / len(_strips(root)), place)
 
 
-def _strips(part: Part) -> list[Any]:
+def _strips(part: Part) -> list[Strip]:
     return [*part.strips, *(strip for inner in part.parts for strip in _strips(inner))]
 
 

@@ -1,0 +1,51 @@
+"""Certified orbits of wings of all kinds: rigid, with a changing span, folding and twisting, with all air loads."""
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+
+RIGID = {"wingbeat.span_retraction": 0.0, "wingbeat.fold_amplitude": 0.0, "wingbeat.twist_ratio": 1.0}
+
+
+def solved(problem):
+    orbit = wb.solve_orbit(problem, starts=2)
+    assert orbit.status is wb.Status.CONVERGED, orbit.message
+    return orbit
+
+
+@pytest.fixture(scope="session")
+def rigid_orbit():
+    """Nothing symmetric that need not be: a shoulder off the centre, a tilted stroke plane."""
+    changes = {"wing.shoulder": (0.002, 0.035, 0.004), "wing.stroke_plane_angle": np.radians(85.0)}
+    return solved(wb.OrbitProblem(wb.load_species("pigeon").with_values(RIGID | changes), speed=12.0))
+
+
+@pytest.fixture(scope="session")
+def animal_orbit():
+    """Unsteady terms, a tail, body drag, a span that changes."""
+    pigeon = wb.load_species("pigeon")
+    return solved(wb.models.animal(pigeon).problem(pigeon, speed=12.0))
+
+
+@pytest.fixture(scope="session")
+def swept_orbit():
+    """Sweep, and a twist by its own law."""
+    changes = {"wingbeat.sweep_mean": 0.05, "wingbeat.sweep_amplitude": 0.1, "wingbeat.twist_mean": 0.05}
+    return solved(wb.OrbitProblem(wb.load_species("pigeon").with_values(RIGID | changes), speed=12.0))
+
+
+@pytest.fixture(params=["rigid", "pigeon", "bat", "animal", "swept"])
+def orbit(request):
+    """Each of the orbits in turn."""
+    found = request.getfixturevalue(f"{request.param}_orbit")
+    return getattr(found, "orbit", found)
+
+
+def derivative(values, period):
+    """Return the time derivative of smooth periodic samples, axis 0, by their Fourier series."""
+    count = len(values)
+    waves = np.fft.fft(values, axis=0)
+    order = np.fft.fftfreq(count, 1.0 / count) * (2j * np.pi / period)
+    order[count // 2] = 0.0
+    return np.fft.ifft(waves * order.reshape(-1, *[1] * (np.ndim(values) - 1)), axis=0).real

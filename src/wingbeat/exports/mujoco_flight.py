@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 _BODY = slice(0, len(BODY_JOINTS))
 _WINGS = slice(len(BODY_JOINTS), None)
-# The wings are held to the gait as by critically damped springs of this frequency, in wingbeat frequencies. It takes
-# away what the integrator drifts, and leaves the driving torques alone.
+# The wings are held to the gait as by critically damped springs of this frequency, in wingbeat frequencies. This
+# removes the drift of the integrator, and vanishes on the gait.
 _HOLD = 4.0
 
 

@@ -47,7 +47,7 @@ class Joint(NamedTuple):
 
 
 class Strip(NamedTuple):
-    """A strip of a part: its number from 1 at the root, place along the part's span [m], chord [m] and mass [kg]."""
+    """A strip: its number from 1 at the root, place along the span of its part [m], chord [m] and mass [kg]."""
 
     number: int
     station: float
@@ -92,7 +92,9 @@ def check_wing(faults: FaultList, wingbeat: Wingbeat) -> None:
     """
     if wingbeat.fold_amplitude and _sweeps(wingbeat):
         rule = "on a wing that sweeps cannot be represented by MuJoCo's joints"
-        faults.add("wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, "export the gait as .csv, .mat or .c3d")
+        faults.add(
+            "wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, "export the gait as .csv, .mat or .c3d"
+        )
 
 
 def _sweeps(wingbeat: Wingbeat) -> bool:

@@ -1,4 +1,4 @@
-"""A vehicle and its gait as a MuJoCo model (MJCF): body, wings, hinges, motors, strip sites and the gait's table."""
+"""A vehicle and its gait as a MuJoCo model (MJCF): body, wings, joints, motors, sites and the gait's table."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ def mujoco_xml(gait: Gait) -> str:
     what = orbit.inputs
     top = Xml.Element("mujoco", model=f"{what['species']['name']} at {what['speed']:g} m per s")
     top.append(Xml.Comment(_ABOUT))
-    safe = {"boundmass": "0", "boundinertia": "0", "balanceinertia": "false"}
-    Xml.SubElement(top, "compiler", angle="radian", autolimits="false", inertiafromgeom="false", **safe)
+    exact = {"boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "inertiafromgeom": "false"}
+    Xml.SubElement(top, "compiler", {"angle": "radian", "autolimits": "false"} | exact)
     option = Xml.SubElement(top, "option", gravity=_numbers(0, 0, -what["air"]["gravity"]), integrator="RK4")
     option.set("timestep", _numbers(1.0 / wingbeat.frequency / STEPS))
     Xml.SubElement(option, "flag", contact="disable")
@@ -75,10 +75,10 @@ def mujoco_xml(gait: Gait) -> str:
 
 
 _ABOUT = (
-    " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. The body moves in "
-    "the plane of symmetry: its inertias in roll and yaw have no effect and are copies of that in pitch. Positive "
-    "are: body nose up, wing up, leading edge up. A motor's control is the torque of one hinge [N m]. Air loads are "
-    "not part of the model. "
+    " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. Positive are: body "
+    "nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw have "
+    "no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. The model has "
+    "no air loads. "
 )
 
 
@@ -110,7 +110,7 @@ def _add_tail(body: Xml.Element, tail: Tail, tilt: float) -> None:
 def _add_shape(body: Xml.Element, kind: str, **attributes: str) -> None:
     """Add a shape that is only drawn: it has no mass and touches nothing."""
     only_drawn = {"mass": "0", "contype": "0", "conaffinity": "0", "rgba": "0.6 0.65 0.7 0.6"}
-    Xml.SubElement(body, "geom", type=kind, **only_drawn, **attributes)
+    Xml.SubElement(body, "geom", {"type": kind} | only_drawn | attributes)
 
 
 def _add_wing(body: Xml.Element, side: str, wing: Wing, stroke_plane_angle: float, root: Part) -> None:
@@ -128,14 +128,14 @@ def _strips(part: Part) -> list[Strip]:
 def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: dict[str, str]) -> None:
     sign = SIDES[side]
     name = f"{side}_{part.name}" if part.name else f"{side}_wing"
-    body = Xml.SubElement(holder, "body", name=name, **place)
+    body = Xml.SubElement(holder, "body", {"name": name} | place)
     for joint in part.joints:
         x, y, z = joint.axis
         # In a mirror a direction keeps its components in the plane, the axis of a turn that across it.
         axis = (x, sign * y, z) if joint.slides else (sign * x, y, sign * z)
         kind = "slide" if joint.slides else "hinge"
         Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=_numbers(*axis))
-    Xml.SubElement(body, "inertial", **_inertia(part, sign))
+    Xml.SubElement(body, "inertial", _inertia(part, sign))
     for strip in part.strips:
         half = _numbers(strip.chord / 2, width / 2, _THICKNESS / 2)
         _add_shape(body, "box", pos=_numbers(-strip.chord / 4, sign * strip.station, 0), size=half)
@@ -175,4 +175,4 @@ def _add_gait(top: Xml.Element, gait: Gait, joints: WingJoints) -> None:
         key["ctrl"] = _numbers(*[torque[joint][0] for _ in SIDES for joint in torque])
     for name, values in rows.items():
         Xml.SubElement(table, "numeric", name=f"gait_{name}", data=_numbers(*values))
-    Xml.SubElement(Xml.SubElement(top, "keyframe"), "key", name=KEY, time="0", **key)
+    Xml.SubElement(Xml.SubElement(top, "keyframe"), "key", {"name": KEY, "time": "0"} | key)

@@ -33,9 +33,9 @@ def export(
 ) -> int:
     """Write the gait of a saved orbit for another tool.
 
-    .csv: time, angles, rates, accelerations, torques and power of one wing, for a robot's controller. .mat: the same
-    for MATLAB and Simulink. .c3d: points of body and wings in the world; needs the extra c3d. .xml: a MuJoCo model
-    of the vehicle with the gait as keyframe and table. Units are SI, angles in radians.
+    .csv: time, angles, rates, accelerations, torques and power of one wing, for a robot's controller. .mat: the
+    same for MATLAB and Simulink. .c3d: points of body and wings in the world; needs the extra c3d. .xml: a MuJoCo
+    model of the vehicle with the gait as keyframe and table. Units are SI, angles in radians.
     Exit code 3: the orbit is not certified.
 
     Examples: wingbeat export pigeon.nc -o gait.csv --samples 200; wingbeat export pigeon.nc -o pigeon.xml

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,9 +12,6 @@ from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_
 from wingbeat.exports.mujoco_model import KEY, mujoco_xml
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.results.orbit import Orbit
-
-if TYPE_CHECKING:
-    import mujoco
 
 _BODY = slice(0, len(BODY_JOINTS))
 _WINGS = slice(len(BODY_JOINTS), None)
@@ -63,9 +60,6 @@ class MujocoFlight:
     (65, 6)
     """
 
-    model: mujoco.MjModel
-    data: mujoco.MjData
-
     def __init__(self, orbit: Orbit, steps: int = 256) -> None:
         faults = FaultList()
         check_certified(faults, orbit)
@@ -74,9 +68,9 @@ class MujocoFlight:
         engine = _mujoco()
         problem, self._wingbeat, self._steps = orbit.problem, orbit.wingbeat, steps
         self._flown = problem.model
-        self.model = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
+        self.model: Any = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
         self.model.opt.timestep = 1.0 / self._wingbeat.frequency / steps
-        self.data = engine.MjData(self.model)
+        self.data: Any = engine.MjData(self.model)
         self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._wingbeat, problem.model.strips))
         self._besides = self._joints.without_hinge_angles
         # What the joints do when one of the five coordinates moves, and forces on the joints that do the work of
@@ -94,7 +88,7 @@ class MujocoFlight:
         engine = _mujoco()
         engine.mj_resetDataKeyframe(self.model, self.data, self.model.key(KEY).id)
 
-    def drive(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def drive(self, model: Any, data: Any) -> None:
         """Set the air loads and the motors' torques of an instant, in the form of MuJoCo's control callback.
 
         Use it as ``mujoco.set_mjcb_control(flight.drive)`` in a simulation of your own. The torques give the wings

@@ -75,8 +75,8 @@ def mujoco_xml(gait: Gait) -> str:
 
 
 _ABOUT = (
-    " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. Positive are: body "
-    "nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw have "
+    " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. Positive are: "
+    "body nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw have "
     "no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. The model has "
     "no air loads. "
 )

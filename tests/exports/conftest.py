@@ -29,13 +29,14 @@ def animal_orbit():
 
 
 @pytest.fixture(scope="session")
-def swept_orbit():
-    """Sweep, and a twist by its own law."""
-    changes = {"wingbeat.sweep_mean": 0.05, "wingbeat.sweep_amplitude": 0.1, "wingbeat.twist_mean": 0.05}
-    return solved(wb.OrbitProblem(wb.load_species("pigeon").with_values(RIGID | changes), speed=12.0))
+def swept_orbit(rigid_orbit):
+    """Sweep, and a twist by its own law; a wingbeat that was not solved for, so the beat does not close."""
+    record = rigid_orbit.record()
+    record["wingbeat"] |= {"sweep_mean": 0.05, "sweep_amplitude": 0.1, "twist_mean": 0.05}
+    return wb.Orbit.of_record(record, rigid_orbit.problem, starts=2)
 
 
-@pytest.fixture(params=["rigid", "pigeon", "bat", "animal", "swept"])
+@pytest.fixture(params=["rigid", "pigeon", "bat", "animal"])
 def orbit(request):
     """Each of the orbits in turn."""
     found = request.getfixturevalue(f"{request.param}_orbit")

@@ -21,26 +21,25 @@ def distance(one, other):
     return float(np.abs((one - other) / SCALES).max())
 
 
-def test_a_beat_closes_in_on_the_orbit(orbit):
+def test_a_beat_closes_in_on_the_orbit_and_takes_our_torques(orbit):
     """The integrator has order four; kinks of the coefficients take some of it."""
     found, misses = [], []
     for steps in (64, 128, 256):
-        flown = wb.MujocoFlight(orbit, steps).fly()
+        flight = wb.MujocoFlight(orbit, steps)
+        flown, series = flight.fly(), ours(orbit, 1, steps)
         assert flown.time[-1] == pytest.approx(1 / orbit.wingbeat.frequency)
         found.append(flown.states[:: steps // 64])
-        misses.append(distance(flown.states, ours(orbit, 1, steps).states))
+        misses.append(distance(flown.states, series.states))
     assert misses[2] < 0.1 * misses[0]
     assert misses[2] < distance(found[2], found[1])  # the step size alone explains it
     assert misses[2] < 1e-2
     travelled = np.array([orbit.inputs["speed"], 0, 0, 0, 0, 0]) / orbit.wingbeat.frequency
     assert distance(found[2][-1], found[2][0] + travelled) < 1e-2
+    check_torques(flight, flown, series.dataset, orbit.wingbeat.twist_ratio)
 
 
-def test_the_motors_give_our_torques(orbit):
-    flight = wb.MujocoFlight(orbit, 256)
-    flown, series = flight.fly(), ours(orbit, 1, 256).dataset
+def check_torques(flight, flown, series, twist):
     names = [flight.model.actuator(i).name for i in range(flight.model.nu)]
-    twist = orbit.wingbeat.twist_ratio
     for law, torque in (("flap", "flap_torque"), ("wing_pitch", "pitch_torque")):
         total = np.zeros(len(flown.time))
         for name, values in zip(names, flown.torques.T, strict=True):

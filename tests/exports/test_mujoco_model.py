@@ -122,7 +122,10 @@ def test_a_wing_that_is_slightly_wrong_is_seen(where, wrong, rigid_orbit, tmp_pa
     assert max(torque_errors(loaded, rigid_orbit)) > 100 * TOLERANCE
 
 
-def test_the_sites_are_where_our_strips_are(orbit, tmp_path):
+@pytest.mark.parametrize("name", ["rigid", "pigeon", "bat", "swept"])
+def test_the_sites_are_where_our_strips_are(name, request, tmp_path):
+    orbit = request.getfixturevalue(f"{name}_orbit")
+    orbit = getattr(orbit, "orbit", orbit)
     loaded = Loaded(exported(orbit, tmp_path), orbit)
     ours = loaded.series["strip_position"].values
     for k in range(0, SAMPLES, 7):

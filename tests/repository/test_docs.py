@@ -23,7 +23,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 EXTRAS = set(PROJECT["project"]["optional-dependencies"])
 GROUPS = set(PROJECT["dependency-groups"])
 
-LANGUAGES = {"sh", "bash", "text", "python", "py", "toml", "csv"}
+LANGUAGES = {"sh", "bash", "text", "python", "py", "toml", "csv", "matlab"}
 FILE = re.compile(r"[\w./-]+\.(toml|csv|nc|json|jsonl|html|gif|png|pdf|mat|parquet|sqlite|py)")
 WRITES = {"-o", "--output", "--plot", "--tornado", "--plot-kinematics"}
 TOOLS = {"pytest", "ruff", "pyright", "lint-imports", "pre-commit"}  # of the group dev
@@ -86,7 +86,7 @@ def faults_of_uv_run(words, made):
         except (CycloptsError, AssertionError) as error:
             faults.append(f"not understood: {error}")
         needed = {"app"} & set(rest[:1]) | ({"cluster"} if "--dask" in rest else set())
-        needed |= {"parquet"} if any(word.endswith(".parquet") for word in rest) else set()
+        needed |= {ending for ending in ("parquet", "c3d") if any(word.endswith(f".{ending}") for word in rest)}
     elif program == "python":
         source = (ROOT / rest[0]).read_text(encoding="utf-8") if (ROOT / rest[0]).is_file() else ""
         faults += [
@@ -163,6 +163,7 @@ def test_commands_can_be_typed_in_a_fresh_clone(page):
         ("uv run wingbeat orbit pigeon --speed 12 --kinematics mine.csv", "no file mine.csv"),
         ("uv run wingbeat study run examples/wings.toml --dask local:2", "needs the extra cluster"),
         ("uv run wingbeat study export examples/wings.toml -o table.parquet", "needs the extra parquet"),
+        ("uv run wingbeat orbit bat -o o.nc\nuv run wingbeat export o.nc -o bat.c3d", "needs the extra c3d"),
         ("uv run wingbeat view orbit.nc -o orbit.html\nuv run wingbeat orbit bat -o orbit.nc", "no file orbit.nc"),
         ("uv run wingbeat hop pigeon", "not understood"),
         ("uv run pytest", "pytest needs --group dev"),

@@ -60,8 +60,12 @@ def _laws(wingbeat: Wingbeat, phase: Phases) -> tuple[Phases, Phases, Phases]:
     return time_rates(values, phase, wingbeat.frequency)
 
 
-def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the laws of `LAW_NAMES` with their first and second time derivatives, shape (..., 7) each.
+# The laws of `LAW_NAMES` with their first and second time derivatives, shape (..., laws) each.
+Laws = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> Laws:
+    """Return the laws of `LAW_NAMES` with their first and second time derivatives, shape (..., laws) each.
 
     Parameters
     ----------

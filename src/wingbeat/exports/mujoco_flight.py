@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat.errors import FaultList, FileError, install_extra
-from wingbeat.exports.gait import check_certified, gait_of
+from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
 from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts
 from wingbeat.exports.mujoco_model import KEY, mujoco_xml
 from wingbeat.mechanics.equations_of_motion import air_forces
@@ -100,14 +100,15 @@ class MujocoFlight:
         """
         engine = _mujoco()
         wanted = np.zeros(model.nv)
-        gait = self._joints.motion(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        laws = laws_at(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        gait = self._joints.motion(laws)
         hold = _HOLD * 2 * np.pi * self._wingbeat.frequency
         wanted[_WINGS] = (
             gait.acceleration
             + 2 * hold * (gait.rate - data.qvel[_WINGS])
             + hold**2 * (gait.position - data.qpos[_WINGS])
         )
-        loads, added = self._air_loads(model, data)
+        loads, added = self._air_loads(model, data, laws)
 
         def resisted(acceleration: np.ndarray) -> np.ndarray:
             force = np.zeros(model.nv)
@@ -124,12 +125,12 @@ class MujocoFlight:
         data.qfrc_applied[:] = air
         data.ctrl[:] = (inertia + data.qfrc_bias - air)[_WINGS]
 
-    def _air_loads(self, model: Any, data: Any) -> tuple[np.ndarray, np.ndarray]:
+    def _air_loads(self, model: Any, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
         """Return the air loads on the joints without those of accelerations, and the added mass, shape (5, 5)."""
         engine = _mujoco()
         position, rate = data.qpos.copy(), data.qvel.copy()
         # What span, fold, sweep and twist do at this time is no matter of the five coordinates.
-        besides = self._besides.motion(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        besides = self._besides.motion(laws)
         position[_WINGS] -= besides.position
         rate[_WINGS] -= besides.rate
         q, q_dot = self._spread.T @ position, self._spread.T @ rate

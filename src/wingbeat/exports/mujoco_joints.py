@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.exports.gait import LAW_NAMES, laws_at
+from wingbeat.exports.gait import LAW_NAMES, Laws
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.wing_motion import strips_of, twist_factors
 from wingbeat.vehicle import Wing
@@ -24,6 +24,7 @@ BODY_JOINTS = ("x", "z", "body_pitch")
 # MuJoCo refuses a part without mass or inertia, so nothing is written as this [kg, kg m2]; it changes nothing.
 NOTHING = 1e-14
 
+_AT_ZERO = np.array([float(name == "span_ratio") for name in LAW_NAMES])
 _HINGES = [LAW_NAMES.index("flap"), LAW_NAMES.index("wing_pitch")]
 _FLAP, _FOLD = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 _SWEEP, _PITCH, _SPAN = (0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
@@ -173,11 +174,11 @@ class WingJoints:
         names = tuple(f"{side}_{joint.name}" for side in SIDES for joint in joints)
         return cls(names, np.vstack([factors, factors]))
 
-    def motion(self, wingbeat: Wingbeat, phase: np.ndarray) -> JointMotion:
-        """Return the motion of the joints in a wingbeat, at phases of shape (...)."""
-        value, rate, acceleration = laws_at(wingbeat, phase)
+    def motion(self, laws: Laws) -> JointMotion:
+        """Return the motion of the joints from the laws of `laws_at`."""
+        value, rate, acceleration = laws
         # A slide stands at zero at full span.
-        value = value - np.array([float(name == "span_ratio") for name in LAW_NAMES])
+        value = value - _AT_ZERO
         return JointMotion(*(law @ self.factors.T for law in (value, rate, acceleration)))
 
     @property

@@ -9,7 +9,7 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.exports.gait import Gait
+from wingbeat.exports.gait import Gait, laws_at
 from wingbeat.exports.mujoco_joints import (
     BODY_JOINTS,
     NOTHING,
@@ -76,9 +76,9 @@ def mujoco_xml(gait: Gait) -> str:
 
 _ABOUT = (
     " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. Positive are: "
-    "body nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw have "
-    "no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. The model has "
-    "no air loads. "
+    "body nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw "
+    "have no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. The model "
+    "has no air loads. "
 )
 
 
@@ -161,7 +161,7 @@ def _inertia(part: Part, sign: float) -> dict[str, str]:
 
 def _add_gait(top: Xml.Element, gait: Gait, joints: WingJoints) -> None:
     """Add the gait: the keyframe of its first phase, and a table with a row of numbers for each joint."""
-    wings = joints.motion(gait.orbit.wingbeat, gait.phase)
+    wings = joints.motion(laws_at(gait.orbit.wingbeat, gait.phase))
     states = gait.states
     position = np.hstack([states[:, :3], wings.position])
     rate = np.hstack([states[:, 3:], wings.rate])

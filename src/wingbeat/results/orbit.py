@@ -84,6 +84,7 @@ class Orbit(Saveable):
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
         wb.plots.wingbeat_page(orbit.dataset)  a figure
+        wb.export(orbit, "gait.csv")           the motion for robots, MATLAB, motion capture and MuJoCo
 
     It can be pickled, and copied to another process.
 

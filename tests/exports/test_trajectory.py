@@ -141,6 +141,13 @@ def test_samples_that_make_no_beat_are_refused(samples, rigid_orbit, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_a_mujoco_model_has_shorter_tables(rigid_orbit, tmp_path):
+    """MuJoCo 3 refuses to read more than 500 numbers in a row."""
+    with pytest.raises(wb.InvalidInputError, match="whole number from 2 to 499"):
+        wb.export(rigid_orbit, tmp_path / "gait.xml", 500)
+    wb.export(rigid_orbit, tmp_path / "gait.csv", 500)
+
+
 def test_an_orbit_that_is_not_certified_is_refused_with_all_other_faults(tmp_path):
     problem = wb.OrbitProblem(wb.load_species("pigeon").with_values({"body.mass": 3.0}), speed=3.0)
     orbit = wb.solve_orbit(problem, starts=1)

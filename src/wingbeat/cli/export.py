@@ -11,8 +11,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.errors import FaultList
-from wingbeat.exports.gait import check_samples
-from wingbeat.exports.save import SAMPLES, check_export_name
+from wingbeat.exports.save import SAMPLES, check_export
 from wingbeat.exports.save import export as write_gait
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import load_orbit
@@ -41,8 +40,7 @@ def export(
     Examples: wingbeat export pigeon.nc -o gait.csv --samples 200; wingbeat export pigeon.nc -o pigeon.xml
     """
     faults = FaultList()
-    check_export_name(faults, "--output", output)
-    check_samples(faults, samples)
+    check_export(faults, "--output", output, samples)
     faults.raise_if_any()
     orbit = load_orbit(file)
     if orbit.status is not Status.CONVERGED:

@@ -47,7 +47,6 @@ LAW_NAMES = tuple(_LAWS)
 _OFF = {"span_ratio": 1.0, "chord_ratio": 1.0}
 # Of these the record has the sum of both wings.
 _OF_ONE_WING = ("flap_torque", "pitch_torque", "hinge_power", "actuator_power")
-_MOST_SAMPLES = 4096  # as `simulate` allows in a beat
 
 
 @jit_soon
@@ -148,11 +147,6 @@ def _derivatives(name: str) -> tuple[Term, Term, Term]:
     base = "" if term.unit == "1" else f"{term.unit} "
     rate = NOMENCLATURE.get(f"{name}_rate") or Term(f"{name}_rate", f"{base}s-1", f"rate of the {term.label}")
     return term, rate, Term(f"{name}_acceleration", f"{base}s-2", f"second time derivative of the {term.label}")
-
-
-def check_samples(faults: FaultList, samples: int) -> None:
-    """Note a fault unless a number of samples of the beat is allowed."""
-    faults.whole("samples", samples, 2, _MOST_SAMPLES, "equal phases of one beat")
 
 
 def check_certified(faults: FaultList, orbit: Orbit) -> None:

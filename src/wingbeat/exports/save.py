@@ -6,7 +6,7 @@ import os
 from os import PathLike
 
 from wingbeat.errors import FaultList
-from wingbeat.exports.gait import check_certified, check_samples, gait_of
+from wingbeat.exports.gait import check_certified, gait_of
 from wingbeat.exports.motion_capture import check_c3d, write_c3d
 from wingbeat.exports.mujoco_model import mujoco_xml
 from wingbeat.exports.trajectory import gait_csv, gait_mat
@@ -16,11 +16,24 @@ from wingbeat.results.orbit import Orbit
 SAMPLES = 256
 _WRITERS = {".csv": gait_csv, ".mat": gait_mat, ".xml": mujoco_xml}
 EXPORT_SUFFIXES = (*_WRITERS, ".c3d")
+# As many as `simulate` allows in a beat; MuJoCo 3 reads no more than 500 numbers in a row.
+_MOST_SAMPLES = {".xml": 499}
+_MOST = 4096
 
 
-def check_export_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
-    """Note a fault unless the suffix of a file name is that of a format for gaits."""
-    if (suffix := _suffix(path)) not in EXPORT_SUFFIXES:
+def check_export(faults: FaultList, where: str, path: str | PathLike[str], samples: int) -> None:
+    """Note a fault unless the suffix of a file name is that of a format for gaits, which can hold the samples.
+
+    Parameters
+    ----------
+    faults : takes the faults.
+    where : what to call the path in a fault.
+    path : of the file to write.
+    samples : number of equal phases of the beat.
+    """
+    suffix = _suffix(path)
+    faults.whole("samples", samples, 2, _MOST_SAMPLES.get(suffix, _MOST), "equal phases of one beat")
+    if suffix not in EXPORT_SUFFIXES:
         fix = "end the name in .csv, .mat (MATLAB), .c3d (motion capture) or .xml (MuJoCo)"
         if suffix == ".nc":
             fix += "; an orbit is saved as .nc by `wingbeat orbit -o`"
@@ -51,7 +64,7 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     Raises
     ------
     InvalidInputError : another suffix, an orbit that is not certified, samples that are not a whole number from 2
-        to 4096.
+        to 4096, for .xml to 499.
     FileError : the file cannot be written; .c3d without the extra.
 
     >>> import tempfile, pathlib, wingbeat as wb
@@ -62,8 +75,7 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     True
     """
     faults = FaultList()
-    check_export_name(faults, "path", path)
-    check_samples(faults, samples)
+    check_export(faults, "path", path, samples)
     check_certified(faults, orbit)
     faults.raise_if_any()
     if _suffix(path) == ".c3d":

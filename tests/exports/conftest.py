@@ -36,6 +36,13 @@ def swept_orbit(rigid_orbit):
     return wb.Orbit.of_record(record, rigid_orbit.problem, starts=2)
 
 
+@pytest.fixture(scope="session")
+def uncertified_orbit(pigeon_orbit):
+    """An orbit whose record says that it was not certified."""
+    record = pigeon_orbit.orbit.record() | {"status": "not-converged", "message": "the search ended too early"}
+    return wb.Orbit.of_record(record, pigeon_orbit.problem, starts=1)
+
+
 @pytest.fixture(params=["rigid", "pigeon", "bat", "animal"])
 def orbit(request):
     """Each of the orbits in turn."""

@@ -95,6 +95,11 @@ def test_bad_steps_are_refused(steps, rigid_orbit):
         wb.MujocoFlight(rigid_orbit, steps)
 
 
+def test_an_orbit_that_is_not_certified_is_refused(uncertified_orbit):
+    with pytest.raises(wb.InvalidInputError, match="orbit = 'not-converged': is not certified"):
+        wb.MujocoFlight(uncertified_orbit)
+
+
 def test_bad_beats_are_refused(rigid_orbit):
     with pytest.raises(wb.InvalidInputError, match="beats = 0: must be a whole number"):
         wb.MujocoFlight(rigid_orbit, 16).fly(0)

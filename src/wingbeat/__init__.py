@@ -94,10 +94,20 @@ if TYPE_CHECKING:
     from wingbeat.species import load_species as load_species
     from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
+    from wingbeat.stability.feedback import Feedback as Feedback
+    from wingbeat.stability.feedback import feedback as feedback
+    from wingbeat.stability.feedback_controller import FeedbackController as FeedbackController
+    from wingbeat.stability.feedback_options import FeedbackOptions as FeedbackOptions
+    from wingbeat.stability.gust_survey import GustSurvey as GustSurvey
+    from wingbeat.stability.gust_survey import survey_gusts as survey_gusts
     from wingbeat.stability.linear_flight import LinearFlight as LinearFlight
     from wingbeat.stability.linear_flight import linearise as linearise
+    from wingbeat.stability.many_flights import ManyFlights as ManyFlights
+    from wingbeat.stability.many_flights import simulate_many as simulate_many
+    from wingbeat.stability.many_options import ManyOptions as ManyOptions
     from wingbeat.stability.modes import Mode as Mode
     from wingbeat.stability.options import LinearOptions as LinearOptions
+    from wingbeat.stability.riccati import Reach as Reach
     from wingbeat.studies.study import Study as Study
     from wingbeat.studies.study import plan_study as plan_study
     from wingbeat.vehicle import Air as Air
@@ -123,16 +133,22 @@ _HOME = {
     "Curve": "results.curve",
     "DiagnosisOptions": "orbits.options.diagnosis",
     "ErrorBar": "orbits.many.uncertainty",
+    "Feedback": "stability.feedback",
+    "FeedbackController": "stability.feedback_controller",
+    "FeedbackOptions": "stability.feedback_options",
     "FileError": "errors",
     "Flight": "results.flight",
     "FlightModel": "mechanics.flight_model",
     "ForkError": "errors",
     "GlidePolar": "results.glide",
+    "GustSurvey": "stability.gust_survey",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
     "MeasuredFlights": "whole_flights.measured",
     "LinearFlight": "stability.linear_flight",
     "LinearOptions": "stability.options",
+    "ManyFlights": "stability.many_flights",
+    "ManyOptions": "stability.many_options",
     "Mode": "stability.modes",
     "Motor": "actuators",
     "MujocoFlight": "exports.mujoco_flight",
@@ -142,6 +158,7 @@ _HOME = {
     "OrbitProblem": "orbits.problem.problem",
     "Prediction": "whole_flights.prediction",
     "Quantity": "orbits.problem.quantities",
+    "Reach": "stability.riccati",
     "Relaxation": "orbits.infeasible.relaxation",
     "Samples": "orbits.many.uncertainty",
     "SearchOptions": "orbits.options.search",
@@ -172,6 +189,7 @@ _HOME = {
     "certify": "orbits.flight.certify",
     "equations_of_motion": "mechanics.equations_of_motion",
     "export": "exports.save",
+    "feedback": "stability.feedback",
     "filmed_problem": "orbits.problem.filmed",
     "filmed_species": "orbits.problem.filmed",
     "flight_loads": "mechanics.flight_loads",
@@ -192,11 +210,13 @@ _HOME = {
     "sensitivities": "results.sensitivities",
     "shipped_cases": "measured_motion.reading",
     "simulate": "results.flight",
+    "simulate_many": "stability.many_flights",
     "simulate_torque_driven": "results.flight",
     "solve_curve": "results.curve",
     "solve_orbit": "results.solving",
     "solve_orbits": "results.solving",
     "species_names": "species",
+    "survey_gusts": "stability.gust_survey",
     "trace_terms": "results.terms",
     "uncertainty_by_samples": "results.sensitivities",
     "validate": "measured_motion.comparison",

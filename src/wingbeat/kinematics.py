@@ -204,7 +204,9 @@ def with_harmonics(base: Phases, pairs: Sequence[Scalar], first: int, phase: Pha
     if not pairs:
         return base
     # All orders at once: one sine to trace and compile, however many there are.
-    waves = jnp.reshape(jnp.stack([jnp.asarray(a, dtype=float) for a in pairs]), (-1, 2, *[1] * jnp.ndim(phase)))
+    numbers = jnp.stack(jnp.broadcast_arrays(*[jnp.asarray(a, dtype=float) for a in pairs]))
+    own = numbers.shape[1:]  # one wingbeat, or one for each of the last places
+    waves = jnp.reshape(numbers, (-1, 2, *[1] * (jnp.ndim(phase) - len(own)), *own))
     turns = 2 * math.pi * np.arange(first, first + len(pairs) // 2).reshape(-1, *[1] * jnp.ndim(phase))
     angles = turns * phase
     return base + jnp.sum(waves[:, 0] * cos(angles) + waves[:, 1] * sin(angles), axis=0)

@@ -125,3 +125,15 @@ StretchStates = Float[Any, "stretches 4"]
 StretchMaps = Float[Any, "stretches 4 4"]
 # Derivatives by parameters of each law of the wing and of its rate, at the top of the stroke; positions and rates.
 LawJumps = Float[Any, "laws 2 *free"]
+# Laws of the wing and their rates at the top of the stroke; changes of inputs, and parameters, of several flights.
+LawRates = Float[Any, "laws 2"]
+Commands = Float[Any, "inputs *flights"]
+Parameters = Float[Any, "parameters *flights"]
+# Many flights at once: one number of each, their states, velocities of the air, and what is measured.
+Flights = Float[Any, "flights"]
+FlightStates = Float[Any, "6 flights"]
+AirOfFlights = Float[Any, "flights places 2"]
+NoiseOfFlights = Float[Any, "beats 5 flights"]
+FlownTops = Float[Any, "beats 6 flights"]
+FlownCommands = Float[Any, "beats inputs flights"]
+FlownTimes = Float[Any, "beats flights"]

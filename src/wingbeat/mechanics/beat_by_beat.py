@@ -76,8 +76,8 @@ def fly_beats(
         wingbeats.append(now)
         table = None
         if wind is not None:
-            table = _air(wind, begun + air_phases() / now.frequency)
-            airs.append(_air(wind, begun + one_beat[beat > 0 :] / now.frequency))
+            table = air_at(wind, begun + air_phases() / now.frequency)
+            airs.append(air_at(wind, begun + one_beat[beat > 0 :] / now.frequency))
         flown, _ = fly_through(model, now, current, one_beat, air=table)
         current = State(*flown[-1])
         pieces.append(flown[1:])
@@ -95,8 +95,18 @@ def _commanded(controller: Controller, beat: int, state: State) -> Wingbeat:
     return wingbeat
 
 
-def _air(wind: Wind | tuple[float, float], times: np.ndarray) -> np.ndarray:
-    """Return the velocity of the air at given times, shape (K, 2)."""
+def air_at(wind: Wind | tuple[float, float], times: np.ndarray) -> np.ndarray:
+    """Return the velocity of the air at given times, forward and up [m/s], shape (K, 2).
+
+    Parameters
+    ----------
+    wind : two numbers, or a function of times.
+    times : [s], shape (K,).
+
+    Raises
+    ------
+    InvalidInputError : a wind that returns something else.
+    """
     velocity = wind(times) if callable(wind) else wind
     try:
         columns = [np.broadcast_to(np.asarray(part, dtype=float), times.shape) for part in velocity]

@@ -125,7 +125,7 @@ def _fly_in_wind(
 
     def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat, AirTable]) -> Any:
         flown, beat, table = args
-        wind = _between(table, phase)
+        wind = air_between(table, phase * _AIR_SAMPLES)
         # The loads depend on the velocity through the air. The accelerations relative to the air and to the ground
         # are equal.
         through_air = state_rates(flown, beat, phase, state.at[3:5].add(-wind))
@@ -134,10 +134,17 @@ def _fly_in_wind(
     return integrate(rates, start, phases, (model, wingbeat, air), _IN_A_BEAT, rtol)
 
 
-def _between(table: AirTable, phase: Scalar) -> AirVelocity:
-    """Return the air's velocity at a phase, by cubics whose slopes are differences of neighbours (Catmull-Rom)."""
-    place = phase * _AIR_SAMPLES
-    first = jnp.clip(jnp.floor(place), 0, _AIR_SAMPLES - 1)
+def air_between(table: AirTable, place: Scalar) -> AirVelocity:
+    """Return the air's velocity between the places of a table, by cubics (Catmull-Rom).
+
+    The slope of the cubic at a place is half the difference of its neighbours.
+
+    Parameters
+    ----------
+    table : velocity at equal steps, from one step before place 0 to one behind the last place [m/s].
+    place : steps from place 0; the first and last cubics go on beyond the ends.
+    """
+    first = jnp.clip(jnp.floor(place), 0, table.shape[0] - 4)
     before, here, there, behind = jax.lax.dynamic_slice_in_dim(table, first.astype(int), 4)
     s = place - first
     from_here, from_there = 0.5 * (there - before), 0.5 * (behind - here)

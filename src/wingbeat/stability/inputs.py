@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 # The laws that move mass. The chord law does not: the mass stays distributed over the full chord, and the unsteady
 # loads leave out the rate of the chord.
-_LAWS = ("flap", "pitch", "span", "sweep", "twist", "fold", "stroke plane")
+LAWS = ("flap", "pitch", "span", "sweep", "twist", "fold", "stroke plane")
 # A smaller change of a law per unit of an input is rounding [rad, rad/s; shares of the span].
 _NOTHING = 1e-12
 
@@ -70,8 +70,14 @@ def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None)
         faults.add("inputs", "tail_tilt", "changes nothing: there is no tail", "leave it out, or give a tail")
 
 
-def _at_top(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return all laws at a phase, in the order of `_LAWS`; the twist law is the whole pitch at the tip."""
+def laws_at(wingbeat: Wingbeat, phase: Phases) -> Phases:
+    """Return all laws at a phase, in the order of `LAWS`; the twist law is the whole pitch at the tip.
+
+    Parameters
+    ----------
+    wingbeat : one wingbeat, or one for each phase.
+    phase : phases, shape (...).
+    """
     nothing = jnp.zeros_like(phase)
     pitch, sweep, twist = pitch_angle(wingbeat, phase), sweep_angle(wingbeat, phase), tip_twist(wingbeat, phase)
     tip = wingbeat.twist_ratio * pitch + (nothing if twist is None else twist)
@@ -93,13 +99,20 @@ def _jumps(wingbeat: Wingbeat, values: Free, *, names: tuple[str, ...]) -> LawJu
 
     def positions_and_rates(at: Free) -> LawJumps:
         beat = unpack(names, wingbeat, at)
-        position, by_phase = jax.jvp(lambda phase: _at_top(beat, phase), (jnp.array(0.0),), (jnp.array(1.0),))
+        position, by_phase = jax.jvp(lambda phase: laws_at(beat, phase), (jnp.array(0.0),), (jnp.array(1.0),))
         return jnp.stack([position, beat.frequency * by_phase], axis=-1)
 
     return jax.jacfwd(positions_and_rates)(values)
 
 
-def _jump(wingbeat: Wingbeat, names: tuple[str, ...]) -> np.ndarray:
+def law_jumps(wingbeat: Wingbeat, names: tuple[str, ...]) -> np.ndarray:
+    """Return how far laws and their rates [1/s] jump at phase 0 per unit of parameters, shape (laws, 2, names).
+
+    Parameters
+    ----------
+    wingbeat : the wingbeat.
+    names : of the parameters, at least one.
+    """
     values = np.array([parameter(wingbeat, name) for name in names], dtype=float)
     return np.array(_jumps.bind(wingbeat, names=names)(values))
 
@@ -113,8 +126,8 @@ def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
     """Return the names of those parameters whose jumps harmonics can undo."""
     if not names:
         return ()
-    moved = _is_moved(_jump(wingbeat, tuple(names)))
-    lasting = moved[[law not in FIRST_ORDER for law in _LAWS]]
+    moved = _is_moved(law_jumps(wingbeat, tuple(names)))
+    lasting = moved[[law not in FIRST_ORDER for law in LAWS]]
     return tuple(name for name, jumps in zip(names, lasting.T, strict=True) if not jumps.any())
 
 
@@ -133,11 +146,11 @@ def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     """
     if not inputs:
         return Compensation((), np.zeros((0, 0)))
-    jumps = _jump(wingbeat, tuple(inputs))
+    jumps = law_jumps(wingbeat, tuple(inputs))
     moved = _is_moved(jumps)
     faults = FaultList()
     names: list[str] = []
-    for law, moved_by in zip(_LAWS, moved, strict=True):
+    for law, moved_by in zip(LAWS, moved, strict=True):
         if law in FIRST_ORDER and moved_by.any():
             names += _harmonics(faults, law, inputs)
         elif moved_by.any():
@@ -147,8 +160,8 @@ def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     faults.raise_if_any()
     if not names:
         return Compensation((), np.zeros((0, len(inputs))))
-    rows = [i for i, law in enumerate(_LAWS) if law in FIRST_ORDER and moved[i].any()]
-    own = _jump(wingbeat, tuple(names))[rows].reshape(len(names), -1)
+    rows = [i for i, law in enumerate(LAWS) if law in FIRST_ORDER and moved[i].any()]
+    own = law_jumps(wingbeat, tuple(names))[rows].reshape(len(names), -1)
     shares = np.linalg.solve(own, -jumps[rows].reshape(len(names), -1))
     # Where the twist follows the pitch, the harmonics of the twist have nothing left to undo.
     used = [bool(np.abs(row).max() > _NOTHING) for row in shares]

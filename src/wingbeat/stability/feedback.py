@@ -1,0 +1,286 @@
+"""Feedback from beat to beat that holds an orbit: `feedback`."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.errors import FaultList, suggest
+from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.results.orbit import Orbit
+from wingbeat.stability.command_limits import command_limits
+from wingbeat.stability.feedback_controller import FeedbackController
+from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
+from wingbeat.stability.linear_flight import LinearFlight, linearise
+from wingbeat.stability.riccati import (
+    Reach,
+    check_reach,
+    closed_loop,
+    delayed,
+    linear_quadratic,
+    reaches,
+    sufficient,
+)
+from wingbeat.stability.smooth_commands import Smoother, changed_wingbeat, smoother
+
+# Longest delay [beats].
+_MOST_DELAY = 4
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """Feedback that changes the wingbeat at each top of the stroke; made by `feedback`.
+
+    With the state's deviation x from the orbit and the inputs ``y[1] ... y[delay]`` of the last beats, the oldest
+    first, the new inputs are ``-gains @ [x, y[1], ..., y[delay]]``, limited to `lower` and `upper`. They act
+    `delay` beats later.
+
+    Attributes
+    ----------
+    flight : the linear flight for which it was computed; its state begins with the height.
+    delay : beats by which inputs act later.
+    gains : shape (inputs, 5 + delay * inputs) [unit of the input per unit of the state].
+    cost : matrix P of the cost to go ``x' P x``, shape (5 + delay * inputs, 5 + delay * inputs) [1].
+    lower, upper : largest changes of the inputs, shape (inputs,) [Hz, rad or shares].
+    controllability : what the inputs do to each mode, the fastest growing first.
+    sufficient : inputs each of which alone reaches all modes that do not decay by themselves.
+    """
+
+    flight: LinearFlight
+    delay: int
+    gains: np.ndarray
+    cost: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    controllability: tuple[Reach, ...]
+    sufficient: tuple[str, ...]
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the parameters of the wingbeat that it changes."""
+        return self.flight.inputs
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Multipliers of the flight with feedback and all pending inputs, the largest first."""
+        return self.multipliers_if_late(0)
+
+    @property
+    def spectral_radius(self) -> float:
+        """Largest modulus of a multiplier with feedback; below 1 disturbances decay."""
+        return float(np.abs(self.multipliers[0]))
+
+    def multipliers_if_late(self, late: int) -> np.ndarray:
+        """Return the multipliers if inputs act even later than the feedback was computed for, the largest first.
+
+        Parameters
+        ----------
+        late : number of beats beyond `delay`.
+
+        Raises
+        ------
+        InvalidInputError : not a whole number from 0 to 4.
+        """
+        _check_late(late)
+        held = closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)
+        found = np.linalg.eigvals(held)
+        return found[np.argsort(-np.abs(found), kind="stable")]
+
+    @functools.cached_property
+    def smoother(self) -> Smoother:
+        """What keeps the wing from jumping when inputs change."""
+        return smoother(self.flight.orbit.wingbeat, self.inputs, self.flight.compensation)
+
+    def wingbeat(self, changes: Sequence[float] | np.ndarray) -> Wingbeat:
+        """Return the orbit's wingbeat with changed inputs, whose wing does not jump at the top of the stroke.
+
+        Parameters
+        ----------
+        changes : of the inputs, shape (inputs,) [Hz, rad or shares].
+        """
+        beat, harmonics = self.flight.orbit.wingbeat, self.flight.compensation.names
+        return changed_wingbeat(beat, self.smoother, self.inputs, harmonics, np.asarray(changes, dtype=float))
+
+    def controller(
+        self, noise: Mapping[str, float] | None = None, seed: int = 0, *, late: int = 0
+    ) -> FeedbackController:
+        """Return a controller for `simulate`.
+
+        Parameters
+        ----------
+        noise : standard deviations of what is measured of the state, by name [m, rad, m/s, rad/s].
+        seed : of the noise.
+        late : beats by which inputs act even later than the feedback was computed for.
+
+        Raises
+        ------
+        InvalidInputError : noise of an unknown state, or that is negative or not finite; a seed or a lateness that
+            is no whole number.
+
+        >>> import wingbeat as wb
+        >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+        >>> hold = wb.feedback(orbit).controller()
+        >>> gust = wb.winds.CosineGust(w=2.0, duration=0.3)
+        >>> start = orbit.initial_state
+        >>> flown = wb.simulate(orbit.problem.model, orbit.wingbeat, start, 12, wind=gust, controller=hold)
+        >>> bool(abs(flown.states[-1, 2] - start.body_pitch) < 0.02)
+        True
+        """
+        _check_late(late)
+        return FeedbackController(self, late, noise_of(noise, self.flight.state, seed), seed)
+
+    def record(self) -> dict[str, Any]:
+        """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""
+        flight = self.flight
+        pairs = [[value.real, value.imag] for value in self.multipliers.astype(complex).tolist()]
+        return {
+            "species": flight.orbit.inputs["species"]["name"],
+            "speed": flight.orbit.inputs["speed"],
+            "climb": flight.orbit.inputs["climb"],
+            "frequency": flight.orbit.wingbeat.frequency,
+            "dt": flight.dt,
+            "state": list(flight.state),
+            "inputs": list(self.inputs),
+            "delay": self.delay,
+            "gains": self.gains.tolist(),
+            "cost": self.cost.tolist(),
+            "lower": dict(zip(self.inputs, self.lower.tolist(), strict=True)),
+            "upper": dict(zip(self.inputs, self.upper.tolist(), strict=True)),
+            "multipliers": pairs,
+            "spectral_radius": self.spectral_radius,
+            "open_loop": {
+                "multipliers": [[m.multiplier.real, m.multiplier.imag] for m in flight.modes],
+                "spectral_radius": flight.spectral_radius,
+            },
+            "controllability": [
+                {
+                    "kind": mode.kind,
+                    "multiplier": [mode.multiplier.real, mode.multiplier.imag],
+                    "effects": mode.effects,
+                }
+                for mode in self.controllability
+            ],
+            "sufficient": list(self.sufficient),
+            "version": __version__,
+        }
+
+
+def feedback(
+    orbit: Orbit,
+    inputs: Sequence[str] | None = None,
+    *,
+    delay: int = 0,
+    weights: Mapping[str, float] | None = None,
+    limits: Mapping[str, float] | None = None,
+    options: FeedbackOptions = DEFAULTS,
+) -> Feedback:
+    """Compute the linear feedback that holds an orbit by changes of the wingbeat from beat to beat.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    inputs : names of parameters of the wingbeat that may change from beat to beat. Default: those free parameters
+        of its problem whose jumps harmonics can undo. Of frequency, flap and pitch and all their second harmonics,
+        the five stock parameters with compensation are all smooth changes that there are; `flap_cos_2` and the
+        like as inputs of their own are compensated by harmonics of order 3.
+    delay : beats between the measurement and the beat that it changes, 0 to 4.
+    weights : factors on the costs of states and inputs by name [-]; 1 if not given.
+    limits : largest changes of inputs by name [Hz, rad or shares]; else `FeedbackOptions.reach` units, or as far
+        as a wingbeat may change.
+    options : scales and units, and the linearisation.
+
+    Raises
+    ------
+    InvalidInputError : what `linearise` refuses; a delay that is no whole number from 0 to 4; weights or limits of
+        unknown names, not positive, or beyond what a wingbeat allows; a mode that does not decay and that no input
+        reaches.
+
+    The gains minimise the sum over all beats of squared deviations in scales and squared inputs in units: the
+    linear-quadratic regulator, from the discrete algebraic Riccati equation (Kalman 1960; Anderson & Moore, Optimal
+    Control, 1990). Inputs that are still pending belong to the state.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> held = wb.feedback(orbit, delay=1)
+    >>> held.gains.shape, bool(held.spectral_radius < 1 < held.flight.spectral_radius)
+    ((5, 10), True)
+    """
+    faults = FaultList()
+    fix = "commands act in the same beat (0), in the next (1) and so on"
+    faults.whole("delay", delay, 0, _MOST_DELAY, fix)
+    faults.raise_if_any()
+    flight = linearise(orbit, inputs, height=True, options=options.linear)
+    names = flight.inputs
+    if not names:
+        faults.add("inputs", inputs, "leaves no input", "name a parameter of the wingbeat such as pitch_mean")
+    factors = _weights(faults, weights, (*flight.state, *names))
+    lower, upper = command_limits(faults, orbit.wingbeat, names, limits, options)
+    faults.raise_if_any()
+    scales = np.array([options.scale(name) for name in flight.state])
+    units = np.array([options.unit(name) for name in names])
+    A, B = _deviation_map(flight)
+    modes = reaches(A * scales / scales[:, None], B * units / scales[:, None], names, _kinds(flight))
+    check_reach(faults, modes, names, options.least_effect)
+    faults.raise_if_any()
+    order, count = len(scales), len(names)
+    state_cost = np.zeros((order + delay * count,) * 2)
+    state_cost[:order, :order] = np.diag(factors[:order] / scales**2)
+    gains, cost = linear_quadratic(*delayed(A, B, delay), state_cost, np.diag(factors[order:] / units**2))
+    alone = sufficient(modes, names, options.least_effect)
+    return Feedback(flight, delay, gains, cost, lower, upper, modes, alone)
+
+
+def noise_of(noise: Mapping[str, float] | None, state: tuple[str, ...], seed: int) -> np.ndarray:
+    """Return the standard deviations of what is measured of the state, in its order, after checks."""
+    faults = FaultList()
+    faults.whole("seed", seed, 0, 2**31)
+    for name, value in _named(faults, "noise", noise, state).items():
+        faults.number(f"noise.{name}", value, at_least=0.0, fix="give a standard deviation")
+    faults.raise_if_any()
+    return np.array([(noise or {}).get(name, 0.0) for name in state])
+
+
+def _weights(faults: FaultList, weights: Mapping[str, float] | None, known: tuple[str, ...]) -> np.ndarray:
+    given = _named(faults, "weights", weights, known)
+    for name, value in given.items():
+        faults.number(f"weights.{name}", value, above=0.0, fix="1 is the default")
+    return np.array([given.get(name, 1.0) for name in known], dtype=float) if not faults.faults else np.ones(0)
+
+
+def _named(faults: FaultList, where: str, given: Any, known: tuple[str, ...]) -> dict[str, Any]:
+    """Return numbers by name, and note names that are unknown."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        faults.add(where, given, "must be numbers by name", f"for example {{'{known[-1]}': 0.1}}")
+        return {}
+    for name in given:
+        if name not in known:
+            fix = suggest(str(name), known, most=1)
+            faults.add(where, name, "names neither a state nor an input of this feedback", fix)
+    return {name: value for name, value in given.items() if name in known}
+
+
+def _check_late(late: int) -> None:
+    faults = FaultList()
+    faults.whole("late", late, 0, _MOST_DELAY)
+    faults.raise_if_any()
+
+
+def _deviation_map(flight: LinearFlight) -> tuple[np.ndarray, np.ndarray]:
+    """Return A and B of deviations from the orbit, whose height is that of the climbing path at the same time."""
+    by_inputs = flight.B.copy()
+    if "frequency" in flight.inputs:  # a shorter beat ends lower on the path
+        by_inputs[0, flight.inputs.index("frequency")] += (
+            float(flight.orbit.inputs["climb"]) / float(parameter(flight.orbit.wingbeat, "frequency")) ** 2
+        )
+    return flight.A, by_inputs
+
+
+def _kinds(flight: LinearFlight) -> dict[complex, str]:
+    return {1.0 + 0.0j: "height"} | {mode.multiplier: mode.kind for mode in flight.modes}

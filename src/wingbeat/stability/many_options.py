@@ -1,0 +1,34 @@
+"""Options of many flights at once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from wingbeat.orbits.options.checks import check_options
+
+
+@dataclass(frozen=True)
+class ManyOptions:
+    """Options of many flights at once.
+
+    Parameters
+    ----------
+    steps : Runge-Kutta steps of a beat.
+    air_samples : places in a beat at which the velocity of the air is tabulated; cubics give it between.
+    lanes : flights that are computed at once.
+    tilt : a flight is lost if its body pitch differs by more than this from the orbit's at the same phase [rad].
+    loss : a flight is lost if it is more than this below the orbit's path at a top of the stroke [m].
+    """
+
+    steps: int = 64
+    air_samples: int = 64
+    lanes: int = 256
+    tilt: float = math.radians(60.0)
+    loss: float = 5.0
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+
+DEFAULTS = ManyOptions()

@@ -1,0 +1,134 @@
+"""Linear feedback of a linear map from beat to beat: its gains, its closed loop, and what its inputs reach."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+
+# Modes whose modulus is within this of 1 neither grow nor decay.
+_NEUTRAL = 1e-6
+
+
+class Reach(NamedTuple):
+    """What inputs do to one mode.
+
+    Attributes
+    ----------
+    kind : of the mode, as in `Mode`; ``height`` for the height, which alone has no effect on the flight.
+    multiplier : of the mode; of a pair the one with positive imaginary part.
+    effects : how far a unit of each input moves the mode's own coordinate in a beat, in units (the test of Popov,
+        Belevitch and Hautus, input by input); 0 if the input does not reach the mode.
+    """
+
+    kind: str
+    multiplier: complex
+    effects: dict[str, float]
+
+    @property
+    def persists(self) -> bool:
+        """Whether the mode does not decay by itself."""
+        return abs(self.multiplier) >= 1.0 - _NEUTRAL
+
+
+def reaches(A: np.ndarray, B: np.ndarray, inputs: tuple[str, ...], kinds: dict[complex, str]) -> tuple[Reach, ...]:
+    """Return what inputs do to each mode, the fastest growing first.
+
+    Parameters
+    ----------
+    A, B : of the map, in units, shapes (n, n) and (n, inputs).
+    inputs : their names.
+    kinds : of modes by their multipliers; the nearest one counts.
+    """
+    multipliers, left = np.linalg.eig(A.T)
+    found = []
+    for i in np.argsort(-np.abs(multipliers), kind="stable"):
+        multiplier = complex(multipliers[i])
+        if multiplier.imag < -1e-12:
+            continue
+        vector = left[:, i] / np.linalg.norm(left[:, i])
+        kind = kinds[min(kinds, key=lambda known: abs(known - multiplier))]
+        effects = dict(zip(inputs, np.abs(vector @ B).tolist(), strict=True))
+        found.append(Reach(kind, multiplier, effects))
+    return tuple(found)
+
+
+def check_reach(faults: FaultList, modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) -> None:
+    """Note modes that do not decay and that no input reaches.
+
+    Parameters
+    ----------
+    faults : receives the faults.
+    modes : what the inputs do to them.
+    inputs : their names.
+    least : an input reaches a mode if its effect is above this number.
+    """
+    for mode in modes:
+        if mode.persists and max(mode.effects.values()) <= least:
+            rule = f"reach no {mode.kind} with multiplier {mode.multiplier:.3g}, which does not decay by itself"
+            faults.add("inputs", list(inputs), rule, "add an input such as pitch_mean")
+
+
+def sufficient(modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) -> tuple[str, ...]:
+    """Return the inputs each of which alone reaches all modes that do not decay."""
+    lasting = [mode.effects for mode in modes if mode.persists]
+    return tuple(name for name in inputs if all(effects[name] > least for effects in lasting))
+
+
+def delayed(A: np.ndarray, B: np.ndarray, delay: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the map whose inputs act some beats later; its state has the pending inputs behind, the oldest first.
+
+    Parameters
+    ----------
+    A, B : of the map without delay, shapes (n, n) and (n, m).
+    delay : number of beats.
+    """
+    if delay == 0:
+        return A, B
+    order, count = B.shape
+    whole = order + delay * count
+    later, entering = np.zeros((whole, whole)), np.zeros((whole, count))
+    later[:order, :order] = A
+    later[:order, order : order + count] = B
+    later[order:-count, order + count :] = np.eye((delay - 1) * count)
+    entering[-count:] = np.eye(count)
+    return later, entering
+
+
+def linear_quadratic(
+    A: np.ndarray, B: np.ndarray, state_cost: np.ndarray, input_cost: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return gains K and the matrix P of the cost to go, for ``y = -K x`` that minimises the sum over all beats.
+
+    The cost of a beat is ``x' Q x + y' R y``; P solves the discrete algebraic Riccati equation.
+
+    Parameters
+    ----------
+    A, B : of the map, shapes (n, n) and (n, m).
+    state_cost : Q, shape (n, n).
+    input_cost : R, shape (m, m).
+    """
+    from scipy.linalg import solve_discrete_are
+
+    cost = solve_discrete_are(A, B, state_cost, input_cost)
+    return np.linalg.solve(input_cost + B.T @ cost @ B, B.T @ cost @ A), cost
+
+
+def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:
+    """Return the map of the state and all pending inputs with feedback.
+
+    Parameters
+    ----------
+    A, B : of the map without delay, shapes (n, n) and (n, m).
+    gains : on the state and the inputs of the last `delay` beats, shape (m, n + delay m).
+    delay : for which the gains were computed, in beats.
+    late : beats by which inputs act even later.
+    """
+    order, count = B.shape
+    later, entering = delayed(A, B, delay + late)
+    known = [*range(order), *range(order + late * count, order + (late + delay) * count)]
+    taken = np.zeros((count, len(later)))
+    taken[:, known] = gains
+    return later - entering @ taken

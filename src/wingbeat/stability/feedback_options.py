@@ -1,4 +1,4 @@
-"""Options of feedback from beat to beat: which deviations and which changes of the wingbeat count as equally large."""
+"""Options of feedback from beat to beat: which deviations and changes of the wingbeat count as equally large."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from wingbeat.errors import FaultList
 from wingbeat.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, harmonic_place
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Free, Phases, Scalar
+    from wingbeat._jax.shapes import Parameters, Phases, Scalar
 
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")
@@ -323,7 +323,7 @@ def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
     return dataclasses.replace(wingbeat, **_fields(wingbeat, values))
 
 
-def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Free) -> Wingbeat:
+def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Parameters) -> Wingbeat:
     """Return the wingbeat with its free parameters replaced by `values`, in the order of `free`."""
     replaced = _fields(wingbeat, {name: values[i] for i, name in enumerate(free)})
     return unchecked(Wingbeat, vars(wingbeat) | replaced)

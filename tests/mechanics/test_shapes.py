@@ -172,6 +172,8 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     traced("mechanics.flight_loads.flight_loads", model, wingbeat, state, phases)
     traced("mechanics.wing_points.strip_corners", model, wingbeat, state, phases)
     traced("mechanics.flights._fly", model, wingbeat, np.zeros(6), phases, np.array(1e-10))
+    many = np.zeros((6, 3)), np.zeros(3), np.zeros((3, 9, 2)), np.array(0.01), np.zeros(5)
+    traced("mechanics.fixed_steps.fly_beat_in_steps", model, wingbeat, *many)
     traced("mechanics.glide._required", model, wingbeat, np.zeros(5))
     eom = importlib.import_module("wingbeat.mechanics.equations_of_motion")
     for function, rows in ((eom._terms, 0), (eom._air_forces, 0), (eom._torque, 1)):

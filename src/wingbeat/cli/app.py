@@ -32,6 +32,7 @@ COMMANDS = {
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
     "terms": "Follow the best wingbeat while the share of a term of the air loads rises from 0 to 1.",
     "stability": "Find what grows and what decays when an orbit is disturbed.",
+    "feedback": "Compute the feedback that holds an orbit, and fly it through a gust.",
     "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",

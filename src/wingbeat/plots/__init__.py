@@ -1,4 +1,4 @@
-"""Figures: of wingbeats, flights, their stability, curves, fits, measured motions and second opinions; saving."""
+"""Figures: of wingbeats, flights, stability, gusts, curves, fits, measured motions and second opinions; saving."""
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
@@ -6,6 +6,7 @@ from wingbeat.plots.film_page import film_page as film_page
 from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.flights_page import flights_page as flights_page
 from wingbeat.plots.glide_page import glide_page as glide_page
+from wingbeat.plots.gust_page import gust_page as gust_page
 from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
@@ -27,6 +28,7 @@ __all__ = [
     "fit_page",
     "flights_page",
     "glide_page",
+    "gust_page",
     "power_page",
     "save_figure",
     "second_opinion_page",

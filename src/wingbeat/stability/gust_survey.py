@@ -104,6 +104,8 @@ def survey_gusts(
     *,
     size: float = 5.0,
     beats: int = 30,
+    late: int = 0,
+    noise: Mapping[str, float] | None = None,
     seed: int = 0,
     options: ManyOptions = DEFAULTS,
 ) -> GustSurvey:
@@ -117,6 +119,7 @@ def survey_gusts(
     flights : number of gusts.
     size : of the largest gust [m/s].
     beats : number of wingbeats of a flight.
+    late, noise : of all feedbacks, as in `simulate_many` [m, rad, m/s, rad/s].
     seed : of the random numbers.
     options : of `simulate_many`; they say when a flight is lost.
 
@@ -161,9 +164,8 @@ def survey_gusts(
             strict=True,
         )
     ]
-    flown = {
-        name: simulate_many(orbit, gusts, beats, feedback=held, options=options) for name, held in feedbacks.items()
-    }
+    asked: dict[str, Any] = {"late": late, "noise": noise, "seed": seed, "options": options}
+    flown = {name: simulate_many(orbit, gusts, beats, feedback=held, **asked) for name, held in feedbacks.items()}
     survived = {name: found.survived for name, found in flown.items()}
     return GustSurvey(
         sizes, turns, starts, lengths, survived, {n: found.largest_pitch for n, found in flown.items()}, beats

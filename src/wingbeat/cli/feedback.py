@@ -1,0 +1,222 @@
+"""``wingbeat feedback``: the feedback that holds a saved orbit from beat to beat, and gusts flown with it."""
+
+from __future__ import annotations
+
+import json as json_format
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.options import Whole, check_files, check_outputs, unpacking
+from wingbeat.cli.streams import plain_console
+from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import ANGLES
+from wingbeat.plots import gust_page, save_figure
+from wingbeat.results.orbit import load_orbit
+from wingbeat.stability.feedback import Feedback
+from wingbeat.stability.feedback import feedback as compute
+from wingbeat.stability.gust_flight import GustFlight, fly_gust
+from wingbeat.stability.gust_survey import GustSurvey, survey_gusts
+from wingbeat.winds import Wind
+
+FREE, HELD = "no feedback", "feedback"
+# The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
+_GUST = ["w=2", "duration=0.3"]
+_MOST_GUSTS = 100_000
+# The state as it is printed: what is a unit of it, and its size in SI units.
+_UNITS = {
+    "z": ("z [m]", 1.0),
+    "body_pitch": ("pitch [deg]", math.radians(1.0)),
+    "u": ("u [m/s]", 1.0),
+    "w": ("w [m/s]", 1.0),
+    "pitch_rate": ("rate [rad/s]", 1.0),
+}
+
+
+def feedback(
+    source: Annotated[Path, Parameter(help="A saved orbit (.nc).", name="ORBIT")],
+    *,
+    inputs: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Parameters of the wingbeat that change from beat to beat: frequency pitch_mean ... Default: "
+            "those free ones whose jumps harmonics can undo.",
+        ),
+    ] = None,
+    delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that it changes.")] = 0,
+    late: Annotated[
+        Whole, Parameter(help="Further beats by which inputs act later in flight, unknown to the feedback.")
+    ] = 0,
+    gust: Gust = None,
+    turbulence: Turbulence = None,
+    wind_seed: WindSeed = 0,
+    beats: Annotated[Whole, Parameter(help="Number of wingbeats of each flight.")] = 30,
+    noise: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Standard deviations of the sensors: z=0.02 body_pitch=0.01 u=0.1 ... [m, rad, m/s, rad/s].",
+        ),
+    ] = None,
+    survey: Annotated[Whole, Parameter(help="Number of random gusts of up to 5 m/s to survey; 0 for none.")] = 0,
+    seed: Annotated[Whole, Parameter(help="Seed of the noise and of the surveyed gusts.")] = 0,
+    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw flights and survey: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Compute the feedback that holds a saved orbit from beat to beat, and fly it through a gust.
+
+    It prints gains, multipliers with and without feedback, the inputs that suffice alone, and a flight through the
+    gust with and without feedback. Without --gust and --turbulence the gust is w=2 duration=0.3. --survey flies
+    random gusts and prints the share survived. A flight is lost if its body pitch is 60 degrees from the orbit's,
+    or if it sinks 5 m below the orbit's path.
+
+    --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains cost lower
+    upper multipliers spectral_radius open_loop controllability sufficient largest_gusts version; late and beats; flights by name
+    ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest settled_beats; and survey
+    (null without --survey) with flights beats largest_gust survived by_size by_direction.
+    Exit code 3: the flight with feedback is lost.
+
+    Examples: wingbeat feedback pigeon.nc --delay 1 --gust w=3; wingbeat feedback pigeon.nc --survey 1000 --plot
+    gusts.png
+    """
+    faults = FaultList()
+    check_files(faults, None, plot=plot)
+    if source.suffix != ".nc":
+        faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
+    faults.whole("--beats", beats, 1, 10_000)
+    faults.whole("--survey", survey, 0, _MOST_GUSTS)
+    errors = _read_noise(faults, noise)
+    faults.raise_if_any()
+    check_outputs(plot)
+    orbit = load_orbit(source)
+    with unpacking(source):
+        _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
+    given = gust if gust is not None or turbulence is not None else _GUST
+    airspeed = math.hypot(float(orbit.inputs["speed"]), float(orbit.inputs["climb"]))
+    wind = wind_of(given, turbulence, wind_seed, airspeed)
+    assert wind is not None
+    held = compute(orbit, inputs, delay=delay)
+    flights = _fly(held, wind, beats, late, errors, seed)
+    surveyed = None
+    if survey:
+        surveyed = survey_gusts(
+            orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
+        )
+    if plot:
+        save_figure(gust_page(flights, surveyed), plot)
+    if json:
+        record = held.record() | {"late": late, "beats": beats}
+        record["flights"] = {name: one.record() for name, one in flights.items()}
+        record["survey"] = None if surveyed is None else surveyed.record()
+        print(json_format.dumps(record, indent=2, allow_nan=False))
+    else:
+        _print(held, flights, late, surveyed)
+    return EXIT_GOOD if flights[HELD].survived else EXIT_NOT_CERTIFIED
+
+
+def _fly(
+    held: Feedback, wind: Wind, beats: int, late: int, noise: Mapping[str, float], seed: int
+) -> dict[str, GustFlight]:
+    orbit = held.flight.orbit
+    return {
+        FREE: fly_gust(orbit, wind, beats),
+        HELD: fly_gust(orbit, wind, beats, feedback=held, late=late, noise=noise, seed=seed),
+    }
+
+
+def _read_noise(faults: FaultList, words: list[str] | None) -> dict[str, float]:
+    """Return standard deviations by name, and note what cannot be read."""
+    found: dict[str, float] = {}
+    for word in words or []:
+        name, _, text = word.partition("=")
+        try:
+            value = float(text)
+        except ValueError:
+            faults.add("--noise", word, "must be NAME=VALUE with a number", "for example body_pitch=0.01")
+            continue
+        if name in found:
+            faults.add("--noise", word, "is given twice", "keep one of them")
+        faults.choice("--noise", name, tuple(_UNITS))
+        found[name] = value
+    if words is not None and not words:
+        faults.add("--noise", "", "must be NAME=VALUE", "for example body_pitch=0.01")
+    return found
+
+
+def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None) -> None:
+    from rich.table import Table
+
+    console = plain_console()
+    record = held.record()
+    console.print(headline(record), soft_wrap=True)
+    console.print()
+    console.print("change of the inputs per unit of")
+    table = Table("", *(label for label, _ in _UNITS.values()), box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for name, row in zip(held.inputs, -held.gains, strict=True):
+        unit, size = ("deg", math.radians(1.0)) if name in ANGLES else ("Hz" if name == "frequency" else "-", 1.0)
+        shown = [f"{gain * one / size:.3g}" for gain, (_, one) in zip(row, _UNITS.values(), strict=False)]
+        table.add_row(f"{name} [{unit}]", *shown)
+    console.print(table)
+    if held.delay:
+        console.print(f"and of the inputs of the last {_beats(held.delay)}: see --json", soft_wrap=True)
+    console.print()
+    console.print("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), soft_wrap=True)
+    console.print("multipliers with feedback:    " + _numbers(record["multipliers"]), soft_wrap=True)
+    alone = ", ".join(held.sufficient) or "none"
+    console.print(f"inputs that suffice alone:    {alone}", soft_wrap=True)
+    if held.largest_gusts:
+        gusts = ", ".join(f"{name} {size:.2g}" for name, size in held.largest_gusts.items())
+        console.print(f"upward gusts of one beat [m/s] that an input alone can undo: {gusts}", soft_wrap=True)
+    console.print()
+    for name, one in flights.items():
+        console.print(
+            _outcome(name if name == FREE or not late else f"{name}, {_beats(late)} late", one), soft_wrap=True
+        )
+    if survey is not None:
+        console.print()
+        shares = ", ".join(f"{survey.share(name):.1%} {_with(name)}" for name in survey.survived)
+        console.print(f"of {len(survey.size)} gusts of up to 5 m/s survived: {shares}", soft_wrap=True)
+
+
+def headline(record: dict[str, Any]) -> str:
+    """Return what a feedback does to an orbit in a line."""
+    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
+    acting = "in the same beat" if not record["delay"] else f"{_beats(record['delay'])} later"
+    return (
+        f"{where}: spectral radius {record['open_loop']['spectral_radius']:.3f} without feedback, "
+        f"{record['spectral_radius']:.3f} with feedback that acts {acting}"
+    )
+
+
+def _beats(count: int) -> str:
+    return f"{count} beat" if count == 1 else f"{count} beats"
+
+
+def _with(name: str) -> str:
+    return "without feedback" if name == FREE else "with feedback"
+
+
+def _numbers(pairs: list[list[float]]) -> str:
+    """Return the largest five multipliers; the others are those of pending inputs, or small."""
+    shown = [(real, imaginary) for real, imaginary in pairs if imaginary >= 0][:5]
+    return ", ".join(f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "") for real, imaginary in shown)
+
+
+def _outcome(name: str, one: GustFlight) -> str:
+    record = one.record()
+    if not one.survived:
+        return f"{name}: lost"
+    settled = record["settled_beats"]
+    ending = "not settled at the end" if settled is None else f"settled after {_beats(settled)}"
+    return (
+        f"{name}: survived, body pitch within {math.degrees(record['largest_pitch']):.1f} deg of the orbit's, "
+        f"height {record['lowest']:+.2f} to {record['highest']:+.2f} m, {ending}"
+    )

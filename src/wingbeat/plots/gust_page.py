@@ -1,0 +1,81 @@
+"""A gust flown with and without feedback, and the share of many gusts that were survived."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wingbeat.stability.gust_flight import GustFlight
+from wingbeat.stability.gust_survey import GustSurvey
+from wingbeat.style import FIRST, GREY, PAGE, SECOND, SHADE, THIRD, drawing, dress, legend_below, letter_panels
+from wingbeat.style import new_figure as new_page
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_LINES = (SECOND, FIRST, THIRD)
+# Beyond this, a flight is lost, and its line leaves the panel [deg].
+_SHOWN = 60.0
+
+
+@drawing()
+def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = None) -> Figure:
+    """Draw body pitch and height of flights through one gust, and which share of many gusts was survived.
+
+    The shade is the time of the gust. Lines end where a flight is lost.
+
+    Parameters
+    ----------
+    flights : through the same wind, by names, at most three.
+    survey : with feedbacks of the same names; None for no panels of it.
+    """
+    figure = new_page(PAGE, 62.0)
+    panels = figure.subplots(1, 4 if survey is not None else 2)
+    _draw_flights(panels[0], panels[1], flights)
+    if survey is not None:
+        _draw_shares(panels[2], panels[3], survey)
+    letter_panels(figure.axes)
+    legend_below(figure, [panels[0]], columns=3)
+    return figure
+
+
+def _draw_flights(pitch: Axes, height: Axes, flights: Mapping[str, GustFlight]) -> None:
+    for (name, one), line in zip(flights.items(), _LINES, strict=False):
+        time = one.flight.time
+        samples = (len(time) - 1) // len(one.flight.wingbeats)
+        degrees = np.degrees(one.pitch)
+        lost = np.flatnonzero(~(np.abs(degrees) <= _SHOWN))
+        end = int(lost[0]) if len(lost) else len(time)
+        pitch.plot(time[:end], degrees[:end], label=name, **line)
+        tops = np.arange(len(one.height))
+        kept = tops[tops * samples < end]
+        height.plot(time[kept * samples], one.height[kept], label=name, **line)
+    first = next(iter(flights.values())).flight
+    if first.air is not None:
+        blows = np.hypot(*first.air.T) > 0
+        if blows.any() and not blows.all():
+            for panel in (pitch, height):
+                panel.axvspan(first.time[blows][0], first.time[blows][-1], color=SHADE, linewidth=0, zorder=0)
+    for panel in (pitch, height):
+        panel.axhline(0.0, color=GREY, linewidth=0.6)
+    dress(pitch, "time [s]", "deviation of body pitch [deg]")
+    dress(height, "time [s]", "height above the path [m]")
+
+
+def _draw_shares(sizes: Axes, directions: Axes, survey: GustSurvey) -> None:
+    for name, line in zip(survey.survived, _LINES, strict=False):
+        edges, shares = survey.by_size(name)
+        sizes.plot(0.5 * (edges[1:] + edges[:-1]), 100.0 * shares, label=name, **line)
+        edges, shares = survey.by_direction(name)
+        directions.plot(np.degrees(0.5 * (edges[1:] + edges[:-1])), 100.0 * shares, label=name, **line)
+    for panel in (sizes, directions):
+        panel.set_ylim(-3.0, 103.0)
+    dress(sizes, "largest velocity of the gust [m/s]", f"survived of {len(survey.size)} gusts [%]")
+    dress(directions, "direction of the gust [deg]\n0 forward, 90 up, 180 backward", "survived [%]")
+    sizes.set_xlim(0.0, math.ceil(float(survey.size.max())))
+    directions.set_xlim(0.0, 360.0)
+    directions.set_xticks([0, 90, 180, 270, 360])

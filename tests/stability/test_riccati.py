@@ -12,7 +12,6 @@ from wingbeat.stability.riccati import (
     check_reach,
     closed_loop,
     delayed,
-    largest_gusts,
     linear_quadratic,
     reaches,
     sufficient,
@@ -109,18 +108,3 @@ def test_a_pair_of_complex_multipliers_is_one_mode():
     (mode,) = reaches(turn, np.array([[1.0], [0.0]]), ("a",), {complex(*turn[:, 0]): "oscillation"})
     assert mode.multiplier == pytest.approx(complex(turn[0, 0], turn[1, 0]))
     assert mode.effects["a"] == pytest.approx(math.sqrt(0.5))
-
-
-@pytest.mark.parametrize("multiplier", [1.5, -1.5])
-@pytest.mark.parametrize("delay", [0, 2])
-def test_a_gust_beyond_the_largest_is_lost_and_one_below_it_is_not(multiplier, delay):
-    A, B, gust = np.diag([multiplier, 0.5]), np.array([[0.4], [0.3]]), np.array([2.0, 1.0])
-    most = largest_gusts(A, B, gust, ("a",), np.array([0.6]), delay)["a"]
-    for size, saved in ((0.99 * most, True), (1.01 * most, False)):
-        q = 2.0 * size
-        for beat in range(300):
-            # As far as it may, against the mode; inputs act only after the delay.
-            taken = 0.0 if beat < delay else np.clip(-multiplier * q / 0.4, -0.6, 0.6)
-            q = multiplier * q + 0.4 * taken
-        assert (abs(q) < 1e-6) is saved
-    assert largest_gusts(np.diag([0.9, 0.5]), B, gust, ("a",), np.array([0.6]), 0) == {}

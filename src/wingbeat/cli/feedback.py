@@ -79,9 +79,9 @@ def feedback(
     or if it sinks 5 m below the orbit's path.
 
     --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains cost lower
-    upper multipliers spectral_radius open_loop controllability sufficient largest_gusts version; late and beats; flights by name
-    ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest settled_beats; and survey
-    (null without --survey) with flights beats largest_gust survived by_size by_direction.
+    upper multipliers spectral_radius open_loop controllability sufficient version; late and beats;
+    flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
+    settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
 
     Examples: wingbeat feedback pigeon.nc --delay 1 --gust w=3; wingbeat feedback pigeon.nc --survey 1000 --plot
@@ -172,9 +172,6 @@ def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: Gu
     console.print("multipliers with feedback:    " + _numbers(record["multipliers"]), soft_wrap=True)
     alone = ", ".join(held.sufficient) or "none"
     console.print(f"inputs that suffice alone:    {alone}", soft_wrap=True)
-    if held.largest_gusts:
-        gusts = ", ".join(f"{name} {size:.2g}" for name, size in held.largest_gusts.items())
-        console.print(f"upward gusts of one beat [m/s] that an input alone can undo: {gusts}", soft_wrap=True)
     console.print()
     for name, one in flights.items():
         console.print(

@@ -22,7 +22,6 @@ from wingbeat.stability.riccati import (
     check_reach,
     closed_loop,
     delayed,
-    largest_gusts,
     linear_quadratic,
     reaches,
     sufficient,
@@ -75,16 +74,6 @@ class Feedback:
     def spectral_radius(self) -> float:
         """Largest modulus of a multiplier with feedback; below 1 disturbances decay."""
         return float(np.abs(self.multipliers[0]))
-
-    @property
-    def largest_gusts(self) -> dict[str, float]:
-        """Largest upward gust of one beat [m/s] that each input alone can undo; empty if no mode grows.
-
-        It is that of the linear flight: whatever gains, a stronger gust is lost within the limits of this input.
-        """
-        A, B = _deviation_map(self.flight)
-        least = np.minimum(-self.lower, self.upper)
-        return largest_gusts(A, B, self.flight.G[:, 1], self.inputs, least, self.delay)
 
     def multipliers_if_late(self, late: int) -> np.ndarray:
         """Return the multipliers if inputs act even later than the feedback was computed for, the largest first.
@@ -177,7 +166,6 @@ class Feedback:
                 for mode in self.controllability
             ],
             "sufficient": list(self.sufficient),
-            "largest_gusts": self.largest_gusts,
             "version": __version__,
         }
 

@@ -77,32 +77,6 @@ def sufficient(modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) 
     return tuple(name for name in inputs if all(effects[name] > least for effects in lasting))
 
 
-def largest_gusts(
-    A: np.ndarray, B: np.ndarray, gust: np.ndarray, inputs: tuple[str, ...], reach: np.ndarray, delay: int
-) -> dict[str, float]:
-    """Return the largest gusts that each input alone can undo within its limits; empty if no mode grows.
-
-    A mode with multiplier mu and coordinate q grows to ``mu q + b y``. An input within ``|y| <= Y`` can return q to
-    0 as long as ``|q| < |b| Y / (|mu| - 1)``. Until it acts, q grows by ``|mu|`` in each beat of the delay.
-
-    Parameters
-    ----------
-    A, B : of the map, shapes (n, n) and (n, m).
-    gust : change of the state after a beat by a gust of unit size, shape (n,).
-    inputs : their names.
-    reach : their limits, shape (m,).
-    delay : number of beats.
-    """
-    multipliers, left = np.linalg.eig(A.T)
-    growing = np.abs(multipliers) > 1.0 + _NEUTRAL
-    if not growing.any():
-        return {}
-    sizes = np.abs(multipliers[growing])[:, None]
-    pushed = np.abs(left[:, growing].T @ gust)[:, None] * sizes**delay
-    found = np.abs(left[:, growing].T @ B) * reach / ((sizes - 1.0) * pushed)
-    return dict(zip(inputs, found.min(axis=0).tolist(), strict=True))
-
-
 def delayed(A: np.ndarray, B: np.ndarray, delay: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the map whose inputs act some beats later; its state has the pending inputs behind, the oldest first.
 

@@ -166,7 +166,8 @@ def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: Gu
         table.add_row(f"{name} [{unit}]", *shown)
     console.print(table)
     if held.delay:
-        console.print(f"and of the inputs of the last {_beats(held.delay)}: see --json", soft_wrap=True)
+        last = "beat" if held.delay == 1 else f"{held.delay} beats"
+        console.print(f"and of the inputs of the last {last}: see --json", soft_wrap=True)
     console.print()
     console.print("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), soft_wrap=True)
     console.print("multipliers with feedback:    " + _numbers(record["multipliers"]), soft_wrap=True)
@@ -202,8 +203,10 @@ def _with(name: str) -> str:
 
 
 def _numbers(pairs: list[list[float]]) -> str:
-    """Return the largest five multipliers; the others are those of pending inputs, or small."""
-    shown = [(real, imaginary) for real, imaginary in pairs if imaginary >= 0][:5]
+    """Return the multipliers, of a pair one; those of pending inputs are near 0 and left out."""
+    shown = [
+        (real, imaginary) for real, imaginary in pairs if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
+    ]
     return ", ".join(f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "") for real, imaginary in shown)
 
 

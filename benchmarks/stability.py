@@ -1,4 +1,4 @@
-"""Orbits on which disturbances decay: how many searches find one, what stability costs, and how long a search takes.
+"""Orbits on which disturbances decay: how many searches find one, what stability costs, and the time of a search.
 
 Run from the root of a clone; it prints the numbers of docs/stability.md::
 

@@ -64,8 +64,9 @@ if TYPE_CHECKING:
     from wingbeat.orbits.problem.filmed import filmed_problem as filmed_problem
     from wingbeat.orbits.problem.filmed import filmed_species as filmed_species
     from wingbeat.orbits.problem.limits import Constraint as Constraint
+    from wingbeat.orbits.problem.map_quantities import MapQuantity as MapQuantity
     from wingbeat.orbits.problem.problem import OrbitProblem as OrbitProblem
-    from wingbeat.orbits.problem.quantities import Quantity as Quantity
+    from wingbeat.orbits.problem.quantity import Quantity as Quantity
     from wingbeat.orbits.status import Status as Status
     from wingbeat.results.curve import Curve as Curve
     from wingbeat.results.curve import load_curve as load_curve
@@ -144,6 +145,7 @@ _HOME = {
     "GustSurvey": "stability.gust_survey",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
+    "MapQuantity": "orbits.problem.map_quantities",
     "MeasuredFlights": "whole_flights.measured",
     "LinearFlight": "stability.linear_flight",
     "LinearOptions": "stability.options",
@@ -157,7 +159,7 @@ _HOME = {
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
     "Prediction": "whole_flights.prediction",
-    "Quantity": "orbits.problem.quantities",
+    "Quantity": "orbits.problem.quantity",
     "Reach": "stability.riccati",
     "Relaxation": "orbits.infeasible.relaxation",
     "Samples": "orbits.many.uncertainty",

@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.flight.shooting import fly_part
-from wingbeat.orbits.nlp.local_search import Candidate, search
+from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, search
 from wingbeat.orbits.nlp.tightening import tightened
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.problem.stable import asks_for_stability, easier, minimises_map
@@ -85,20 +85,21 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
     """Search for stable orbits from the optima without limits of stability; return where the searches end.
 
     No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
-    derivatives of the stroke map takes five times as long. If stability is dear, its limits are tightened step by
-    step too, because a search may otherwise end in another family.
+    derivatives of the stroke map takes five times as long. If stability is dear, its limits are also tightened step
+    by step from the best of these optima, because a search may otherwise end in another family.
     """
+    best, map_is_minimised = optimal(free), minimises_map(programme.problem)
+    if best and not map_is_minimised:
+        already = as_candidate(programme.uncorrected(), programme.scaled(optima_of(best)[0].unknowns), optimal=True)
+        if already.is_optimum:
+            return [already]
     found = search_from_optima(programme, free, threads)
-    best, stable = optimal(free), optimal(found)
-    if minimises_map(programme.problem) or not best:
+    stable = optimal(found)
+    if map_is_minimised or not best:
         return found
     dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)
     if not stable or stable[0].objective > dear:
-        scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
-        starts = [optimum.unknowns for optimum in families(optima_of(free), scale, apart)]
-        found += _side_by_side(
-            lambda start: search(programme.uncorrected(), tightened(programme, start)), starts, threads
-        )
+        found.append(search(programme.uncorrected(), tightened(programme, optima_of(best)[0].unknowns)))
     return found
 
 

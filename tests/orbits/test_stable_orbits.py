@@ -163,4 +163,4 @@ def test_the_objective_is_no_output_of_the_beat_where_only_the_map_is_limited(pr
         programme.physical(programme.scaled(start_point(problem, 0, 0))),
         find_orbit(easier(problem), starts=1).certificate,
     )
-    assert values.shape == (6,)
+    assert values.shape == (5,)

@@ -113,7 +113,7 @@ RatesByState = Float[Any, "4 4 samples"]
 StrokeMatrix = Float[Any, "4 4"]
 Moduli = Float[Any, "4"]
 FourCoefficients = Float[Any, "4"]
-SixExcesses = Float[Any, "6"]
+FiveExcesses = Float[Any, "5"]
 # Distances of the stroke from its limits.
 StrokeSeries = Float[Any, "series samples"]
 StrokeRows = Float[Any, "rows"]

@@ -11,7 +11,7 @@ from wingbeat.nomenclature import NOMENCLATURE, plain
 from wingbeat.orbits.problem.quantity import Quantity
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import FourCoefficients, Moduli, Scalar, SixExcesses, StrokeMatrix
+    from wingbeat._jax.shapes import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix
 
 # What counts as stable where nobody gives a limit: disturbances are halved in 140 beats at the latest.
 STABLE_RADIUS = 0.995
@@ -22,7 +22,8 @@ _STEADY = 0.999
 # A limit of the spectral radius is inside the asked one by this share of it. Where two multipliers meet at the
 # limit, they exceed it by the square root of what the solver's tolerances leave.
 _INSET = 1e-3
-_WEIGHTS = (100.0, 10.0, 1.0, 1.0, 1.0, 1.0)
+# Weights of the conditions of stability; the first is the product of four distances from 1, which are small.
+_WEIGHTS = (100.0, 1.0, 1.0, 1.0, 1.0)
 # How fast the value rises beyond it: steep, so that a search turns back.
 _BEYOND = 1e3
 
@@ -64,19 +65,20 @@ def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
     return jnp.stack(found)
 
 
-def _beyond_circle(over_limit: StrokeMatrix) -> SixExcesses:
-    """Return six numbers that are all at most 0 only if no multiplier is larger than 1.
+def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
+    """Return five numbers that are all at most 0 only if no multiplier is larger than 1.
 
-    With ``z = (1 + s) / (1 - s)``, the unit circle becomes the left half-plane. All roots s lie there if all
-    coefficients of their polynomial and Hurwitz's third determinant are positive (Lienard and Chipart). These are
-    smooth where two multipliers meet. Each multiplier by itself has an infinite derivative there.
+    With ``z = (1 + s) / (1 - s)``, the circle becomes the left half-plane. All roots s of ``b4 s^4 + ... + b0``
+    lie there if b0, b2, b3, b4 and Hurwitz's third determinant are positive (Lienard and Chipart). These are smooth
+    where two multipliers meet. Each multiplier by itself has an infinite derivative there. b1 is then positive too;
+    a row of its own would leave the conditions dependent where two multipliers meet at 1.
     """
     a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
     b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
     b1, b3 = 4.0 + 2.0 * a3 - 2.0 * a1 - 4.0 * a0, 4.0 - 2.0 * a3 + 2.0 * a1 - 4.0 * a0
     b2 = 6.0 - 2.0 * a2 + 6.0 * a0
     determinant = b1 * b2 * b3 - b4 * b1**2 - b0 * b3**2
-    return -jnp.stack([b0, b1, b2, b3, b4, determinant]) * jnp.asarray(_WEIGHTS)
+    return -jnp.stack([b0, b2, b3, b4, determinant]) * jnp.asarray(_WEIGHTS)
 
 
 def _gust_response(stroke_map: StrokeMatrix) -> Scalar:

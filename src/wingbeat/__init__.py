@@ -109,6 +109,9 @@ if TYPE_CHECKING:
     from wingbeat.stability.modes import Mode as Mode
     from wingbeat.stability.options import LinearOptions as LinearOptions
     from wingbeat.stability.riccati import Reach as Reach
+    from wingbeat.stability.segment_feedback import SegmentFeedback as SegmentFeedback
+    from wingbeat.stability.segment_feedback import SegmentFlight as SegmentFlight
+    from wingbeat.stability.segment_feedback import feedback_in_beat as feedback_in_beat
     from wingbeat.studies.study import Study as Study
     from wingbeat.studies.study import plan_study as plan_study
     from wingbeat.vehicle import Air as Air
@@ -164,6 +167,8 @@ _HOME = {
     "Relaxation": "orbits.infeasible.relaxation",
     "Samples": "orbits.many.uncertainty",
     "SearchOptions": "orbits.options.search",
+    "SegmentFeedback": "stability.segment_feedback",
+    "SegmentFlight": "stability.segment_feedback",
     "Sensitivities": "results.sensitivities",
     "SensitivityOptions": "orbits.options.continuation",
     "SolverOptions": "orbits.options.solver",
@@ -192,6 +197,7 @@ _HOME = {
     "equations_of_motion": "mechanics.equations_of_motion",
     "export": "exports.save",
     "feedback": "stability.feedback",
+    "feedback_in_beat": "stability.segment_feedback",
     "filmed_problem": "orbits.problem.filmed",
     "filmed_species": "orbits.problem.filmed",
     "flight_loads": "mechanics.flight_loads",

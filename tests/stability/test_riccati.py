@@ -13,6 +13,7 @@ from wingbeat.stability.riccati import (
     closed_loop,
     delayed,
     linear_quadratic,
+    periodic_linear_quadratic,
     reaches,
     sufficient,
 )
@@ -108,3 +109,28 @@ def test_a_pair_of_complex_multipliers_is_one_mode():
     (mode,) = reaches(turn, np.array([[1.0], [0.0]]), ("a",), {complex(*turn[:, 0]): "oscillation"})
     assert mode.multiplier == pytest.approx(complex(turn[0, 0], turn[1, 0]))
     assert mode.effects["a"] == pytest.approx(math.sqrt(0.5))
+
+
+def test_periodic_gains_of_equal_maps_are_those_of_one():
+    A, B = pair([1.1, 0.2, 0, -0.3, 0.8, 0.5, 0, 0.1, 0.9, 0.1, 0, 0, 0.2, 0.3, 0.1])
+    gains, _ = linear_quadratic(A, B, np.eye(3), np.eye(2))
+    found = periodic_linear_quadratic(np.stack([A] * 3), np.stack([B] * 3), np.eye(3), np.eye(2))
+    assert np.allclose(found, gains, rtol=0, atol=1e-9)
+
+
+def test_other_periodic_gains_cost_more():
+    random = np.random.default_rng(3)
+    A, B = random.normal(size=(4, 3, 3)), random.normal(size=(4, 3, 2))
+    gains = periodic_linear_quadratic(A, B, np.eye(3), np.eye(2))
+
+    def whole(by):
+        total, state = 0.0, np.array([1.0, -0.4, 0.2])
+        for beat in range(400):
+            taken = -by[beat % 4] @ state
+            total += state @ state + taken @ taken
+            state = A[beat % 4] @ state + B[beat % 4] @ taken
+        return total
+
+    least = whole(gains)
+    for _ in range(3):
+        assert whole(gains + 0.01 * random.normal(size=gains.shape)) > least

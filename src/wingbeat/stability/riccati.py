@@ -10,6 +10,8 @@ from wingbeat.errors import FaultList
 
 # Modes whose modulus is within this of 1 neither grow nor decay.
 _NEUTRAL = 1e-6
+# Periods after which the cost to go repeats itself; some dozens are enough.
+_MOST_PERIODS = 10_000
 
 
 class Reach(NamedTuple):
@@ -114,6 +116,30 @@ def linear_quadratic(
 
     cost = solve_discrete_are(A, B, state_cost, input_cost)
     return np.linalg.solve(input_cost + B.T @ cost @ B, B.T @ cost @ A), cost
+
+
+def periodic_linear_quadratic(
+    A: np.ndarray, B: np.ndarray, state_cost: np.ndarray, input_cost: np.ndarray
+) -> np.ndarray:
+    """Return gains of each of M maps that follow each other periodically, shape (M, m, n).
+
+    The Riccati equation is stepped back through the maps until the cost to go repeats itself.
+
+    Parameters
+    ----------
+    A, B : of the maps, shapes (M, n, n) and (M, n, m).
+    state_cost, input_cost : of each map, as in `linear_quadratic`.
+    """
+    cost, gains = state_cost.copy(), np.zeros((len(A), B.shape[2], A.shape[1]))
+    for _ in range(_MOST_PERIODS):
+        before = cost
+        for j in range(len(A) - 1, -1, -1):
+            gains[j] = np.linalg.solve(input_cost + B[j].T @ cost @ B[j], B[j].T @ cost @ A[j])
+            cost = state_cost + A[j].T @ cost @ (A[j] - B[j] @ gains[j])
+            cost = 0.5 * (cost + cost.T)
+        if np.abs(cost - before).max() <= 1e-12 * np.abs(cost).max():
+            break
+    return gains
 
 
 def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:

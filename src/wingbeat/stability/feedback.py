@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from wingbeat._version import __version__
-from wingbeat.errors import FaultList, suggest
+from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.command_limits import command_limits
+from wingbeat.stability.feedback_checks import MOST_DELAY, check_late, noise_of, weights_of
 from wingbeat.stability.feedback_controller import FeedbackController
 from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
 from wingbeat.stability.linear_flight import LinearFlight, linearise
@@ -27,9 +28,6 @@ from wingbeat.stability.riccati import (
     sufficient,
 )
 from wingbeat.stability.smooth_commands import Smoother, changed_wingbeat, smoother
-
-# Longest delay [beats].
-_MOST_DELAY = 4
 
 
 @dataclass(frozen=True)
@@ -86,7 +84,7 @@ class Feedback:
         ------
         InvalidInputError : not a whole number from 0 to 4.
         """
-        _check_late(late)
+        check_late(late)
         held = closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)
         found = np.linalg.eigvals(held)
         return found[np.argsort(-np.abs(found), kind="stable")]
@@ -131,7 +129,7 @@ class Feedback:
         >>> bool(abs(flown.states[-1, 2] - start.body_pitch) < 0.02)
         True
         """
-        _check_late(late)
+        check_late(late)
         return FeedbackController(self, late, noise_of(noise, self.flight.state, seed), seed)
 
     def record(self) -> dict[str, Any]:
@@ -212,13 +210,13 @@ def feedback(
     """
     faults = FaultList()
     fix = "commands act in the same beat (0), in the next (1) and so on"
-    faults.whole("delay", delay, 0, _MOST_DELAY, fix)
+    faults.whole("delay", delay, 0, MOST_DELAY, fix)
     faults.raise_if_any()
     flight = linearise(orbit, inputs, height=True, options=options.linear)
     names = flight.inputs
     if not names:
         faults.add("inputs", inputs, "leaves no input", "name a parameter of the wingbeat such as pitch_mean")
-    factors = _weights(faults, weights, (*flight.state, *names))
+    factors = weights_of(faults, weights, (*flight.state, *names))
     lower, upper = command_limits(faults, orbit.wingbeat, names, limits, options)
     faults.raise_if_any()
     scales = np.array([options.scale(name) for name in flight.state])
@@ -233,43 +231,6 @@ def feedback(
     gains, cost = linear_quadratic(*delayed(A, B, delay), state_cost, np.diag(factors[order:] / units**2))
     alone = sufficient(modes, names, options.least_effect)
     return Feedback(flight, delay, gains, cost, lower, upper, modes, alone)
-
-
-def noise_of(noise: Mapping[str, float] | None, state: tuple[str, ...], seed: int) -> np.ndarray:
-    """Return the standard deviations of what is measured of the state, in its order, after checks."""
-    faults = FaultList()
-    faults.whole("seed", seed, 0, 2**31)
-    for name, value in _named(faults, "noise", noise, state).items():
-        faults.number(f"noise.{name}", value, at_least=0.0, fix="give a standard deviation")
-    faults.raise_if_any()
-    return np.array([(noise or {}).get(name, 0.0) for name in state])
-
-
-def _weights(faults: FaultList, weights: Mapping[str, float] | None, known: tuple[str, ...]) -> np.ndarray:
-    given = _named(faults, "weights", weights, known)
-    for name, value in given.items():
-        faults.number(f"weights.{name}", value, above=0.0, fix="1 is the default")
-    return np.array([given.get(name, 1.0) for name in known], dtype=float) if not faults.faults else np.ones(0)
-
-
-def _named(faults: FaultList, where: str, given: Any, known: tuple[str, ...]) -> dict[str, Any]:
-    """Return numbers by name, and note names that are unknown."""
-    if given is None:
-        return {}
-    if not isinstance(given, Mapping):
-        faults.add(where, given, "must be numbers by name", f"for example {{'{known[-1]}': 0.1}}")
-        return {}
-    for name in given:
-        if name not in known:
-            fix = suggest(str(name), known, most=1)
-            faults.add(where, name, "names neither a state nor an input of this feedback", fix)
-    return {name: value for name, value in given.items() if name in known}
-
-
-def _check_late(late: int) -> None:
-    faults = FaultList()
-    faults.whole("late", late, 0, _MOST_DELAY)
-    faults.raise_if_any()
 
 
 def _deviation_map(flight: LinearFlight) -> tuple[np.ndarray, np.ndarray]:

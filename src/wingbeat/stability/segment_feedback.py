@@ -1,8 +1,8 @@
 """Feedback several times a beat: `feedback_in_beat`.
 
 A beat is cut into M equal segments of the stroke. In each, flap and pitch are raised by a bump ``b sin^2(M pi s)``,
-with s the phase of the stroke. It begins and ends without a jump of position or speed. Within its segment, a bump is
-a change of the mean by b/2 and of the cosine of order M by -b/2, so it needs no law of its own.
+with s the phase of the stroke. It begins and ends without a jump of position or speed. Within its segment, a bump
+is a change of the mean by b/2 and of the cosine of order M by -b/2, so it needs no law of its own.
 """
 
 from __future__ import annotations

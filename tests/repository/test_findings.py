@@ -231,8 +231,7 @@ def under_one_choice(sets, holds):
     of_peaks = PAPER_PEAK_POWER["dickinson"] / PAPER_PEAK_POWER["su-fan"]
     return [
         f"These three claims concern the bat's peak power at {SAMPLE_SPEED:g} m/s",
-        "We accept a ratio of Dickinson's peak to the plate's from 3 to 5; the paper's own peaks have a ratio of "
-        f"{of_peaks:g}",
+        f"of Dickinson's peak to the plate's from 3 to 5; the paper's own peaks have a ratio of {of_peaks:g}",
         "We accept peaks within 25 %",
         f'"Four times the power": in {of["four-times"]} % of sets ({powers["four-times"]["mirrored"]} % if the '
         f"plate's coefficients are mirrored, {four.min()} to {four.max()} % otherwise)",
@@ -334,15 +333,13 @@ def counted():
 
 @pytest.mark.parametrize("name", [count.__name__ for count in COUNTS])
 def test_the_page_says_what_the_sets_do(counted, name):
-    page = read_page()
-    assert [phrase for phrase in counted[name] if phrase not in page] == []
+    assert [phrase for phrase in counted[name] if phrase not in read_page()] == []
 
 
 def test_no_number_of_the_page_is_left_uncounted(counted):
     phrases = [phrase for part in counted.values() for phrase in part]
     page = read_page()
     assert uncounted(page, phrases) == []
-    # A sentence more, in digits or in words, is seen.
     assert uncounted(f"{page} It is so in 42 % of them.", phrases)
     assert uncounted(f"{page} It is so in three of them.", phrases)
 

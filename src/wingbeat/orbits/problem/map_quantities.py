@@ -34,12 +34,17 @@ class MapQuantity(Quantity):
 
     Parameters
     ----------
-    name, unit, scale : as of a `Quantity`.
+    name, unit, parameter, in_hover, needs : as of a `Quantity`.
+    scale : a difference that matters, in `unit`.
     of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
         (4, 4), in JAX-compatible Python; returns a number, or several that count by the largest.
     excess : for a quantity that is proportional to the stroke map: function of the stroke map over an upper limit,
         which returns numbers that are all at most 0 if the quantity keeps to the limit. In a search, it replaces
         `of` where that has kinks.
+
+    Raises
+    ------
+    InvalidInputError : as of a `Quantity`.
 
     >>> trace = MapQuantity("trace", lambda stroke_map: stroke_map.trace())
     >>> trace.name

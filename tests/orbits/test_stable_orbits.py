@@ -164,3 +164,24 @@ def test_the_objective_is_no_output_of_the_beat_where_only_the_map_is_limited(pr
         find_orbit(easier(problem), starts=1).certificate,
     )
     assert values.shape == (5,)
+
+
+def test_a_saved_stable_orbit_keeps_its_limit(stable, tmp_path):
+    wb.Orbit.of(stable, 6).save(tmp_path / "stable.nc")
+    loaded = wb.load_orbit(tmp_path / "stable.nc")
+    assert [str(limit) for limit in loaded.problem.subject_to] == ["spectral_radius<=0.995"]
+    assert loaded.record()["price_of_stability"] == pytest.approx(stable.price_of_stability)
+
+
+def test_the_price_of_a_tighter_limit_is_that_of_a_new_search(problem):
+    orbits = [
+        wb.solve_orbit(
+            dataclasses.replace(problem.at_speed(16.0), subject_to=[f"spectral_radius<={limit}"]), starts=2
+        )
+        for limit in (0.995, 0.99)
+    ]
+    found = wb.sensitivities(orbits[0], quantities=["spectral_radius"])
+    price = next(p for p in found.prices if "spectral_radius" in p.parameter.path)
+    values = [orbit.record()["objective_value"] for orbit in orbits]
+    assert price.objective == pytest.approx((values[1] - values[0]) / (0.99 - 0.995), rel=0.1)
+    assert price.quantities["spectral_radius"] == pytest.approx(0.999, abs=0.01)  # the limit is 0.1 % inside

@@ -35,7 +35,7 @@ class MapQuantity(Quantity):
     Parameters
     ----------
     name, unit, parameter, in_hover, needs : as of a `Quantity`.
-    scale : a difference that matters, in `unit`.
+    scale : a difference that matters, so that the optimiser sees numbers near one.
     of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
         (4, 4), in JAX-compatible Python; returns a number, or several that count by the largest.
     excess : for a quantity that is proportional to the stroke map: function of the stroke map over an upper limit,

@@ -54,7 +54,7 @@ class ForkError(WingbeatError, RuntimeError):
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or two have died on the same work; the message says which."""
+    """A worker process cannot be started, or two of them died on the same work; the message says which."""
 
 
 def install_extra(extra: str) -> str:

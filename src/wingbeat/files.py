@@ -14,7 +14,8 @@ from typing import Any
 from wingbeat.errors import FileError
 from wingbeat.workers.leftovers import Leftover
 
-# tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills a machine.
+# tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills the memory of a
+# machine.
 MAX_LINE = 4096
 # Characters of a path in a message.
 _SHOWN = 300

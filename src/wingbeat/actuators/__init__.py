@@ -12,7 +12,7 @@ __all__ = ["Drive", "Motor", "Muscle", "Springs"]
 
 
 class Drive(NamedTuple):
-    """What drives the flap hinges of a vehicle; None for a part that it lacks.
+    """What drives the flap hinges of a vehicle; a part that the vehicle lacks is None.
 
     Attributes
     ----------

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 @register_record
 @dataclass(frozen=True)
 class Motor:
-    """A motor with brushes, or a brushless one with its controller, that flaps both wings; it does not pitch them.
+    """A motor that flaps both wings but does not pitch them: with brushes, or brushless with its controller.
 
     For two motors, one for each wing, give the same torque constant, half of the resistance, twice the rotor
     inertia and twice the no-load current. Torques and currents are then sums of both motors.
 
     Parameters
     ----------
-    torque_constant : torque per current; in SI units also voltage per speed [N m/A].
+    torque_constant : torque per current [N m/A]; in SI units, this number is also the voltage per speed.
     resistance : of the winding [ohm].
-    gear_ratio : motor speed over flap rate, or over the speed of the crank.
+    gear_ratio : motor speed divided by the flap rate or, with a crank, by the speed of the crank.
     rotor_inertia : of the rotor, and of all that turns with it [kg m2].
     no_load_current : current that friction takes at any speed [A].
     gear_efficiency : share of the power that the gear transmits, in either direction.
@@ -65,12 +65,12 @@ class Motor:
 
 
 class MotorState(NamedTuple):
-    """Speed, torque and electrical quantities of a motor along one beat, each of shape (K,).
+    """Speed, torque and electrical quantities of a motor at the K samples of one beat, as arrays of shape (K,).
 
     Attributes
     ----------
     speed : of the motor [rad/s].
-    torque : that turns gear and rotor, without friction [N m].
+    torque : of the motor on gear and rotor; friction is not included [N m].
     current : [A].
     voltage : at its terminals [V].
     power : electrical power, negative where the motor returns power [W].
@@ -84,7 +84,7 @@ class MotorState(NamedTuple):
 
 
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
-    """Return the state of the motor while it gives the flap hinges a torque at a flap rate.
+    """Return the state of a motor that exerts a given torque on the flap hinges at a given flap rate.
 
     Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``,
     ``v = R i + kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings,

@@ -1,7 +1,7 @@
-"""Flight muscle: the force it can give at a speed of shortening, and what that force costs.
+"""Flight muscle: the force that it can exert at a given speed, and the metabolic power of that force.
 
-A muscle's fibres shorten in proportion to the flap angle. Its force falls with its speed of shortening, and a force
-costs metabolic power even if it does no work. So a fast beat of small amplitude has a cost too.
+A muscle's fibres shorten in proportion to the flap angle. The largest force of a muscle falls with its speed of
+shortening. A force costs metabolic power even if it does no work. So a fast beat of small amplitude has a cost too.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ if TYPE_CHECKING:
 
 # Density of muscle [kg/m3]: Mendez and Keys 1960, Metabolism 9:184.
 MUSCLE_DENSITY = 1060.0
-# Largest eccentric force, over isometric force, and the steepness of its rise: Alexander 1997, doi
+# Largest eccentric force divided by isometric force, and the steepness of its rise: Alexander 1997, doi
 # 10.1006/jtbi.1996.0262, as implemented by others.
 _LARGEST, _STEEPNESS = 1.8, 7.56
-# Beyond this share of the largest speed the isometric force that a torque needs continues along its tangent.
+# Above this share of the largest speed, the curve of the isometric force that a torque needs continues as its
+# tangent.
 _LAST_SHARE = 0.95
 
 
@@ -34,11 +35,11 @@ class Muscle:
     Parameters
     ----------
     mass : of the depressors, both sides [kg].
-    elevator_share : mass of the elevators over that of the depressors.
+    elevator_share : mass of the elevators divided by that of the depressors.
     strain_per_angle : fibre strain per flap angle [1/rad].
     max_strain_rate : largest speed of shortening, in lengths per second [1/s].
     isometric_stress : stress of fully active fibres that keep their length [Pa].
-    curvature : k of Hill's relation, a ratio; smaller means that force falls off faster with speed.
+    curvature : k of Hill's relation [-]; the smaller k is, the faster the force falls with speed.
 
     Raises
     ------
@@ -86,7 +87,7 @@ class Muscle:
 
 
 def force_at(shortening: Series, curvature: Any) -> Series:
-    """Return the force of fully active fibres over their isometric force.
+    """Return the force of fully active fibres divided by their isometric force.
 
     Equations: ``(1 - q) / (1 + q/k)`` if the muscle shortens (Hill 1938), ``1.8 - 0.8 (1 + q) / (1 - 7.56 q/k)`` if
     it lengthens (Alexander 1997, J Theor Biol 184:253, doi 10.1006/jtbi.1996.0262). The equations were taken from
@@ -94,7 +95,8 @@ def force_at(shortening: Series, curvature: Any) -> Series:
 
     Parameters
     ----------
-    shortening : q, speed of shortening over its largest value, from -1 to 1; negative if the muscle lengthens.
+    shortening : q, speed of shortening divided by its largest value, from -1 to 1; negative if the muscle
+        lengthens.
     curvature : k.
 
     >>> [round(float(force_at(jnp.array(q), 0.25)), 3) for q in (-1.0, 0.0, 0.2, 1.0)]
@@ -107,16 +109,16 @@ def force_at(shortening: Series, curvature: Any) -> Series:
 
 
 def metabolic_rate(shortening: Series) -> Series:
-    """Return the metabolic power of fully active fibres over isometric force times largest speed.
+    """Return the metabolic power of fully active fibres divided by (isometric force times largest speed).
 
     Equation: ``(0.054 + 0.506 q + 2.46 q^2) / (1 - 1.13 q + 12.8 q^2 - 1.64 q^3)``, q from -1 to 1.
 
-    Source: Minetti and Alexander 1997, J Theor Biol 186:467, doi 10.1006/jtbi.1997.0407, as quoted by others; the
-    paper itself was not read.
+    Source: Minetti and Alexander 1997, J Theor Biol 186:467, doi 10.1006/jtbi.1997.0407, as other papers quote it;
+    we did not read the paper itself.
 
     Parameters
     ----------
-    shortening : q, speed of shortening over its largest value.
+    shortening : q, speed of shortening divided by its largest value.
 
     >>> round(float(metabolic_rate(jnp.array(0.0))), 3), round(float(metabolic_rate(jnp.array(0.2))), 3)
     (0.054, 0.199)
@@ -126,10 +128,10 @@ def metabolic_rate(shortening: Series) -> Series:
 
 
 def isometric_share(shortening: Series, curvature: Any) -> Series:
-    """Return the isometric force of the fibres that must be active, over the force that they exert.
+    """Return the isometric force of the fibres that must be active, divided by the force that they exert.
 
-    Up to 0.95 of the largest speed it is one over `force_at`. Beyond, it continues along its tangent, so that the
-    solver can return from speeds that no muscle reaches.
+    Up to 0.95 of the largest speed, the result is ``1 / force_at``. At higher speeds it continues as a straight
+    line, the tangent at 0.95, so that the solver can return from speeds that no muscle reaches.
 
     Parameters
     ----------
@@ -141,11 +143,12 @@ def isometric_share(shortening: Series, curvature: Any) -> Series:
 
 
 def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
-    """Return the metabolic power of elevators and of depressors [W]; only the positive part counts.
+    """Return the metabolic powers of elevators and depressors [W]; only positive values count.
 
     Equation: ``T omega_max Phi(q)``, with T the isometric torque of the active fibres and omega_max the flap rate
-    at which they exert no torque. The elevators exert upward torques, and the depressors downward ones. The muscle
-    that does not exert the torque rests; its value is negative. The power of the rest of the body is not included.
+    at which they exert no torque. The elevators exert upward torques, and the depressors downward ones. At each
+    instant, the muscle that does not exert the torque rests, and its value is negative. The power of the rest of
+    the body is not included.
 
     Parameters
     ----------
@@ -163,9 +166,9 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
 
 
 def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
-    """Return the shares of their fibres that elevators and depressors must use; above 1, a muscle is too weak.
+    """Return the share of active fibres that elevators need, and that of depressors; above 1, a muscle is too weak.
 
-    The share of the muscle that rests is negative.
+    At each instant one muscle rests; its share is negative.
 
     Parameters
     ----------
@@ -178,7 +181,7 @@ def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Serie
 
 
 def best_efficiency(curvature: Any) -> Any:
-    """Return the largest share of its metabolic power that a muscle gives as work, over all speeds.
+    """Return a muscle's largest efficiency, mechanical power divided by metabolic power, at any speed.
 
     Parameters
     ----------

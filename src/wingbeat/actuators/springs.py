@@ -24,7 +24,7 @@ class Springs:
     Parameters
     ----------
     stiffness : of the springs beside the actuators, between body and arm [N m/rad].
-    rest_angle : flap angle at which they exert no torque [rad].
+    rest_angle : flap angle at which these springs exert no torque [rad].
     series_compliance : one over the stiffness of the springs between actuator and wing [rad/(N m)]; 0 is rigid.
 
     Raises
@@ -50,7 +50,7 @@ class Springs:
 
 
 class Driven(NamedTuple):
-    """What the actuator of both flap hinges must do, each of shape (K,).
+    """Torque and motion that the actuators of both flap hinges must provide, as arrays of shape (K,).
 
     Attributes
     ----------
@@ -84,14 +84,15 @@ def spring_torque(stiffness: Any, flap: Series, rest_angle: Any) -> Series:
 
     Parameters
     ----------
-    stiffness, rest_angle : k of both sides [N m/rad], and the flap angle at which they exert no torque [rad].
+    stiffness, rest_angle : k of both sides [N m/rad], and the flap angle at which the springs exert no torque
+        [rad].
     flap : [rad], shape (K,).
     """
     return -stiffness * (flap - rest_angle)
 
 
 def actuated(springs: Springs, flap: Series, rate: Series, torque: Series, period: Any) -> Driven:
-    """Return what the actuators of the flap hinges must do with these springs.
+    """Return the torque and motion that the actuators of the flap hinges must provide with these springs.
 
     Equations: the actuators give the torque that the springs beside them do not give. All of this torque passes
     through the springs in series, so that the actuators' angle is ahead of the flap angle by

@@ -1,4 +1,4 @@
-"""Coefficient models of animals' wings; each number has an interval and a basis, a measurement or a guess.
+"""Coefficient models of animals' wings; each number has an interval and a basis, which is a measurement or a guess.
 
 ``validation/animal_wings.py`` computes the numbers of `Feathered` from measurements that are not part of this
 project. It writes ``docs/animal_wings.md``, which shows how well the model agrees with measured wings.
@@ -175,8 +175,8 @@ def FeatheredRevolving(extension: str = "mirrored", blend_width_deg: float = 1.0
     are taken from `Feathered`; the rest is a guess. The coefficients of a revolving wing already contain its
     induced flow, so the model states no aspect ratio.
 
-    Usherwood 2009 (PMC3380271) and Crandell and Tobalske 2011 (J. Exp. Biol. 214:1867) for dried pigeon wings;
-    Usherwood and Ellington 2002 for the direction of the force on a revolving plate.
+    Sources for dried pigeon wings: Usherwood 2009 (PMC3380271), and Crandell and Tobalske 2011 (J. Exp. Biol.
+    214:1867). Source for the direction of the force on a revolving plate: Usherwood and Ellington 2002.
 
     Parameters
     ----------
@@ -208,10 +208,10 @@ def FeatheredFlapping(extension: str = "mirrored", blend_width_deg: float = 1.0)
 
     A wing that flaps or revolves keeps its lift to larger angles of attack than one that glides. This model has the
     zero lift, slope and drag of `Feathered` up to its onset of drag, and the largest C_L of revolving pigeon wings,
-    1.64 at 43 degrees. It is meant for slow and fast flight. Two things are guesses: that the two parts join as
-    they do here, and that a wing which does not turn stalls as late. In a glide, use `Feathered`. Coefficients of
-    revolving wings contain induced flow, as those of a finite wing do; the model states the aspect ratio of
-    `Feathered`, 6.
+    1.64 at 43 degrees. It is meant for slow and fast flight. Two things are guesses: how the two parts join, and
+    that a wing which flaps but does not revolve stalls as late as one which revolves. In a glide, use `Feathered`.
+    Coefficients of revolving wings contain induced flow, as those of a finite wing do; the model states the aspect
+    ratio of `Feathered`, 6.
 
     The sources are those of `Feathered` and `FeatheredRevolving`: KleinHeerenbrink et al. 2016, doi
     10.1242/jeb.132480; Usherwood 2009 (PMC3380271).
@@ -251,8 +251,8 @@ def Membrane(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Cambe
     camber of 12 species, 6.5 to 9 % of the chord. The camber gives the angle of zero lift. `WING_ESTIMATES` marks
     every other number as a guess, with a wide interval. The model ignores that a compliant wing stalls later.
 
-    Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J. Aircraft
-    37:825, read off a figure.
+    Sources: Bullen and McKenzie 2007, Aust. J. Zool. 55:237, doi 10.1071/ZO07010; Pelletier and Mueller 2000, J.
+    Aircraft 37:825 (read off a figure).
 
     Parameters
     ----------

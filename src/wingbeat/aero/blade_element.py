@@ -1,8 +1,9 @@
 """Blade elements: from the velocity of each strip to its lift and drag.
 
-Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of
-the strip, ``dD`` against it. Angle of attack and directions are those in the plane of chord and normal. V is the
-speed in that plane, or, as Su et al. word it, the whole airspeed of the segment, including its part along the span.
+Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of the
+strip, ``dD`` against it. Angle of attack and directions are measured in the plane of chord and normal. V is either
+the speed in that plane or the whole airspeed of the segment, including its part along the span; the words of Su et
+al. describe the latter.
 """
 
 from __future__ import annotations
@@ -68,10 +69,10 @@ class BladeElement:
         of the arm. "none" uses `coefficients` from root to tip.
     hand_from : span fraction where the hand begins. A strip whose centre lies at or inside this fraction belongs to
         the arm.
-    upstroke_factor : factor from 0 to 1 on lift and drag of the coefficients where air meets the wing from above.
-        It is below 1 if feathers separate and let air through. The wake of a pigeon in slow flight shows vortices
-        of the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81), as with a factor
-        near 0. No source measured a value.
+    upstroke_factor : factor from 0 to 1 that multiplies lift and drag of the coefficients where air meets the wing
+        from above. It is below 1 if feathers separate and let air through. In slow flight, the wake of a pigeon
+        contains vortices of the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81),
+        as a factor near 0 predicts. No source measured a value.
     share : factor from 0 to 1 by which the unsteady terms and the induced factor are multiplied. Real air has a
         share of 1; orbits at smaller shares show what the terms do (`trace_terms`).
 
@@ -168,7 +169,7 @@ class BladeElement:
 
 
 def blade_element_of(aero: Any) -> BladeElement:
-    """Return the air loads for any value that ``aero`` accepts: a `BladeElement`, or what `coefficients_of` takes.
+    """Return the model of the air loads for ``aero``: a `BladeElement`, or anything that `coefficients_of` takes.
 
     >>> blade_element_of("dickinson").strips
     10
@@ -177,7 +178,7 @@ def blade_element_of(aero: Any) -> BladeElement:
 
 
 class StripForces(NamedTuple):
-    """Air load of each strip of one wing: the forces [N], and the speed and angle behind them, one array each.
+    """Air load of each strip of one wing: the forces [N], and the speed and angle that determine them, as arrays.
 
     `chordwise` and `normal` are the force components along the two axes in which the speeds were given. These axes
     are those of the pitched or of the unpitched chord. `speed` is the airspeed V that determines the loads. `lift`
@@ -233,7 +234,7 @@ def with_turning(
     chord_speed: PerStrip,
     normal_speed: PerStrip,
 ) -> StripForces:
-    """Return the loads plus those of a turning chord: the rotational force and the couple that resists it.
+    """Return the loads with those of a turning chord added: rotational force, and couple that resists the turning.
 
     Parameters
     ----------

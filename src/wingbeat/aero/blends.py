@@ -43,13 +43,13 @@ def jet_of(function: Function, at: Scalar) -> Jet:
 
 
 def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return coefficients, in powers of the squared distance, of the even polynomial that has `jet` at `width`."""
+    """Return the coefficients of the even polynomial that has `jet` at `width`, by powers of distance squared."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the same for the odd polynomial that has `jet` at `width`, divided by the distance."""
+    """Return the same for the odd polynomial that has `jet` at `width`, after division by the distance."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
         (15 * f - 7 * s + k) / (8 * width),

@@ -1,6 +1,6 @@
-"""Coefficients of a cambered wing whose two sides differ: attached flow between two stalls, then a plate.
+"""Coefficients of a cambered wing whose two sides differ: attached flow between two stalls, a plate beyond.
 
-With ``ramp(x, w) = (x + sqrt(x^2 + w^2)) / 2``, 0 far below and x far above 0, and ``u = slope (a - a_0)``:
+Here ``u = slope (a - a_0)``, and ``ramp(x, w) = (x + sqrt(x^2 + w^2)) / 2`` is 0 far below 0 and x far above 0:
 
 ``C_L = lowest + ramp(u - lowest, w) - ramp(u - highest, w)``
 
@@ -224,8 +224,8 @@ def _joined(curves: CamberedCurves, plate: Kernel, joins: tuple[Any, ...]) -> Ca
 class CamberedCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a cambered wing at every angle; beyond stall, those of a plate.
 
-    The two sides of the wing differ, so no extension is needed: `extension` is "signed". There is no centre of
-    pressure.
+    The formulas cover both sides of the wing, so no extension is needed: `extension` is "signed". There is no
+    centre of pressure.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ def load_coefficients(
 def load_hand(
     name_or_path: str, extension: str = "mirrored", blend_width_deg: float = 1.0
 ) -> CoefficientModel | str:
-    """Return the coefficient model of a hand as `load_coefficients` does; "none" stays as it is.
+    """Return the coefficient model of a hand, from `load_coefficients`; if "none" is given, return "none".
 
     Parameters
     ----------

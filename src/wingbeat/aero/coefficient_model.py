@@ -64,7 +64,7 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
 
 
 def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
-    """Return a compiled function of `numbers` and angles at angles of any shape, as NumPy arrays.
+    """Return the values of a compiled function of `numbers` and angles, as NumPy arrays; angles have any shape.
 
     A scalar angle gives scalars, as in NumPy.
     """

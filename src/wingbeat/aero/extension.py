@@ -149,7 +149,8 @@ class ExtendedKernel(NamedTuple):
         acute = jnp.where(folded < 0, -1.0, 1.0) * folded
         short = acute - RIGHT_ANGLE
         near_zero = acute < self.width
-        # a^0.6 has no derivative at 0, and where() would let its NaN through even if not chosen.
+        # a^0.6 has no derivative at 0, and where() would let that NaN through even where it selects the other
+        # branch.
         centre = self.pieces.centre(jnp.where(near_zero, self.width, acute))
         at_right = 0.5 + short * horner(self.centre.at_right, short * short)
         centre = jnp.where(-short < self.width, at_right, centre)

@@ -54,7 +54,7 @@ class PowerLaw(NamedTuple):
         return self.constant + self.power_amplitude * alpha**self.exponent + decay
 
 
-# Stands in for a centre of pressure that a model lacks: the same pytree, and no number to mistake for one.
+# Replaces the centre of pressure in a model without one: the pytree stays the same, and every value is NaN.
 _NO_CENTRE = PowerLaw(math.nan, 0.0, 1.0, 0.0, 0.0)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 _WHERE = "aero.coefficients"
-# A function is looked at every half degree, with 0, +-90 and +-180 degrees among them.
+# A function is checked every half degree, also at 0, +-90 and +-180 degrees.
 _SAMPLE_ANGLES = np.radians(np.arange(-180.0, 180.5, 0.5))
 _TRACEABLE = "write it with jax.numpy in place of numpy or math, and jnp.where in place of if"
 _PAIR = "return (C_L, C_D), each a number for one angle alpha [rad]"
@@ -38,7 +38,7 @@ class Program:
         self.function = function
         self.name = name
         self._pair = jaxpr_as_fun(traced)
-        # The derivatives are part of what it computes: a function may come with rules of its own for them.
+        # The digest includes the derivatives, because a function may have its own rules for them.
         differentiated = jax.jit(lambda a: (self(a), jax.jacfwd(self)(a), jax.jacfwd(jax.jacfwd(self))(a)))
         lowered = differentiated.trace(jax.ShapeDtypeStruct((), jnp.float64)).lower(lowering_platforms=("cpu",))
         self.digest = hashlib.sha256(lowered.as_text().encode()).hexdigest()

@@ -1,9 +1,9 @@
 """Induced flow by momentum theory: a uniform stream of air through the wings' disc, which carries the weight.
 
 Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
-``2 rho A v |V + v n| = k T``, with T the mean force of the wings, n its direction, V the velocity of the animal, A
-the disc over the span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 in Pennycuick 2008,
-Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
+``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the
+animal, A the area of the disc that the wings span, v the induced speed and k the induced factor (1 for an ideal
+disc, 1.2 in Pennycuick 2008, Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from wingbeat._jax.shapes import Pair, Scalar
 
 INFLOWS = ("none", "momentum")
-# Newton's steps; outside the vortex ring 12 leave less than 1e-12 m/s to gain.
+# Number of Newton's steps. Outside the vortex ring, 12 steps come within 1e-12 m/s of the solution.
 _STEPS = 16
 # Avoids a division by 0 in the direction of a zero force, and in the slope at rest without induced flow.
 _TINY = 1e-30

@@ -1,6 +1,7 @@
-"""Coefficients that differ between arm and hand, and loads that a wing sheds on the upstroke.
+"""Coefficients that differ between arm and hand, and smaller loads of a wing on the upstroke.
 
-Both kernels are made of the kernels of coefficient models. The first axis of every array of angles is the strips.
+Both kernels are made of the kernels of coefficient models. The first axis of every array of angles counts the
+strips.
 """
 
 from __future__ import annotations

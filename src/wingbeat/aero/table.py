@@ -75,9 +75,9 @@ class TableCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a table.
 
     A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended like
-    a formula; rows beyond 90 only shape the spline. A table with rows down to -90 degrees or below needs the
-    extension `signed`. A table from -180 to 180 is periodic and used without extension; its `extension` is
-    `signed`.
+    a formula; rows beyond 90 degrees serve only to shape the spline. A table with rows down to -90 degrees or below
+    needs the extension `signed`. A table from -180 to 180 is periodic and used without extension; its `extension`
+    is `signed`.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ UNSTEADY = ("none", "thin-aerofoil")
 
 
 def rotation_lift(density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip) -> PerStrip:
-    """Return the force of a turning strip across its velocity, over its speed [N s/m]: ``rho pi/2 c^2 omega dr``.
+    """Return the force normal to a turning strip's velocity, per speed [N s/m]: ``rho pi/2 c^2 omega dr``.
 
     Parameters
     ----------

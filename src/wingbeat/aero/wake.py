@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 SHARES, RATES = (0.165, 0.335), (0.0455, 0.3)
 # Angles at which the largest lift is looked for, from 0 to 90 degrees.
 _ANGLES = 901
-# Semi-chords, times a rate, below which the weights of a step are taken from their series.
+# Below this product of semi-chords and rate b_i, the weights of a step come from their series.
 _SHORT = 1e-3
 
 
@@ -54,10 +54,10 @@ def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
 def shed_downwash(kernel: Kernel, chord: Array, chord_speed: Array, normal_speed: Array, turning: Array) -> Array:
     """Return the downwash that determines a strip's circulation [m/s], of the arrays' shape.
 
-    When it changes, the strip sheds circulation. Below the angle a_s of largest lift, it is the downwash at three
-    quarters of the chord, ``-v_n + c omega/2``. Past a_s, circulation follows lift and not the angle: there ``V
-    sin(a_s) C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. The replacement vanishes, like the lift, for a plate broadside
-    to the air.
+    When this downwash changes, the strip sheds circulation. Below the angle a_s of largest lift, it is the downwash
+    at three quarters of the chord, ``-v_n + c omega/2``. Past a_s, circulation follows lift and not the angle:
+    there ``V sin(a_s) C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. The replacement vanishes, like the lift, for a plate
+    broadside to the air.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
 
 
 def _step_weights(way: Array) -> tuple[Array, Array, Array]:
-    """Return the weights of the old state, of w at the end and of w at the start in the state after a step."""
+    """Return the weights in the state after a step: of the old state, of w at the end, and of w at the start."""
     fading, few = np.exp(-way), np.minimum(way, _SHORT)
     short = way < _SHORT
     mean = np.where(short, 1 - few / 2 + few * few / 6, -np.expm1(-way) / np.maximum(way, _SHORT))
@@ -134,7 +134,7 @@ def _step_weights(way: Array) -> tuple[Array, Array, Array]:
 
 
 def _repeating(fading: Array, pushes: Array, at_rest: Array) -> Array:
-    """Return the states at the first time that recur after a beat; `at_rest` for strips that do not travel."""
+    """Return the states at the first time that recur after a beat; for strips that do not travel, `at_rest`."""
     held, gained = np.ones_like(at_rest), np.zeros_like(at_rest)
     for fade, push in zip(fading, pushes, strict=True):
         held, gained = fade * held, fade * gained + push

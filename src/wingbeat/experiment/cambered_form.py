@@ -23,7 +23,7 @@ from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 FARTHEST_DEG = 60.0
 # Least number of different angles on each side of zero lift: two for the line, one for its end.
 LEAST_ANGLES = 3
-# Values of each term in which a curve is not linear, to find where a fit begins.
+# Values to try for each non-linear term, to find where a fit begins.
 _NODES = 8
 _SLOPES = (2.0, 3.5, 5.0, 6.5)
 # Least distance between the two onsets, so that they cannot change places [deg].
@@ -66,7 +66,10 @@ class LiftForm(BoxForm):
             faults.add(label, f"{values.min():g} to {values.max():g}", rule, fix)
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
-        """Return three starts: the best of a grid of zero-lift angles and slopes, with the ends of the data."""
+        """Return three starts: the best nodes of a grid of zero-lift angles and slopes.
+
+        The lowest and highest lift of each start are those of the data.
+        """
         ends = {"lift_lowest": float(values.min()), "lift_highest": float(values.max())}
         zeros = np.linspace(np.median(alpha_deg[values < 0]), np.median(alpha_deg[values > 0]), _NODES)
         found = [

@@ -23,7 +23,7 @@ from wingbeat.vehicle import Vehicle
 
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
-# Chi squared of four numbers that noise alone exceeds in one film of a hundred.
+# Noise alone exceeds this chi squared of four numbers in one film of a hundred.
 _CHANCE = 13.28
 
 
@@ -49,7 +49,7 @@ def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
 
 def _chord_of(area: Array, span: Array) -> Array:
     """Return the Fourier coefficients of area divided by span, from those of area and of span."""
-    # Sixteen samples in the highest harmonic's period: what lies beyond it is not folded back.
+    # Sixteen samples in the highest harmonic's period: higher harmonics are not aliased into lower ones.
     columns = fourier_columns(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
     ratio = (columns @ area) / (columns @ span)
     return np.asarray(np.linalg.lstsq(columns, ratio, rcond=None)[0], dtype=np.float64)

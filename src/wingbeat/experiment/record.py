@@ -203,7 +203,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
         check_unit(faults, where, unit, units[name])
         wanted = 2 if name in TARE_UNITS else 1
         cells = [cell.strip() for cell in text.split(",")]
-        # One try for the lot: "0.5 m/s" and "fast" are the same fault.
+        # One try for all cells: "0.5 m/s" and "fast" cause the same fault.
         values: tuple[float, ...]
         try:
             values = tuple(float(cell) for cell in cells)

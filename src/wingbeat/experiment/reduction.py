@@ -25,7 +25,7 @@ CENTRE_FLOOR = 0.02
 # Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.
 _TREND_BLOCKS, _TREND_LIMIT = 16, 7.0
 _BLOCKED = 0.05
-# Samples that are reduced together, of which ten copies are held: some 20 MB.
+# Number of samples that are reduced together; ten copies of them take some 20 MB.
 _AT_A_TIME = 1 << 18
 
 
@@ -141,7 +141,7 @@ def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
             rule = f"leaves fewer than {MIN_SAMPLES} samples of {run.name}"
             faults.add("last", last, rule, "give a larger --last, or sample faster")
     faults.raise_if_any()
-    # Half a sample of room, or rounding decides whether the first one is in.
+    # Half a sample of tolerance; otherwise rounding decides whether the first sample is in the window.
     return run.time > run.time[-1] - last + 0.5 * run.duration / len(run.time)
 
 

@@ -14,7 +14,7 @@ from wingbeat.errors import FaultList
 from wingbeat.experiment.forms import CurveForm
 
 Array = NDArray[np.float64]
-# The scaled Jacobian loses half its digits beyond this.
+# Above this condition number, the scaled Jacobian loses half of its digits.
 ILL_CONDITIONED = 1e4
 
 
@@ -231,7 +231,7 @@ def fit_curve(
     slopes = form.slopes(a, parameters) / errors[:, None]
     sizes = np.linalg.norm(slopes, axis=0)
     sizes = np.where(sizes > 0, sizes, 1.0)
-    # By singular values of the scaled slopes: the normal matrix would square the condition.
+    # By singular values of the scaled slopes: the normal matrix would square the condition number.
     _, singular, right = np.linalg.svd(slopes / sizes, full_matrices=False)
     floor = max(float(singular[0]), 1e-300) * np.finfo(float).eps
     inverse = right.T / np.maximum(singular, floor)
@@ -275,7 +275,7 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
     names = form.names
     bounds = [form.lowest.get(n, -math.inf) for n in names], [form.highest.get(n, math.inf) for n in names]
 
-    # SciPy asks for slopes where it has just asked for the value, and both come of one evaluation.
+    # SciPy asks for slopes where it has just asked for the value; one evaluation gives both.
     kept: dict[bytes, Array] = {}
 
     def residuals(x: Array) -> Array:

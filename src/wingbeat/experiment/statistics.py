@@ -44,10 +44,10 @@ def _error_of_independent(blocks: NDArray[np.float64]) -> NDArray[np.float64]:
 def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], groups: NDArray[np.intp]) -> float:
     """Return the variance between repeats that their own standard errors do not explain, one value for all groups.
 
-    With ``w = 1/se^2``, their sum ``W`` in a group and ``Q = sum w (x - mean)^2``, it is the moment estimator
-    ``tau^2 = (Q - df) / sum(W - sum(w^2)/W)`` if ``Q > df + 2 sqrt(2 df)``, which is two standard deviations of
-    chi^2 above its mean. Otherwise it is 0, because estimated errors make Q slightly too large: DerSimonian and
-    Laird 1986, doi 10.1016/0197-2456(86)90046-2.
+    With ``w = 1/se^2``, their sum ``W`` in a group and ``Q = sum w (x - mean)^2``, the result is the moment
+    estimator ``tau^2 = (Q - df) / sum(W - sum(w^2)/W)`` if ``Q > df + 2 sqrt(2 df)``, which is two standard
+    deviations of chi^2 above its mean. Otherwise it is 0, because estimated errors make Q slightly too large:
+    DerSimonian and Laird 1986, doi 10.1016/0197-2456(86)90046-2.
 
     Parameters
     ----------

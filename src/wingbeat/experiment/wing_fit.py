@@ -181,7 +181,7 @@ def fit_wing(
     that have one, at angles that are not negative.
 
     Su-Fan's form is that of Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602; Dickinson's
-    that of Dickinson, Lehmann and Sane 1999, doi 10.1126/science.284.5422.1954.
+    form is that of Dickinson, Lehmann and Sane 1999, doi 10.1126/science.284.5422.1954.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The forms that a wing is fitted to: a curve each for lift, drag and centre of pressure."""
+"""The forms that a wing is fitted to: one curve for each of lift, drag and centre of pressure."""
 
 from __future__ import annotations
 

@@ -15,7 +15,8 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
     """Return an angle without jumps over the beat [deg], and the number of frames moved by whole turns.
 
     In the order of phase within the beat, each frame is moved by whole turns until it lies within half a turn of
-    the one before. The mean is then within half a turn of 0. A frame that is not moved keeps every digit.
+    the frame before. Then all frames are moved together, so that their mean lies within half a turn of 0. A frame
+    that is not moved keeps every digit.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ def new_figure(width: float, height: float) -> Figure:
 def dress(axes: Axes, xlabel: str, ylabel: str) -> None:
     """Name the axes and style their ticks."""
     axes.set(xlabel=xlabel, ylabel=ylabel)
-    axes.tick_params(labelsize=FONT, length=2, pad=2)  # said here, for ticks are made only when drawn
+    axes.tick_params(labelsize=FONT, length=2, pad=2)  # set here, because ticks are made only when drawn
     axes.ticklabel_format(style="plain", useOffset=False)  # a common factor would stand in the legend
     axes.locator_params(nbins=6)
 

@@ -101,8 +101,8 @@ ANSWER = (
     Term(
         "gust_response",
         "s m-1",
-        "root mean square of the disturbance, in units of 0.1 rad, 1 m/s, 1 m/s and 2 rad/s, per m/s of gusts that "
-        "change at random from beat to beat",
+        "root mean square of the disturbance per m/s of gusts that change at random from beat to beat; body pitch "
+        "counts in units of 0.1 rad, velocities in m/s, and the pitch rate in units of 2 rad/s",
         short="response to gusts",
     ),
     Term("stable", "1", "whether every Floquet multiplier lies within the unit circle"),

@@ -1,4 +1,4 @@
-"""The page of a power curve: power and frequency against speed, branches, marks, and what others published."""
+"""The page of a power curve: power and frequency against speed, branches, marks, and published values."""
 
 from __future__ import annotations
 

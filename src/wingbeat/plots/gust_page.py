@@ -1,4 +1,4 @@
-"""A gust flown with and without feedback, and the share of many gusts that were survived."""
+"""Flights through a gust with and without feedback, and the share of gusts that are survived."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LINES = (SECOND, FIRST, THIRD)
-# Beyond this, a flight is lost, and its line leaves the panel [deg].
+# Largest deviation of body pitch that the panel shows [deg]; a flight with a larger deviation is lost.
 _SHOWN = 60.0
 
 
 @drawing()
 def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = None) -> Figure:
-    """Draw body pitch and height of flights through one gust, and which share of many gusts was survived.
+    """Draw body pitch and height of flights through one gust, and the share of gusts that are survived.
 
     The shade is the time of the gust. Lines end where a flight is lost.
 
     Parameters
     ----------
     flights : through the same wind, by names, at most three.
-    survey : with feedbacks of the same names; None for no panels of it.
+    survey : with feedbacks of the same names; with None, its panels are left out.
     """
     figure = new_page(PAGE, 62.0)
     panels = figure.subplots(1, 4 if survey is not None else 2)

@@ -95,7 +95,7 @@ def _portrait(
         down |= (first <= phase) & (phase < last)
     lines = []
     for mask, label, style in ((down, "downstroke", FIRST), (~down, "upstroke", SECOND)):
-        # Each piece between two samples belongs to the stroke of its first.
+        # Each piece between two samples belongs to the stroke of the first of them.
         on = mask | np.concatenate([[False], mask[:-1]])
         lines += axes.plot(place, np.where(on, speed, np.nan), label=label, **style)
     size = 1.0 if phase[-1] - phase[0] <= 6 else 0.6

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 
-# Without pieces, the line of a flight of thousands of beats is too long for the PNG writer.
+# The PNG writer draws lines in pieces, because a whole line of thousands of beats is too long for it.
 _SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.path.chunksize": 20_000}
 
 

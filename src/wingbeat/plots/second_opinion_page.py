@@ -35,7 +35,7 @@ _OURS = {
 
 @drawing()
 def second_opinion_page(opinion: SecondOpinion) -> Figure:
-    """Draw lift and thrust of both wings over the weight, and below them the share of strips beyond 15 degrees.
+    """Draw lift and thrust of both wings, divided by the weight, and the share of strips beyond 15 degrees.
 
     Parameters
     ----------

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 _ROW = 70.0  # mm
 _MAP = "cividis"
 _DASHES = ("-", "--", ":", "-.")
-# Panels of maps and of parallel coordinates, and lines in one of these, that can still be read.
+# Largest numbers that can still be read: panels of maps; panels of parallel coordinates; lines in one of the
+# latter.
 _MOST, _STRANDS = (12, 4), 2000
 # Columns whose values say by themselves what they are.
 _NAMES = ("species", "aero.coefficients", "species_given", "aero_given")
@@ -79,7 +80,7 @@ def study_page(
 
 
 def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:
-    """Return the points, and the name, of each combination of the study's other requested values."""
+    """Return, for each combination of the study's other requested values, its name and its points."""
     columns = [str(name) for name in frame.columns]
     # The columns of the requested values lie between the status and the record, whose first column is `message`.
     end = columns.index("message" if "message" in columns else "certificate")

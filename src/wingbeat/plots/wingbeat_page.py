@@ -28,9 +28,10 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
     """Draw one page, 183 mm wide, of an orbit's or a flight's time series; downstrokes are shaded.
 
     a: wing kinematics; b: body pitch; c: power; d to f: phase portraits; g: effective angle of attack; h and i:
-    horizontal and vertical force on the strips at 1/4 and 3/4 of the span, both wings together, over the weight.
-    Two statements at the top say how well a certified orbit closes and whether it is plausible. Both are green if
-    it is plausible; otherwise the second is red. Without a certificate, one red line gives the reason.
+    horizontal and vertical force on the strips at 1/4 and 3/4 of the span, both wings together, divided by the
+    weight. Two statements at the top say how well a certified orbit closes and whether it is plausible. Both are
+    green if the orbit is plausible; otherwise the second is red. Without a certificate, one red line gives the
+    reason.
 
     Parameters
     ----------

@@ -91,7 +91,7 @@ class CarriedFlight(Saveable):
 
 
 def carry(model: FlightModel, wingbeat: Wingbeat, path: Path, beats: int = 1, samples: int = 128) -> CarriedFlight:
-    """Move a vehicle as it was filmed, wings and body, and evaluate its loads.
+    """Move the wings and the body of a vehicle as they were filmed, and evaluate the loads.
 
     The body's motion is prescribed, not integrated. This motion needs a force in addition to the air loads F and
     the weight: the missing force ``p' - F - M g``, with p the momentum of body and wings. The missing moment is

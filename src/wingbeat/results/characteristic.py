@@ -63,8 +63,9 @@ def _least(
 ) -> dict[str, Any] | None:
     """Return where a value is smallest.
 
-    If the least point and its two neighbours belong to one branch, the power there is taken as the parabola
-    ``square U^2 + slope U + level``, and `lowest` returns the speed from its coefficients.
+    If the lowest point and its two neighbours belong to one branch, the power between the neighbours is
+    approximated by the parabola ``square U^2 + slope U + level`` through the three points. `lowest` takes the
+    parabola's coefficients and returns the speed at which the value is smallest.
     """
     good = np.isfinite(value)
     if not good.any():

@@ -81,7 +81,7 @@ class Flight(Saveable):
         return found
 
     def _alike(self) -> Iterator[tuple[int, int]]:
-        """Yield the first beat, and the one after the last, of each row of beats with the same wingbeat."""
+        """Yield, for each run of beats with the same wingbeat, its first beat and the beat after its last."""
         first = 0
         for i in range(1, len(self.wingbeats) + 1):
             if i == len(self.wingbeats) or self.wingbeats[i] != self.wingbeats[first]:
@@ -89,7 +89,7 @@ class Flight(Saveable):
                 first = i
 
     def _run(self, first: int, last: int, attributes: dict[str, Any]) -> xr.Dataset:
-        """Return the series of a row of beats; the sample between two rows belongs to the earlier one."""
+        """Return the series of a run of beats; the sample between two runs belongs to the earlier run."""
         samples = (len(self.phase) - 1) // len(self.wingbeats)
         here = slice(first * samples + (first > 0), last * samples + 1)
         wingbeat, phase, states = self.wingbeats[first], self.phase[here], self.states[here]

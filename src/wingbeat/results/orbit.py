@@ -96,7 +96,7 @@ class Orbit(Saveable):
     initial_state : the body's state at phase 0.
     unknowns : pitch state at phase 0 and free parameters, in the form of a solver's initial guess.
     relaxations : if there is no orbit, the single changes that lead to one, the smallest first; then the terms of
-        the air loads whose removal leads to one.
+        the air loads whose removal leads to an orbit.
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.

@@ -36,8 +36,8 @@ class Statements(NamedTuple):
 def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
     """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
 
-    An unknown end of a range is None. `within` is true if the value is beyond no known end; it is None if
-    the number has no value, such as the Strouhal number in hover.
+    An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
+    no value (such as the Strouhal number in hover), and true otherwise.
 
     Parameters
     ----------

@@ -33,11 +33,11 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     are those of the hinges. ``braking`` is the mean power of negative work. ``cost_by_returned`` holds pairs
     (share, mean power): the mean power if this share of negative work is returned; at share -1, negative work costs
     as much as positive work. ``shares`` has the aerodynamic, the inertial and the body part of the hinge power,
-    each with mean, minimum (``least``) and maximum (``most``). ``spent`` does the same for the power of all
-    actuators. Its parts are profile, induced, parasite and unsteady, which are spent on the air, and inertial, the
-    rate of change of kinetic and potential energy.
-    ``best_spring`` gives, for both flap springs together, ``stiffness`` [N m/rad], ``rest_angle`` [rad]
-    (None if no spring helps) and the remaining ``mean_positive_power``.
+    each with mean, minimum (``least``) and maximum (``most``). ``spent`` has the parts of the power of all
+    actuators in the same form. These parts are profile, induced, parasite and unsteady, which are spent on the air,
+    and inertial, the rate of change of kinetic and potential energy. ``best_spring`` gives, for both flap springs
+    together, ``stiffness`` [N m/rad], ``rest_angle`` [rad] (None if no spring helps) and the remaining
+    ``mean_positive_power``.
 
     Raises
     ------

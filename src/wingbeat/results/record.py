@@ -106,7 +106,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
 
 
 def _stability_price(solution: Solution) -> dict[str, float | None]:
-    """Return what stability costs, if the problem has limits of it and the search looked beyond them."""
+    """Return the price of stability; empty if the problem was not also solved without its limits of stability."""
     if solution.free_objective is None:
         return {}
     return {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
@@ -127,7 +127,7 @@ POWERS = (
 def power_summary(solution: Solution, beat: Beat) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
     problem = solution.problem
-    with np.errstate(over="ignore", invalid="ignore"):  # of a flight that ran off
+    with np.errstate(over="ignore", invalid="ignore"):  # of a diverged flight
         positive = float(mean_positive(beat.hinge_power, np))
     weight = problem.vehicle.mass * problem.air.gravity
     return {

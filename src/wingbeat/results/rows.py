@@ -49,7 +49,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
 
 
 def _model_rows(record: dict[str, Any]) -> Rows:
-    """Return the name of the model that made the problem, and what the user chose in place of it."""
+    """Return the name of the model that made the problem, and the choices that the user changed."""
     if "model" not in record:
         return []
     changed = [name.replace("_", "-") for name in record["model"]["changed"]]

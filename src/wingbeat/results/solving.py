@@ -41,8 +41,8 @@ def solve_orbit(
     ----------
     problem : the orbit problem.
     starts : number of starts; more may find better optima. The default is 24 if the wingbeat's bounds differ from
-        the species', or if the largest value of a series is minimised. Otherwise it is 12 if the objective or a
-        limit is a quantity of the flown wingbeat, and else 6.
+        the species', or if the largest value of a series is minimised. In other cases, the default is 12 if the
+        objective or a limit is a quantity of the flown wingbeat. In all remaining cases it is 6.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.
@@ -89,9 +89,9 @@ def solve_orbits(
     """Find and certify an orbit for each problem, in their order; results of similar problems serve as starts.
 
     Among problems that differ in numbers only, the first few are solved as by `solve_orbit`. For each later
-    problem, the first start is predicted from their solutions; it counts only if it leads to a certified orbit. If
-    a problem has several optima, this orbit may differ from the one that `solve_orbit` finds. The results do not
-    depend on `processes`.
+    problem, the first start is predicted from the solutions of these first problems. This start counts only if it
+    leads to a certified orbit. If a problem has several optima, this orbit may differ from the one that
+    `solve_orbit` finds. The results do not depend on `processes`.
 
     Records and time series are computed on demand, so you can hold thousands of orbits and look at a few.
 

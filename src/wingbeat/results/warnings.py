@@ -17,13 +17,14 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.vehicle import Air, Vehicle
 
-# The wake matters up to about three times the induced velocity of hover: there it changes alpha by about 10 %.
+# The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha
+# by about 10 %.
 _SLOW = 3.0
 _MENTION = 0.01
 # Pitching by this much within a wingbeat turns a sixth of the lift alternately into thrust and drag.
 _SWING = math.radians(20.0)
-# Phases at which a stroke is checked. There is a warning if the wing is farther than this across the plane of
-# symmetry (share of the semi-span), or farther than this past the shoulder's range [rad].
+# Number of phases at which a stroke is checked. Limits above which there is a warning: how far the wing goes across
+# the plane of symmetry (share of the semi-span), and how far it goes past the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
 # Reduced frequency above which the lag of the wake matters.
 _LAG = 0.3

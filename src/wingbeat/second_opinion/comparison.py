@@ -28,7 +28,7 @@ ATTACHED = math.radians(15.0)  # flow beyond it is probably not attached, but a 
 # Each term of our loads alone, and both together: (unsteady, inflow).
 TERMS = (("none", "none"), ("thin-aerofoil", "none"), ("none", "momentum"), ("thin-aerofoil", "momentum"))
 _FINE = 3600  # steps of a beat, to which a lag is resolved
-_SMALL = 1e-3  # of the weight: a mean force below it has no ratio
+_SMALL = 1e-3  # of the weight: a smaller mean force gets no ratio
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def _airplane(ps: Any, corners: np.ndarray) -> Any:
 
         @property
         def standard_mean_chord(self) -> float:
-            return chord  # the cores of the vortices are a share of it; of a raised wing the projection is short
+            return chord  # vortex cores are a share of it; the projected chord of a raised wing is too short
 
         def generate_mesh(self, symmetry_type: int) -> None:
             self.symmetry_type = symmetry_type

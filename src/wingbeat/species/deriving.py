@@ -19,9 +19,9 @@ from wingbeat.vehicle import Air
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
 # Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
 # of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
-# the upper bound is the second factor times the higher one. For a pigeon, 1 to 30 Hz. In 63 flights of derived
-# animals and robots (1 g to 10 kg, at 0.5 to 1.6 times the speed of a lift coefficient of 0.6), the minimum
-# frequency was 0.98 to 1.74 times the frequency of the cruising law.
+# the upper bound is the second factor times the higher one. For a pigeon, the bounds are 1 to 30 Hz. In 63 flights
+# of derived animals and robots (1 g to 10 kg, at 0.5 to 1.6 times the speed at which the lift coefficient is 0.6),
+# the minimum frequency was 0.98 to 1.74 times the frequency of the cruising law.
 _WIDE = 1 / 8, 4.0
 _SU_FAN = "Su et al., arXiv 2302.09602"
 

@@ -19,7 +19,7 @@ class Data:
 
     Parameters
     ----------
-    ranges : by the symbol of the input; none for a law without data, or whose data were not found.
+    ranges : by the symbol of the input; empty for a law without data, or with data that we did not find.
     where : where the ranges were read, or why there are none.
     """
 

@@ -121,8 +121,8 @@ class Species:
 
         Parameters
         ----------
-        values : paths as in the orbit record (``wing.mass``, ``wingbeat.twist_ratio``, ``air.density``; an
-            angle in degrees with ``_deg``) and their values in SI units.
+        values : paths as in the orbit record (``wing.mass``, ``wingbeat.twist_ratio``, ``air.density``) and their
+            values in SI units; the value of an angle is in degrees if its path ends in ``_deg``.
 
         Raises
         ------

@@ -241,7 +241,7 @@ def _pennycuick(mass: float, span: float, area: float, density: float, gravity: 
 
 
 def _bullen(mass: float, speed: float) -> float:
-    """Return a bat's frequency; outside the law's masses, a power of mass, as the logarithm fails from 10 kg up."""
+    """Return a bat's frequency. Outside the law's masses, a power of mass: the law fails from 10 kg up."""
     inside = min(max(mass, _BATS_MASSES[0]), _BATS_MASSES[1])
     fitted = 5.54 - 3.068 * math.log10(inside) - 2.857 * math.log10(speed)
     return fitted * (mass / inside) ** -0.26

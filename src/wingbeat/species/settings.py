@@ -7,10 +7,11 @@ from typing import Any
 from wingbeat.errors import FaultList, FileError, suggest
 from wingbeat.species_schema import KEYS, Key, parse_toml, shown, spoken
 
-# The rule in the fault of a path that names no number; by it, a study distinguishes such a path from a refused
-# value.
+# The rule in the fault of a path that names no number. A study recognises such a fault by this rule, and so does
+# not take it for that of a refused value.
 NO_SUCH_PATH = "no number has this path"
-# The whole mass is not among them: it follows from body and wings, and nothing changes unasked.
+# The whole mass is not among them: it follows from body and wings, so a change of it would change another number
+# unasked.
 _SETTABLE = {
     path: key
     for key in KEYS

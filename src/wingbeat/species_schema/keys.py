@@ -84,7 +84,8 @@ PARTS = {
 TAIL_PATHS = (*(key.path for key in PARTS["tail"]), "wingbeat.tail_tilt")
 # Limits along the whole path, not only at its start.
 PATH = (_key("path.body_pitch"), _key("path.flap"))
-# Strips are arm or hand as a whole, so an orbit changes in steps with the wrist: no derivative, no search.
+# The wrist cannot be free: each strip is wholly arm or hand, so an orbit changes in steps with the wrist and has no
+# derivative by which to search.
 FREE = (
     *(
         _key(f"free.{key.name}")

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from distributed.deploy.cluster import Cluster
 
 _LOCAL, _REMOTE = re.compile(r"local:([1-9][0-9]{0,3})"), re.compile(r"(tcp|tls)://\S+:[0-9]+")
-# Seconds: to wait for a scheduler's first reply; between two checks of its workers; to wait for an answer that is
-# there, but whose worker may just have died.
+# Seconds to wait for a scheduler's first reply; seconds between two checks of its workers; seconds to wait for an
+# answer that exists, but whose worker may just have died.
 _CONNECT, _LOOK, _FETCH = 10.0, 2.0, 5.0
-# Where a cluster of our own may listen: nobody else can reach it, at any port that is free.
+# Address of a cluster of our own: no other machine can reach it. Any free port is used.
 _LOOPBACK = "127.0.0.1:0"
 
 
@@ -99,7 +99,7 @@ class DaskEngine:
         """Take a batch."""
         self._asked[batch] = units
         order = Order(batch, units, LocalProcesses.work, self._timeout, self._name, NUMERICAL_VERSION)
-        # As bytes, which Dask does not look into.
+        # Sent as bytes, because Dask does not look into bytes.
         key = f"wingbeat-{uuid.uuid4().hex}"
         self._watch(batch, self._client.submit(solve_batch, pickle.dumps(order), key=key, pure=False))
 
@@ -218,11 +218,11 @@ def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
         import distributed
     except ImportError:
         raise ClusterError(f"Dask is not installed here: {install_extra('cluster')}") from None
-    # What is wrong is told in our words, once.
+    # Dask's own messages are silenced: we report each fault once, in our own words.
     for handler in logging.getLogger("distributed").handlers:
         handler.setLevel(logging.CRITICAL + 1)
     if isinstance(where, str) and (local := _LOCAL.fullmatch(where)):
-        # Its workers are threads of this process, for each has a process of its own for the work.
+        # The workers are threads of this process, because each has a process of its own for the work.
         cluster = distributed.LocalCluster(
             n_workers=1,
             threads_per_worker=int(local[1]),

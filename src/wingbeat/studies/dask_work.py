@@ -1,8 +1,8 @@
 """What a thread of a Dask worker does: it hands a batch to a process of its own, and waits.
 
-Python cannot end a thread, and a point may crash its process, so no point is solved in the Dask worker itself.
-Points are solved in the same kind of process as without Dask, with one thread: results are equal to the last bit.
-Nothing here imports Dask.
+Python cannot end a thread, and a point may crash its process, so no point is solved in the Dask worker itself. A
+point is solved in a process with one thread, of the same kind as in a study without Dask. So the results with and
+without Dask are equal to the last bit. Nothing here imports Dask.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from wingbeat.errors import ClusterError, WorkerError
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 
-# What the last digit of an answer depends on, besides the machine.
+# Packages on which the last digit of a result depends, besides the machine.
 _TOLD = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
 # Seconds that a process without work is kept.
 _KEPT = 60.0

@@ -18,8 +18,8 @@ from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
 # Seconds of work in a batch: much longer than handing it out takes, but short for a waiting user.
 _BATCH_SECONDS = 1.5
 _MOST = 256
-# Processes that may die over a point, by how they ended, before the point is given up. A kill from outside
-# is not the point's fault, and hardly hits the same point three times.
+# How many processes may be lost on a point before the point is given up, by the way in which they ended. A kill
+# from outside is not the point's fault, and is unlikely to hit the same point three times.
 _TRIES = {"crashed": 3, "timeout": 2}
 # Seconds to wait for batches in flight after the first request to stop.
 GRACE = 1.0
@@ -50,7 +50,10 @@ class Stop:
 
 @contextmanager
 def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Take SIGINT as a request to stop soon; SIGTERM or a second SIGINT, to stop at once. `told` gets the level."""
+    """Take the first SIGINT as a request to stop soon, and SIGTERM or a second SIGINT as one to stop at once.
+
+    `told` is called with the level of each request.
+    """
     stop = Stop()
     if threading.current_thread() is not threading.main_thread():
         yield stop
@@ -130,7 +133,7 @@ Progress = Callable[[Tally], None]
 
 
 class _Job(NamedTuple):
-    """A unit to solve: which of its points are wanted, and how often it was lost."""
+    """A unit to solve: which of its points are wanted, and how often its process was lost."""
 
     unit: Unit
     wanted: frozenset[str]

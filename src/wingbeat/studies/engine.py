@@ -140,7 +140,7 @@ class LocalProcesses:
                 if time.monotonic() >= until:
                     return None
                 continue
-            if worker in self._crew:  # else it has been given up
+            if worker in self._crew:  # otherwise, this worker has been given up
                 self._hear(worker, message)
         return self._ended.pop(0)
 

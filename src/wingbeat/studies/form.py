@@ -39,7 +39,8 @@ _Texts = Annotated[list[_Text], BeforeValidator(_listed), _Some]
 _Numbers = Annotated[list[_Finite], BeforeValidator(_listed), _Some]
 _Counts = Annotated[list[int], BeforeValidator(_listed), _Some]
 _Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
-# Pairs by name, or the one word; tags that `dotted` leaves out keep the faults' paths those of the file.
+# Pairs by name, or the word "plausible". `dotted` leaves the tags out, so that the paths in faults are those of the
+# file.
 _Bounds = Annotated[
     Annotated[dict[str, _Pair], Tag(TABLE)] | Annotated[Literal["plausible"], Tag(LIST)],
     Discriminator(lambda value: LIST if isinstance(value, str) else TABLE),
@@ -51,7 +52,7 @@ class Vary(BaseModel):
     """The values of one varied parameter, given in exactly one of five ways."""
 
     model_config = _STRICT
-    # Named otherwise than in the file where Python has the name already.
+    # If Python already uses a key of the file, the field has another name.
     grid: _Values | None = None
     relative: Annotated[list[_Finite], _Some] | None = None
     rows: _Values | None = Field(default=None, alias="list")

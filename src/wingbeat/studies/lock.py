@@ -72,6 +72,6 @@ def only_one(store: Path) -> Iterator[None]:
         yield
     finally:
         with suppress(OSError):
-            if os.name != "nt":  # there an open file keeps its name
+            if os.name != "nt":  # Windows does not delete an open file
                 path.unlink()
         os.close(descriptor)

@@ -152,7 +152,10 @@ def _frames(path: Path) -> tuple[bytes, list[bytes]]:
 
 
 def _is_of(frame: bytes, head: bytes) -> bool:
-    """Return whether a frame is of the current log: an older frame differs in both salts, a flipped bit in one."""
+    """Return whether a frame is of the current log.
+
+    The two salts of an older frame both differ from those of the log; a flipped bit changes only one.
+    """
     return frame[8:12] == head[16:20] or frame[12:16] == head[20:24]
 
 

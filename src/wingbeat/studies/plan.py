@@ -25,9 +25,9 @@ from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe
 from wingbeat.studies.sampling import unit_points
 
 MOST_POINTS = 10_000_000
-# Faults of a plan after which it is not looked for more.
+# After this many faults of a plan, we do not look for more.
 _ENOUGH = 100
-# What multiplies, in the order of its loops.
+# Top-level keys whose values are combined, in the order of the loops.
 _TOP = (
     *("species", "model", "aero", *OF_COEFFICIENTS, *OF_ELEMENTS, "minimise"),
     *("subject_to", "speed", "climb", "payload", "starts", "seed", "most_starts"),

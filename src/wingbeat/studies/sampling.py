@@ -29,6 +29,6 @@ def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[
     if method == "latin-hypercube":
         return qmc.LatinHypercube(directions, rng=random).random(count)
     with warnings.catch_warnings():
-        # A count that is no power of two leaves the sequence a little less even, and that is all.
+        # If the count is not a power of two, the sequence is a little less even. It has no other effect.
         warnings.filterwarnings("ignore", message="The balance properties of Sobol")
         return qmc.Sobol(directions, scramble=True, rng=random).random(count)

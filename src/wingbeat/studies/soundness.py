@@ -16,14 +16,15 @@ from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, tabl
 from wingbeat.studies.lock import is_locked
 from wingbeat.studies.pages import PAGE, log_fault, whole_answers
 
-# Tables that a plan determines: each has one digest, and the order that this is made in.
+# Tables that a plan determines, each with the column that orders its rows for the table's digest.
 PLAN_TABLES = {"bases": "hash", "plan_bases": "base", "plan": "ordinal"}
 _MAGIC = b"SQLite format 3\0"
 # Bytes of the head of a file that are the same in every store: the size of a page, both versions of the format,
 # bytes reserved in a page, and the text encoding, UTF-8.
 _HEAD = {16: PAGE.to_bytes(2, "big"), 20: b"\0", 56: b"\0\0\0\1"}
 
-# Files that this process found sound: a command opens its store several times.
+# Files that this process found undamaged; they are not checked again, because a command opens its store several
+# times.
 _SOUND: dict[Path, tuple[tuple[int, int, int], ...]] = {}
 
 
@@ -57,7 +58,7 @@ def check_files(path: Path, mine: bool) -> None:
         # Both format versions are 1 without a log and 2 with a log; other values keep SQLite from writing or
         # reading the file.
         alike = alike and {*head[18:20]} <= {1, 2}
-        # Databases of other programs may differ; a store is known by its mark, or by an answer in it.
+        # Databases of other programs may differ; we recognise a store by its mark, or by a result in it.
         if not alike and (head[68:72] == APPLICATION.to_bytes(4, "big") or whole_answers(path)):
             fault = "its header"
     if fault is not None:
@@ -72,13 +73,13 @@ def check_contents(connection: sqlite3.Connection, path: Path) -> None:
 
     Raises
     ------
-    FileError : one of these; the message says which, and what to do.
+    FileError : the file is one of these; the message says which, and what to do.
     sqlite3.Error : SQLite itself cannot read the file.
     """
     stamp = _stamp(path)
     if _SOUND.get(path) == stamp:
         return
-    connection.execute("BEGIN")  # all of it at one time, whatever a driver does meanwhile
+    connection.execute("BEGIN")  # one consistent state, whatever a driver writes meanwhile
     try:
         _check_kind(connection, path)
         _check_structure(connection)
@@ -182,6 +183,6 @@ def digest_of_nothing() -> str:
 
 
 def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tuple]:
-    # In the order of the rows as they lie, where the digests do not depend on it.
+    # If the digest does not depend on the order of the rows, they are read in the order in which they are stored.
     tail = "NOT INDEXED" if table == "points" else f"ORDER BY {order}"
     return connection.execute(f"SELECT * FROM {table} {tail}")

@@ -81,10 +81,11 @@ class Store:
             if not begun:
                 store._note(form=FORM, numerical_version=NUMERICAL_VERSION, made_by=__version__, runs=0)
                 connection.execute("COMMIT")
-                # Out of the log: a file whose head says nothing yet, beside a log with answers, looks damaged.
+                # Moved from the log to the file: a file whose head is still empty would look damaged beside a log
+                # with results.
                 connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
             yield store
-            with suppress(sqlite3.OperationalError):  # a reader is at work: what stands in the log is as safe
+            with suppress(sqlite3.OperationalError):  # a reader is at work: results in the log are equally safe
                 connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
     @staticmethod
@@ -103,7 +104,7 @@ class Store:
         if not path.is_file():
             return False
         check_files(path, mine)
-        # Where a driver was killed before it had made its tables, there is the page of the head alone.
+        # If a driver was killed before it had made its tables, the file has only the page of the head.
         if path.stat().st_size > PAGE:
             return True
         with in_words(path), closing(connect_reader(path)) as connection:

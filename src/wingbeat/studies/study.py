@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from distributed.deploy.cluster import Cluster
 
 _SUFFIX = ".study.sqlite"
-# Seconds that a point may be given, ten days and more: operating systems refuse to wait for years.
+# Largest time limit of a point [s], more than ten days: operating systems refuse to wait for years.
 _LONGEST = 1e6
-# Seconds of a search, of the record beside it, and of a process that starts, before this machine has solved any.
+# Assumed seconds of a search, of its record, and of the start of a process, until this machine has solved a point.
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
 
 
@@ -197,7 +197,7 @@ class Study:
             return frame_of(store)
 
     def orbits(self) -> Iterator[tuple[dict[str, Any], Orbit | None]]:
-        """Yield the varied values of each point, and its orbit, certified or not; None without a record.
+        """Yield each point's varied values, and its orbit, certified or not; without a record, the orbit is None.
 
         The orbits come one by one, in the order of the study. Their time series are computed when you use them.
 

@@ -41,12 +41,12 @@ def frame_of(store: Store) -> pd.DataFrame:
         parts = status | asked[row.base] | dict(flat(row.told)), _found(row), _kept(row)
         for names, part in zip(columns, parts, strict=True):
             names.update(dict.fromkeys(part))
-        # The record's own names win: they say what was solved, in SI units.
+        # The record's own names take precedence: they say what was solved, in SI units.
         rows.append(parts[0] | parts[1] | parts[2])
     order = dict.fromkeys(name for names in columns for name in names)
     frame = pd.DataFrame.from_records(rows, columns=list(order))
     for name in frame.columns:
-        # Nulls of a record are nothing known: not-a-number beside numbers.
+        # A null in a record is an unknown number: not-a-number in a column of numbers.
         if frame[name].dtype == object and all(v is None or is_number(v) for v in frame[name]):
             frame[name] = frame[name].astype(float)
     return frame
@@ -65,7 +65,8 @@ def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str,
     """Return, for each base, the values that distinguish it, by column."""
     names = {"species": lambda of: of["species"]["name"], "aero": lambda of: of["aero"]["coefficients"]}
     columns = {"species": "species", "aero": "aero.coefficients"}
-    # Several files may hold animals, or models, of one name: then what was given tells them apart.
+    # Several files may hold animals or models of the same name; the names or paths that were given then distinguish
+    # them.
     alike = [
         name
         for name, called in names.items()

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 CERTIFIED = "converged"
-# Answers of the search itself, which would be the same again.
+# The search ended; another try would end in the same way.
 UNCERTIFIED = ("infeasible", "not-converged")
-# No answer: an exception, a process that died, one that had to be stopped. `--retry-failed` tries them again.
+# The search did not end: an exception, a process that died, or a process that had to be stopped. `--retry-failed`
+# tries them again.
 FAILED = ("error", "crashed", "timeout")
 STATUSES = (CERTIFIED, *UNCERTIFIED, *FAILED)
 

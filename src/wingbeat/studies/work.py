@@ -21,9 +21,9 @@ from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
 from wingbeat.workers.main import Context
 
-# Recipes that a process keeps set up.
+# Number of recipes that a process keeps set up.
 _KEPT = 64
-# Answers of a chain that predict the next: a parabola along it needs no more.
+# Number of results of a chain that predict the next result: a parabola along the chain needs no more.
 _PREDICTING = 8
 
 

@@ -62,7 +62,7 @@ def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[s
     InvalidInputError : no flight or more than two, or one with more samples than a page can hold.
     FileError : a dataset that contains no flight, or a file that cannot be written.
     """
-    # No text of a file can close the HTML element that contains it.
+    # Escaped, so that no text of a file can close the HTML element that contains it.
     data = json.dumps(scene(flights), allow_nan=False).replace("<", "\\u003c")
     title = " and ".join(label for label, _ in flights)
     page = _PAGE.format(

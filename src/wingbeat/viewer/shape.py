@@ -23,7 +23,7 @@ def body_axes(body: Body) -> tuple[float, float]:
     """
     volume = 3 * body.mass / (4 * math.pi * _WATER)
     squares = 5 * body.pitch_inertia / body.mass
-    # a^2 + volume/a = squares, of which the largest root is the long body.
+    # The half length a solves a^2 + volume/a = squares; the largest root is that of a long body.
     roots = np.roots([1.0, 0.0, -squares, volume])
     long = max((r.real for r in roots if abs(r.imag) < 1e-12 and r.real > 0), default=volume ** (1 / 3))
     return float(long), math.sqrt(volume / float(long))

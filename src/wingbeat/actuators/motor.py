@@ -86,10 +86,10 @@ class MotorState(NamedTuple):
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
     """Return the state of a motor that exerts a given torque on the flap hinges at a given flap rate.
 
-    Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``,
-    ``v = R i + kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings,
-    and subtracted from the load while the wings drive the motor. Behind a crank, the speed is ``N 2 pi f``, the
-    load is the flap hinges' power over the crank's speed, and the rotor's inertia has no effect.
+    Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``, ``v = R i +
+    kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings, and
+    subtracted from the load while the wings drive the motor. With a crank, the speed is ``N 2 pi f``, the load is
+    the flap hinges' power divided by the crank's speed, and the rotor's inertia has no effect.
 
     Parameters
     ----------

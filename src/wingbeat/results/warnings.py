@@ -73,8 +73,8 @@ def at_lower_bound(solution: Solution) -> list[str]:
         return []
     low = solution.problem.bounds["frequency"][0]
     return [
-        f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it, and other "
-        "orbits at this bound are equally good; lower the bound, minimise a power, or find the glides of this "
+        f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it. Other "
+        "orbits at this bound are equally good. Lower the bound, minimise a power, or find the glides of this "
         "species with `wingbeat glide`"
     ]
 
@@ -103,8 +103,8 @@ def rivals(solution: Solution) -> list[str]:
     )
     unit = "" if not angle else " degrees/s" if name == "pitch_rate" else " degrees"
     return [
-        f"other optima within 1 % of the best: {len(others)}; the most different one has {name} = "
-        f"{there:.3g}{unit}, against {here:.3g}{unit} here"
+        f"other optima within 1 % of the best: {len(others)}; in the one that differs most, "
+        f"{name} is {there:.3g}{unit}, and here it is {here:.3g}{unit}"
     ]
 
 

@@ -16,7 +16,7 @@ from wingbeat.species_schema import KEYS, Number, Numbers, SpeciesText, check_va
 
 
 def _own_name(path: str) -> str:
-    """Return the keyword of a number; only the mass of a wing and the numbers of a tail name their part in it."""
+    """Return the keyword of a number; it includes the part's name only for a wing's mass and a tail's numbers."""
     part, _, name = path.rpartition(".")
     if path == "vehicle.wing.mass" or part == "vehicle.tail":
         return f"{part.removeprefix('vehicle.')}_{name}"

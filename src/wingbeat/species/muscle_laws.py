@@ -44,7 +44,7 @@ ELEVATOR_SHARE = Law(
     "0.112 m^0.016",
     ("m kg",),
     lambda mass: 0.0156 * mass**1.012 / DEPRESSOR_MASS(mass),
-    f"supracoracoideus 0.0156 m^1.012 over pectoralis, fitted to the data of {WRIGHT}",
+    f"supracoracoideus, 0.0156 m^1.012, divided by pectoralis; fitted to the data of {WRIGHT}",
     (0.33, 3.0),
     "19 of 20 species",
     _BIRDS,
@@ -54,7 +54,7 @@ BAT_DEPRESSOR_MASS = Law(
     "0.12 m",
     ("m kg",),
     lambda mass: 0.12 * mass,
-    f"guess: three quarters of all flight muscle, 9 to 23 % of the mass ({BULLEN})",
+    f"guess: three quarters of all flight muscle, which is 9 to 23 % of the mass ({BULLEN})",
     (0.6, 1.5),
     "the ends of that range",
     _BATS,
@@ -85,7 +85,7 @@ ISOMETRIC_STRESS = Law(
     "250 kPa",
     (),
     lambda: 250e3,
-    "guess: the stress of vertebrate muscle; a zebra finch's pectoralis gave 101 kPa in place (Bahlman, Baliga and "
+    "guess: the stress of vertebrate muscle; a zebra finch's pectoralis gave 101 kPa in situ (Bahlman, Baliga and "
     "Altshuler 2020, J Exp Biol 223:jeb225839, data)",
     (0.4, 1.6),
     "from that finch to the 400 kPa that programs of flight assume",
@@ -97,9 +97,9 @@ MAX_STRAIN_RATE = Law(
     ("rho kg/m3", "P W/kg", "q 1", "sigma Pa"),
     lambda density, power, share, stress: density * power / (share**2 * stress),
     f"the largest power of a cockatiel's pectoralis and its share of the largest speed, {MORRIS}; sigma is the "
-    "isometric stress, and the two ranges go together: their product is measured",
+    "isometric stress; a smaller sigma goes with a larger speed, because their product is measured",
     (0.6, 2.5),
-    "those of the isometric stress, upside down",
+    "the inverse of the spread of the isometric stress",
     Data({}, "one study of cockatiels"),
 )
 
@@ -117,7 +117,8 @@ def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:
 'isometric_stress': 250000.0, 'curvature': 0.361}
     """
     curvature = (
-        f"derived: q^2 / (1 - 2 q) at q = {_SHARE:g}, the share of the largest speed with most power, {MORRIS}"
+        f"derived: q^2 / (1 - 2 q) at q = {_SHARE:g}, the share of the largest speed at which power is largest, "
+        f"{MORRIS}"
     )
     numbers = {
         "mass": (BAT_DEPRESSOR_MASS if bat else DEPRESSOR_MASS).number(mass),

@@ -164,7 +164,8 @@ class _Queue:
         """Return the next batch; it is empty if no job waits."""
         if self._lost:
             return [self._lost.popleft()]
-        # Small ones first, to see how long a point takes; small ones last, so that all processes end together.
+        # Small batches first, to see how long a point takes; small batches last, so that all processes end
+        # together.
         wanted = 1 if self._seconds is None else _BATCH_SECONDS / max(self._seconds, 1e-6)
         wanted = max(1, min(wanted, _MOST, self._left / (2 * self._engine.workers)))
         batch: list[_Job] = []

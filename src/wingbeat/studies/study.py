@@ -61,7 +61,7 @@ class Study:
         return len(self.plan)
 
     def estimate(self, processes: int = 1, waiting: int | None = None) -> float:
-        """Return about how long points will take [s], estimated from the results in the store, if there are any.
+        """Return an estimate of how long points will take [s], from the results in the store if there are any.
 
         Parameters
         ----------
@@ -90,8 +90,8 @@ class Study:
     ) -> Summary:
         """Solve all points that have no result yet; each result is saved as soon as it is known.
 
-        The first Ctrl-C waits one second for batches that end, and saves them; a second one stops at once. The next
-        run resumes.
+        After the first Ctrl-C, the run waits one second for batches to end, and saves them. A second Ctrl-C stops
+        it at once. The next run resumes the work.
 
         Parameters
         ----------

@@ -32,7 +32,8 @@ def animate(
 ) -> None:
     """Write the first beat of one flight, or of two side by side, as an animated GIF that repeats.
 
-    Strips are coloured by their effective angle of attack. Arrows are their air loads; both flights have one scale.
+    Strips are coloured by their effective angle of attack. Arrows show the air loads of the strips, with the same
+    scale for both flights.
 
     Parameters
     ----------

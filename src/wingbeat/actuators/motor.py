@@ -24,7 +24,7 @@ class Motor:
     ----------
     torque_constant : torque per current [N m/A]; in SI units, this number is also the voltage per speed.
     resistance : of the winding [ohm].
-    gear_ratio : motor speed divided by the flap rate or, with a crank, by the speed of the crank.
+    gear_ratio : ratio of the motor's speed to the flap rate or, with a crank, to the speed of the crank.
     rotor_inertia : of the rotor, and of all that turns with it [kg m2].
     no_load_current : current that friction takes at any speed [A].
     gear_efficiency : share of the power that the gear transmits, in either direction.

@@ -35,7 +35,7 @@ class Muscle:
     Parameters
     ----------
     mass : of the depressors, both sides [kg].
-    elevator_share : mass of the elevators divided by that of the depressors.
+    elevator_share : ratio of the elevators' mass to that of the depressors.
     strain_per_angle : fibre strain per flap angle [1/rad].
     max_strain_rate : largest speed of shortening, in lengths per second [1/s].
     isometric_stress : stress of fully active fibres that keep their length [Pa].

@@ -81,9 +81,9 @@ def least_frequency(evidence: Evidence) -> TestResult:
 
 
 def bat_slow_alike(evidence: Evidence) -> TestResult:
-    """Return the bat's frequency with Dickinson divided by that with Su-Fan, up to 5 m/s.
+    """Return the ratio of the bat's frequency with Dickinson to its frequency with Su-Fan, up to 5 m/s.
 
-    The result is the ratio that is farthest from 1 over these speeds.
+    Of the ratios at all these speeds, the result is the one that is farthest from 1.
     """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)

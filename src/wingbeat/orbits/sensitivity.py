@@ -17,7 +17,6 @@ import numpy as np
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
 from wingbeat.orbits.flight.certify import certify
-from wingbeat.orbits.flight.floquet import monodromy
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
@@ -171,18 +170,27 @@ class OptimumSlopes:
         return gradient - self._conditions(programme, scaled)[1].T @ self._multipliers
 
     def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
-        """Return quantities of the beat, computed from the certifier's flight."""
+        """Return quantities of the beat by the certifier's flight, and those of the stroke map by the solver's."""
         if not quantities:
             return np.zeros(0)
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
-        # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
-        # derivatives.
-        wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
-        flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
-        beat = certified_beat(problem, wingbeat, flown)
-        stroke_map = monodromy(problem.model, wingbeat, flown.steps)
+        of_map = [isinstance(q, MapQuantity) for q in quantities]
+        beat = stroke_map = None
+        if not all(of_map):
+            # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
+            # derivatives.
+            wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
+            flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
+            beat = certified_beat(problem, wingbeat, flown)
+        if any(of_map):
+            # Not the certifier's: its map is a difference of flights, whose error of 1e-6 is 1 % of a derivative.
+            flight = programme.fly(unknowns[4:], unknowns[:4], self._options.sensitivity.fine_blocks)
+            stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
         return np.array(
-            [float(np.max(q.of(stroke_map) if isinstance(q, MapQuantity) else q.of(beat))) for q in quantities]
+            [
+                float(np.max(q.of(stroke_map if on else beat)))
+                for q, on in zip(quantities, of_map, strict=True)
+            ]
         )
 
     def _along(

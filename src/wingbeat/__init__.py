@@ -87,6 +87,7 @@ if TYPE_CHECKING:
     from wingbeat.results.solving import solve_orbits as solve_orbits
     from wingbeat.results.spread import Spread as Spread
     from wingbeat.results.spread import orbit_spread as orbit_spread
+    from wingbeat.results.stable_share import StableShare as StableShare
     from wingbeat.results.terms import TermTrace as TermTrace
     from wingbeat.results.terms import trace_terms as trace_terms
     from wingbeat.species import Species as Species
@@ -95,6 +96,8 @@ if TYPE_CHECKING:
     from wingbeat.species import load_species as load_species
     from wingbeat.species import robot as robot
     from wingbeat.species import species_names as species_names
+    from wingbeat.stability.causes import StabilitySensitivities as StabilitySensitivities
+    from wingbeat.stability.causes import stability_sensitivities as stability_sensitivities
     from wingbeat.stability.feedback import Feedback as Feedback
     from wingbeat.stability.feedback import feedback as feedback
     from wingbeat.stability.feedback_controller import FeedbackController as FeedbackController
@@ -175,6 +178,8 @@ _HOME = {
     "Species": "species",
     "Spread": "results.spread",
     "Springs": "actuators",
+    "StabilitySensitivities": "stability.causes",
+    "StableShare": "results.stable_share",
     "StartFamily": "orbits.options.start_families",
     "State": "mechanics.flight_model",
     "Status": "orbits.status",
@@ -224,6 +229,7 @@ _HOME = {
     "solve_orbit": "results.solving",
     "solve_orbits": "results.solving",
     "species_names": "species",
+    "stability_sensitivities": "stability.causes",
     "survey_gusts": "stability.gust_survey",
     "trace_terms": "results.terms",
     "uncertainty_by_samples": "results.sensitivities",

@@ -27,7 +27,7 @@ Exit codes: 0 success, 2 bad input, 3 no certified orbit (infeasible or not conv
 # Import strings and help texts side by side: `--help` must not import a command to describe it.
 COMMANDS = {
     "orbit": "Find and certify the wingbeat that flies at a given speed.",
-    "uncertainty": "Compute the uncertainty of an orbit's frequency and power.",
+    "uncertainty": "Compute the uncertainty of an orbit's frequency, power and stability.",
     "glide": "Find the steady glides with the wings held still: sink, glide ratio, trim.",
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
     "terms": "Follow the best wingbeat while the share of a term of the air loads rises from 0 to 1.",

@@ -26,6 +26,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
+from wingbeat.cli.stability_causes import print_causes
 from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList
 from wingbeat.orbits.status import Status
@@ -33,10 +34,11 @@ from wingbeat.plots import save_figure, stability_page
 from wingbeat.plots.stability_page import MOVING
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit, solve_orbits
+from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities
 from wingbeat.stability.inputs import check_inputs
 from wingbeat.stability.linear_flight import linearise
 
-_OF_A_FILE = ("source", "inputs", "height", "jumps", "json", "plot")
+_OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "json", "plot")
 
 
 def stability(
@@ -73,6 +75,10 @@ def stability(
             help="Change the inputs alone, without the harmonics that keep the wing from jumping between beats.",
         ),
     ] = False,
+    sensitivities: Annotated[
+        bool,
+        Parameter(negative="", help="Print which numbers of the animal move the spectral radius most."),
+    ] = False,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw the multipliers and modes: .png, .pdf or .svg.")] = None,
 ) -> int:
@@ -84,7 +90,7 @@ def stability(
     Exit code 0: some speeds are certified. 3: no speed is certified.
 
     Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;
-    wingbeat stability pigeon --speed 4:20:2 --plot locus.png
+    wingbeat stability pigeon --speed 4:20:2 --plot locus.png; wingbeat stability pigeon --speed 12 --sensitivities
     """
     beside = given_beside(stability, locals(), *_OF_A_FILE)
     faults = FaultList()
@@ -116,12 +122,17 @@ def stability(
         orbits = _solve([first, *(first.at_speed(one) for one in speeds[1:])], starts, seed)
     answers = [_answer(orbit, inputs, height, jumps) for orbit in orbits]
     found = [answer for answer in answers if "modes" in answer]
+    certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
+    causes = [stability_sensitivities(orbit) if sensitivities else None for orbit in certified]
+    for record, cause in zip(found, causes, strict=True):
+        if cause is not None:
+            record["sensitivities"] = cause.record()
     if plot and found:
         save_figure(stability_page(found), plot)
     if json:
         print(json_format.dumps(answers if len(answers) > 1 else answers[0], indent=2, allow_nan=False))
     else:
-        _print(found)
+        _print(found, causes)
     for answer in answers:
         if "modes" not in answer:
             print(f"{answer['speed']:g} m/s: {answer['status']}: {answer['message']}", file=sys.stderr)
@@ -142,11 +153,11 @@ def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit
         return solve_orbits(problems, starts, seed, progress=progress, in_order=True)
 
 
-def _print(found: Sequence[dict[str, Any]]) -> None:
+def _print(found: Sequence[dict[str, Any]], causes: Sequence[StabilitySensitivities | None]) -> None:
     from rich.table import Table
 
     console = plain_console()
-    for record in found:
+    for record, cause in zip(found, causes, strict=True):
         console.print(headline(record), soft_wrap=True)
         table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
         for mode in record["modes"]:
@@ -158,6 +169,8 @@ def _print(found: Sequence[dict[str, Any]]) -> None:
         console.print()
         console.print(_averaged(record), soft_wrap=True)
         console.print()
+        if cause is not None:
+            print_causes(cause, console)
 
 
 def headline(record: dict[str, Any]) -> str:

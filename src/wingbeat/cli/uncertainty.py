@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_format
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -13,10 +14,16 @@ from wingbeat.cli.influence import in_words, ranked_in_words
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole
 from wingbeat.cli.progress import progress_bar
+from wingbeat.errors import InvalidInputError
+from wingbeat.orbits.problem.path_functions import check_quantities
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.status import Status
-from wingbeat.results.sensitivities import Comparison, sensitivities, uncertainty_by_samples
+from wingbeat.results.sensitivities import QUANTITIES, Comparison, sensitivities, uncertainty_by_samples
 from wingbeat.results.solving import solve_orbit
 from wingbeat.workers.affinity import core_count
+
+_DEFAULT = (*QUANTITIES, "spectral_radius")
 
 
 def uncertainty(
@@ -26,6 +33,14 @@ def uncertainty(
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
+    quantities: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help=f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}.",
+        ),
+    ] = None,
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
     share: Annotated[
         float, Parameter(help="Fraction of every plausible range to sample, around the parameter's value.")
@@ -34,23 +49,26 @@ def uncertainty(
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
-    """Compute the uncertainty of an orbit's frequency and power, and check its first-order estimate.
+    """Compute the uncertainty of an orbit's frequency, power and stability, and check its first-order estimate.
 
     Every number of the species file is drawn uniformly from its plausible range. If `--aero` names a fit, its
     coefficients are drawn from their covariance. The orbit of every draw belongs to the same family.
+    With spectral_radius among the quantities, the command counts the draws whose orbit is stable.
 
     Exit code 0: certified. 3: there is no certified orbit to vary.
 
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
     problem = model.problem(species, speed, set_, climb=climb, minimise=minimise)
+    known = _known(problem, _DEFAULT if quantities is None else quantities)
     orbit = solve_orbit(problem, seed=seed)
     if orbit.status is not Status.CONVERGED:
         Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
         return EXIT_NOT_CERTIFIED
     with progress_bar(f"{samples} draws") as progress:
         found = uncertainty_by_samples(
-            sensitivities(orbit),
+            sensitivities(orbit, known),
+            [quantity.name for quantity in known],
             samples=samples,
             seed=seed,
             fit=model.fit(),
@@ -67,6 +85,15 @@ def uncertainty(
     return EXIT_GOOD
 
 
+def _known(problem: OrbitProblem, names: Sequence[str]) -> list[Quantity]:
+    """Return the quantities of these names, each once; refuse those that the vehicle does not have."""
+    known = list({quantity.name: quantity for quantity in map(named_objective, names)}.values())
+    faults = check_quantities(known, problem.aero.strips, problem.vehicle.drive)
+    if faults:
+        raise InvalidInputError(faults)
+    return known
+
+
 def _processes(samples: int) -> int:
     """Return how many processes are worth starting: one takes as long to start as some hundred draws to solve."""
     return max(1, min(core_count(), samples // 200))
@@ -75,7 +102,8 @@ def _processes(samples: int) -> int:
 def _plain(one: Comparison) -> dict[str, Any]:
     bar = one.first_order
     told = bar._asdict() if one.first_order_holds else bar.ranked()
-    return one._asdict() | {"first_order": told, "first_order_holds": one.first_order_holds}
+    plain = one._asdict() | {"first_order": told, "first_order_holds": one.first_order_holds}
+    return plain | {"stable": None if one.stable is None else one.stable.record()}
 
 
 def _print(one: Comparison, console: Console) -> None:
@@ -97,5 +125,7 @@ def _print(one: Comparison, console: Console) -> None:
         ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
         ("  variance that first order explains", f"{max(one.explained, 0.0):.1%}"),
     )
+    if one.stable is not None:
+        rows += (("the verdict `stable`", str(one.stable)),)
     for label, value in rows:
         console.print(f"{label:48s}{value}", markup=False, highlight=False, soft_wrap=True)

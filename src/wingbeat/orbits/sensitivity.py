@@ -187,10 +187,7 @@ class OptimumSlopes:
             flight = programme.fly(unknowns[4:], unknowns[:4], self._options.sensitivity.fine_blocks)
             stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
         return np.array(
-            [
-                float(np.max(q.of(stroke_map if on else beat)))
-                for q, on in zip(quantities, of_map, strict=True)
-            ]
+            [float(np.max(q.of(stroke_map if on else beat))) for q, on in zip(quantities, of_map, strict=True)]
         )
 
     def _along(

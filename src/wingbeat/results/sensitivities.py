@@ -25,6 +25,7 @@ from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
+from wingbeat.results.stable_share import StableShare, stable_share
 
 QUANTITIES = ("frequency", "mean_positive_power")
 
@@ -229,6 +230,7 @@ class Comparison(NamedTuple):
     standard_error : standard error of `deviation`.
     explained : share of the samples' variance that the first-order estimate of each draw explains.
     certified, drawn : number of certified draws, and number of all draws.
+    stable : of the quantity ``spectral_radius``, how many of the orbits are stable; otherwise None.
     """
 
     first_order: ErrorBar
@@ -238,6 +240,7 @@ class Comparison(NamedTuple):
     explained: float
     certified: int
     drawn: int
+    stable: StableShare | None = None
 
     @property
     def first_order_holds(self) -> bool:
@@ -261,7 +264,8 @@ def uncertainty_by_samples(
     Parameters
     ----------
     found : the sensitivities of the orbit.
-    quantities : names of quantities that were differentiated.
+    quantities : names of quantities that were differentiated; with ``spectral_radius`` among them, stable orbits are
+        counted.
     samples : number of random samples.
     seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.
@@ -294,6 +298,6 @@ def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sens
     error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
     left = values - bar.value - foretold
     explained = 1.0 - float(np.var(left) / np.var(values))
-    return Comparison(
-        bar, float(values.mean()), deviation, float(error), explained, len(values), len(drawn.certified)
-    )
+    count = len(drawn.certified)
+    stable = stable_share(values, count) if bar.quantity == "spectral_radius" else None
+    return Comparison(bar, float(values.mean()), deviation, float(error), explained, len(values), count, stable)

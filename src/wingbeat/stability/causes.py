@@ -1,0 +1,131 @@
+"""What makes an orbit stable: derivatives of its multipliers by every number of the animal."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat.orbits.flight.floquet import multipliers_of
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.sensitivities import Sensitivities, sensitivities
+
+_RADIUS = MAP_QUANTITIES["spectral_radius"]
+
+
+def _entry(place: tuple[int, int], stroke_map: Any) -> Any:
+    return stroke_map[place]
+
+
+_ENTRIES = tuple(MapQuantity(f"stroke_map{place}", functools.partial(_entry, place)) for place in np.ndindex(4, 4))
+
+
+@dataclass(frozen=True)
+class StabilitySensitivities:
+    """Derivatives of an orbit's multipliers by every number it depends on; made by `stability_sensitivities`.
+
+    The wingbeat is solved again for each change, so that the derivatives are those of the optimum.
+
+    Attributes
+    ----------
+    sensitivities : of the spectral radius; its `ranked`, `swing` and `prices` say what moves it.
+    multipliers : Floquet multipliers, the largest modulus first, shape (4,).
+    by_parameter : by the path of a parameter, the derivatives of the four multipliers, per its unit, shape (4,).
+        They are infinite where two multipliers meet.
+    """
+
+    sensitivities: Sensitivities
+    multipliers: np.ndarray
+    by_parameter: dict[str, np.ndarray]
+
+    @property
+    def spectral_radius(self) -> float:
+        """Largest modulus of a multiplier; below 1 disturbances decay."""
+        return self.sensitivities.values[_RADIUS.name]
+
+    def record(self) -> dict[str, Any]:
+        """Return all numbers as a JSON-able dictionary, the most important first; complex numbers become pairs."""
+        found = self.sensitivities
+        return {
+            "spectral_radius": self.spectral_radius,
+            "multipliers": _pairs(self.multipliers),
+            "parameters": [
+                {
+                    "parameter": slope.parameter.path,
+                    "unit": slope.parameter.unit,
+                    "value": slope.parameter.value,
+                    "plausible": None if slope.parameter.plausible is None else list(slope.parameter.plausible),
+                    "spectral_radius": slope.quantities[_RADIUS.name],
+                    "change_to_ends": list(found.swing(slope, _RADIUS.name)),
+                    "multipliers": _pairs(self.by_parameter[slope.parameter.path]),
+                }
+                for slope in found.ranked(_RADIUS.name)
+            ],
+            "prices": {price.parameter.path: price.quantities[_RADIUS.name] for price in found.prices},
+        }
+
+
+def stability_sensitivities(orbit: Orbit, options: SolverOptions = DEFAULTS) -> StabilitySensitivities:
+    """Differentiate the multipliers of an orbit with respect to every number the orbit depends on.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    options : of the solvers.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified, an optimum without derivatives.
+
+    A multiplier moves by ``w^H dA v / (w^H v)``, with its right and left eigenvectors v and w (Magnus 1985, doi
+    10.1017/S0266466600011129). Here dA is the change of the stroke map while the optimum moves along.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> found = wb.stability_sensitivities(orbit)
+    >>> found.sensitivities.ranked("spectral_radius")[0].parameter.path
+    'wing.shoulder.x'
+    """
+    found = sensitivities(orbit, [_RADIUS, *_ENTRIES], options)
+    stroke_map = _matrix(found.values)
+    alone = Sensitivities(
+        found.problem,
+        found.unknowns,
+        [_RADIUS],
+        [found.values[_RADIUS.name]],
+        [_of_radius(slope) for slope in found.slopes],
+        [_of_radius(price) for price in found.prices],
+    )
+    by_parameter = {s.parameter.path: multiplier_slopes(stroke_map, _matrix(s.quantities)) for s in found.slopes}
+    return StabilitySensitivities(alone, multipliers_of(stroke_map), by_parameter)
+
+
+def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """Return how fast the eigenvalues of a matrix move, in the order of `multipliers_of`, shape (4,).
+
+    Parameters
+    ----------
+    stroke_map : the matrix, shape (4, 4).
+    change : its derivative, shape (4, 4).
+    """
+    values, right = np.linalg.eig(stroke_map)
+    moved = np.diag(np.linalg.solve(right, change @ right))
+    order = [int(np.argmin(np.abs(values - one))) for one in multipliers_of(stroke_map)]
+    return moved[order].astype(complex)
+
+
+def _matrix(entries: dict[str, float]) -> np.ndarray:
+    return np.reshape([entries[one.name] for one in _ENTRIES], (4, 4))
+
+
+def _of_radius(slope: Any) -> Any:
+    return slope._replace(quantities={_RADIUS.name: slope.quantities[_RADIUS.name]})
+
+
+def _pairs(values: np.ndarray | Sequence[complex]) -> list[list[float]]:
+    return [[complex(one).real, complex(one).imag] for one in values]

@@ -82,14 +82,15 @@ def steps(name: str, speed: float) -> str:
 def main() -> None:
     parts = [
         "# Convergence\n",
-        "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, all orbits "
-        "have minimum frequency, with the\ndefault wings and bounds, Su-Fan coefficients and the mirrored "
-        "extension. Each is solved from the first start only, so that a column\nfollows one family of orbits. "
-        "Families of lower frequency may exist.\n",
-        "For the first two tables, we flew a certified orbit with fixed steps. The tables give the largest "
-        "difference\nbetween the final state of this flight and the final state of the certifying flight. "
-        "In the tables after these two, *closure* is the largest residual "
-        "when the certifier flies the orbit.\n",
+        "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, each "
+        "orbit has minimum\nfrequency, with the default wings and bounds, Su-Fan coefficients and the "
+        "mirrored extension. Each orbit is solved\nfrom the first start only, so that a column follows one "
+        "family of orbits. Families of lower frequency may exist.\n",
+        "The certifier is the adaptive integrator that flies each orbit again to certify it. For the first "
+        "two tables, we\nflew a certified orbit with fixed steps (RK4: the classical Runge-Kutta method). "
+        "These two tables give the largest\ndifference between the final state of this flight and the final "
+        "state of the certifier's flight. All later tables\nhave a column *closure*: the largest residual of "
+        "the periodicity when the certifier flies the orbit.\n",
     ]
     for title, make in (
         ("Fixed steps against the certifier", steps),

@@ -18,11 +18,11 @@ SPEEDS = (("min_power_speed", "minimum-power speed"), ("max_range_speed", "maxim
 HEAD = """
 ## Better than wing loading alone?
 
-*As predicted* is the scatter of predicted over measured speed about its mean, with nothing else fitted. For
-*fitted*, we fit a factor times a power of the predictor to the measured speed, and give the scatter that is left.
-Each predictor thus has two fitted numbers. *Change* is the relative change of the logarithm of the fitted scatter
-if the predictor replaces wing loading. Its 95 % interval is from {samples} bootstrap samples of the species. A
-decrease of {clearly:.0%} or more counts as better.
+*As predicted* is the scatter of the ratio of predicted to measured speed about the mean of this ratio. Nothing
+else is fitted. For *fitted*, we fit a factor times a power of the predictor to the measured speed, and give the
+scatter that is left. Each predictor thus has two fitted numbers. *Change* is the relative change of the logarithm
+of the fitted scatter if the predictor replaces wing loading. Its 95 % interval is from {samples} bootstrap samples
+of the species. A decrease of {clearly:.0%} or more counts as better.
 
 | predictor of the measured speed | as predicted | fitted | change |
 | --- | --- | --- | --- |

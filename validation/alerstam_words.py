@@ -32,9 +32,9 @@ objective before any comparison with the radar. The tables also hold the positiv
 
 Each bird flies with least power at several speeds. These speeds are multiples of the speed at which a wing of lift
 coefficient 1 carries the bird, so they do not depend on the measured airspeed. The model `paper` has seven
-multiples, from 0.65 to 1.6. The model `animal` has five, from 1.1 to 1.5. If its power, or its power over speed, is
-least at an end of the flown speeds, further speeds follow beyond that end. A parabola through the point of lowest
-power and its two neighbours gives the minimum-power speed. In the same way, power over speed gives the
+multiples, from 0.65 to 1.6. The model `animal` has five, from 1.1 to 1.5. If a bird's power, or its power over
+speed, is least at an end of the flown speeds, further speeds follow beyond that end. A parabola through the point
+of lowest power and its two neighbours gives the minimum-power speed. In the same way, power over speed gives the
 maximum-range speed. Each bird also flies at its measured airspeed, with least power and with minimum frequency.
 
 For `paper`, one batch solves all problems. If a bird's power does not change smoothly with speed, its orbits are
@@ -70,8 +70,8 @@ The columns of the table are:
 - *slope in Re*: the slope of the ratio's logarithm against the logarithm of the Reynolds number, with its 95 %
   interval. The interval is too narrow, because species are not independent.
 
-The last three rows are not predictions of a model; they are there for comparison. Alerstam et al. fitted the two
-laws to these birds. The last row predicts the same speed for all birds, the median of the measured speeds.
+The last three rows are for comparison; they are not predictions of a model. Two of them are laws that Alerstam et
+al. fitted to these birds. The last row predicts the same speed for all birds: the median of the measured speeds.
 
 | measured airspeed compared with | species | ratio | scatter | correlation | within 20 % | slope in Re |
 | --- | --- | --- | --- | --- | --- | --- |
@@ -200,25 +200,27 @@ TAIL = """
 For the model `paper`:
 
 - Nothing was fitted. The model ranks the species by speed, but no better than wing loading alone does. Both
-  predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the coefficients
-  do not depend on the Reynolds number. Measured speeds are not such a multiple: birds with low wing loading fly far
-  faster than a fixed multiple says. The model predicts the airspeed of a species no better than one speed for all
-  birds does.
-- Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight
-  outside that range therefore does not explain the differences by itself.
+  predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the
+  coefficients do not depend on the Reynolds number. Measured speeds are not fixed multiples of that speed: birds
+  with low wing loading fly far faster than a fixed multiple predicts. The model predicts the airspeed of a species
+  no better than one speed for all birds does.
+- Predicted and measured speeds differ most at the Reynolds numbers at which the plate was measured. Flight outside
+  this range of Reynolds numbers therefore does not explain the differences by itself.
 - The air loads offer two possible explanations, and the model `animal` differs from `paper` in both. First, the
   model `paper` has no induced flow. It underestimates the power of slow flight, so both speeds are too low. Second,
   a thick plate has high drag at small angles. The model `paper` overestimates the power of fast flight, and this
   too makes both speeds too low.
-- We did not test two other explanations. Small birds fold their wings between bursts of flapping, which the models
-  cannot do. Migrating birds may not choose their speed for power or range.
-- The minimum frequency is proportional to Pennycuick's law over three decades of mass. That is consistent with
-  the law but hardly confirms it: the law's exponents come from dimensional reasoning, which our model obeys too.
+- We did not test two other explanations. Small birds fold their wings between bursts of flapping. The models
+  cannot fold their wings in this way. Migrating birds may not choose their speed for power or range.
+- The minimum frequency is proportional to Pennycuick's law over three decades of mass. This result is consistent
+  with the law but hardly confirms it, because the law's exponents come from dimensional reasoning, which our model
+  obeys too.
 - The model's orbits of least power have about twice the frequency of live animals. In {leaning} of {count} of these
-  orbits the frequency is at its upper bound. With the measured flap amplitude of the alcids (auks), the frequency
-  of least power is even higher: {low:.0f} to {high:.0f} Hz. Frequency as such does not raise the positive hinge
-  power, but it raises the energy that a muscle needs.
-- The predicted power is several times the measured power. Do not take a power from this model for an animal's.
+  orbits the frequency is at its upper bound. With the flap amplitude fixed at the measured amplitude of the alcids
+  (auks), the frequency of least power is even higher: {low:.0f} to {high:.0f} Hz. Frequency as such does not raise
+  the positive hinge power, but it raises the energy that a muscle needs.
+- The predicted power is several times the measured power. Do not use a power from this model as the power of an
+  animal.
 - The uncertainty of the derived numbers does not explain the differences from measurement. In the table above,
   most derived numbers change either speed by at most about a tenth and power by at most about a quarter. The
   guessed span retraction changes the minimum-power speed most. The table changes one number at a time, for three
@@ -231,9 +233,10 @@ For the model `animal` (values of `paper` in brackets):
 - The median ratio of predicted to measured speed is {range_animal:.2f} ({range_paper:.2f}) for the maximum-range
   speed and {power_animal:.2f} ({power_paper:.2f}) for the minimum-power speed. The predicted maximum-range speed
   rises with wing loading by the exponent {exponent_animal:.2f} ({exponent_paper:.2f}), the measured speed by the
-  exponent {exponent_measured:.2f}. Induced flow and wings of less drag thus {explain}.
-- Both speeds are again nearly fixed multiples of the speed at lift coefficient 1. For nine tenths of the species,
-  the maximum-range speed is {low:.2f} to {high:.2f} ({low_paper:.2f} to {high_paper:.2f}) times that speed.
+  exponent {exponent_measured:.2f}. Induced flow and wings of less drag thus
+  {explain}.
+- Both predicted speeds are again nearly fixed multiples of the speed at lift coefficient 1. For nine tenths of the
+  species, the maximum-range speed is {low:.2f} to {high:.2f} ({low_paper:.2f} to {high_paper:.2f}) times that speed.
 - The positive hinge power at the minimum-power speed is {hinge_animal:.0f} ({hinge_paper:.0f}) W/kg in the median.
 - At the measured airspeed, least power needs {beat_animal:.2f} ({beat_paper:.2f}) times the frequency of
   Pennycuick's law, in the median.
@@ -273,9 +276,9 @@ def _beside(found: list[Row]) -> str:
         off[model] = abs(math.log(numbers[f"range_{model}"])), abs(slopes[0] - slopes[1])
     level, slope = (off[ANIMAL][i] < off[PAPER][i] - 0.05 for i in (0, 1))
     explain = {
-        (True, True): "explain part of the level and part of the exponent",
-        (True, False): "explain part of the level, but not the exponent",
-        (False, True): "explain part of the exponent, but not the level",
-        (False, False): "explain neither the level nor the exponent",
+        (True, True): "explain part of the difference in speed and part of the difference in the exponent",
+        (True, False): "explain part of the difference in speed, but not the difference in the exponent",
+        (False, True): "explain part of the difference in the exponent, but not the difference in speed",
+        (False, False): "explain neither the difference in speed nor the difference in the exponent",
     }[level, slope]
     return BESIDE.format(explain=explain, **numbers)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 INTRODUCTION = """
-`python validation/animal_wings.py` writes this page and computes all its numbers except those of the last
-table. It fits the coefficient model `feathered` to measurements by other people, which are not part of this
-project:
+`python validation/animal_wings.py` writes this page and computes all its numbers except those of the last table.
+It fits the coefficient model `feathered` to two sets of measurements. Other people made these measurements, and
+they are not part of this project:
 """
 SOURCES = (
     """- Nine 3D-printed half wings of a gull in a wind tunnel (github.com/charvey23/UMWTStaticStability). The units
@@ -34,20 +34,20 @@ C_D = least + induced C_L^2 + low_rise ramp(low_onset - a, onset_rounding)
 ```"""
 SIDES = """
 Here a is the angle of attack, and the other symbols are the terms of the table below (`slope` is `lift_slope`).
-The table counts the two onsets from the angle of zero lift: `low_onset` in the formula is `zero_lift_deg` plus
-`low_onset_deg`. The angle of zero lift represents camber. Lift is linear between two different stalls: C_L is
-at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from above. The formulas
-hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a quintic polynomial
-leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its ends. It is a
-guess that a wing acts like a plate from 45 degrees on. `wingbeat fit TABLE --form cambered` fits this form to a
-wing of your own ([how](own_coefficients.md)).
+The table counts the two onsets from the angle of zero lift. In the formula, `low_onset` is therefore
+`zero_lift_deg` plus `low_onset_deg`. The angle of zero lift represents camber. Lift is linear between two
+different stalls: C_L is at most {highest:.2f} with air from below the wing and at least {lowest:.2f} with air from
+above. The formulas hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a
+quintic polynomial leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its
+ends. It is a guess that a wing acts like a plate from 45 degrees on. `wingbeat fit TABLE --form cambered` fits
+this form to a wing of your own ([how](own_coefficients.md)).
 """
 METHOD = """
-We convert each gull wing to aspect ratio {ratio:g} with Prandtl's lifting line, whose downwash angle is
-`C_L / (pi A)` (A: aspect ratio). `fit_curve` then fits lift and profile drag of each wing at the faster
-tunnel speed. Each term is the median of the nine wings, except least drag and induced drag. The rigid prints
-have a least C_D of {lowest:.3f} to {highest:.3f}, the live wings {live:.4f}: a print cannot change its twist
-and has no feathers. We therefore take least drag and induced drag from the live bird.
+We convert each gull wing to aspect ratio {ratio:g} with Prandtl's lifting line, whose downwash angle is `C_L / (pi
+A)` (A: aspect ratio). `fit_curve` then fits lift and profile drag of each wing at the faster tunnel speed. Each
+term is the median of the nine wings, except least drag and induced drag. The least C_D of the rigid prints is
+{lowest:.3f} to {highest:.3f}, and that of the live wings is {live:.4f}: a print cannot change its twist and has no
+feathers. We therefore take least drag and induced drag from the live bird.
 """
 INTERVALS = """
 The intervals come from a bootstrap over wings, and for {live} from a bootstrap over flights and wings. The
@@ -63,10 +63,10 @@ ratio. *Sink* is the least sink speed in units of `sqrt(2 W / (rho S))`, with W 
 area.
 """
 LEFT_OUT_VERDICT = """
-Our goal was an error of at most {goal:.0%} for wings that the fit did not see. **Not every gull wing meets
-it.** Of the {wings} wings, {ratios} meet it in ratio and {sinks} in sink; the root-mean-square errors are
-{of_ratio:.0%} (ratio) and {of_sink:.0%} (sink). The measured ratios themselves differ by {spread:.0%} from
-wing to wing (standard deviation). One set of numbers cannot reproduce these differences.
+Our goal was an error of at most {goal:.0%} for wings that the fit did not see. **Not every gull wing meets it.**
+Of the {wings} wings, {ratios} meet it in ratio and {sinks} in sink; the root-mean-square errors are {of_ratio:.0%}
+(ratio) and {of_sink:.0%} (sink). The measured ratios themselves differ by {spread:.0%} from wing to wing (standard
+deviation). One set of numbers for all wings cannot reproduce these differences.
 """
 OWN_DRAG = """
 Most of the error comes from one term, the least drag (`drag_least`), which differs twofold among the printed
@@ -112,8 +112,8 @@ GUESSES = (
     normal to the wing, as on revolving plates. The model uses the geometric mean of these two values. Use
     this model for hover and slow flight.""",
     """- `feathered-flapping` has the attached flow of `feathered` and the stall of `feathered-revolving`, so
-    it holds for slow and fast flight. It is a guess that this flow and this stall join. Do not use this model
-    for glides, in which wings stall earlier.""",
+    it holds for slow and fast flight. It is a guess that one wing has both this flow and this stall. Do not use
+    this model for glides, because gliding wings stall earlier.""",
     """- `membrane` is largely a guess, because we found no polar of a bat's wing in a source that we could
     access. Only two of its numbers are measured: the camber of 12 species, 6.5 to 9 % (Bullen and McKenzie
     2007, doi 10.1071/ZO07010), and the lift slope of thin plates. A bat in slow flight reaches a C_L of 4.8

@@ -236,7 +236,7 @@ For the model `animal` (values of `paper` in brackets):
   exponent {exponent_measured:.2f}. Induced flow and wings of less drag thus
   {explain}.
 - Both predicted speeds are again nearly fixed multiples of the speed at lift coefficient 1. For nine tenths of the
-  species, the maximum-range speed is {low:.2f} to {high:.2f} ({low_paper:.2f} to {high_paper:.2f}) times that speed.
+  species, the maximum-range speed is {low:.2f} to {high:.2f} ({low_paper:.2f} to {high_paper:.2f}) times as high.
 - The positive hinge power at the minimum-power speed is {hinge_animal:.0f} ({hinge_paper:.0f}) W/kg in the median.
 - At the measured airspeed, least power needs {beat_animal:.2f} ({beat_paper:.2f}) times the frequency of
   Pennycuick's law, in the median.

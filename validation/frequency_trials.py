@@ -22,10 +22,10 @@ TEXT = """# What sets the frequency?
 
 `python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
 speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
-([models](models.md)) does not predict this: its beats of least metabolic power have 14 to 17 Hz up to 10 m/s and
-4 Hz around 13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz], flap amplitude [deg],
-positive power [W/kg of the bird] and activation, the largest share of the flight muscle's fibres that the beat
-uses.
+([models](models.md)) does not predict this: in its beats of least metabolic power, the frequency is 14 to 17 Hz up
+to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz], flap
+amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of the flight muscle's fibres
+that the beat uses.
 
 {table}
 
@@ -40,14 +40,15 @@ uses.
   frequency rises by 0.2 to 1.9 Hz.
 - The beat of least positive power does not have the frequency of live pigeons either: at 10 m/s it is at the bound
   of 30 Hz. The beat of least activation does not have it at any of the three speeds.
-- **Up to 10 m/s the elevators are too weak for any of these beats.** They must stop and raise the wings. If the
-  elevators have three times the mass, activation falls from 8.3 to 3.6 at 6 m/s, and from 2.3 to 1.2 at 10 m/s.
+- **Up to 10 m/s the elevators are too weak for any of these beats.** The elevators must stop the wings at the end
+  of the downstroke and raise them. If the elevators have three times the mass, activation falls from 8.3 to 3.6 at
+  6 m/s, and from 2.3 to 1.2 at 10 m/s.
 
-Three things are missing from the model. We cannot measure the first two:
+Three effects are missing from the model. We do not know how large the first two are:
 
 - Activating and relaxing a muscle costs energy and takes time, so each beat has a fixed cost
   ([muscles](muscles.md)). We found no value of this cost for birds. People who push against a fixed bar 2.5 times
-  a second spend 40 % of their energy on raising the force quickly (van der Zee and Kuo 2021, J Exp Biol
+  a second spend 40 % of their energy on the fast rise of the force (van der Zee and Kuo 2021, J Exp Biol
   224:jeb233965, abstract).
 - Stopping the wing at the end of the downstroke costs the model's elevators more than it costs a live bird's
   elevators. A live bird's wings fold there, and its tendons may store energy.
@@ -57,8 +58,8 @@ Three things are missing from the model. We cannot measure the first two:
   30 Hz, and 0.82 at 5 Hz. At 10 m/s the shares are 0.61 at 17 Hz and 0.72 at 8 Hz. Without the lag, all of the
   power would become thrust.
 
-Each of the three may lower the frequency in slow flight. None of them explains the slow beats around 13 m/s. There
-the optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
+Each of these three effects may lower the frequency in slow flight. None of them explains the slow beats around 13
+m/s. At these speeds the optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
 """
 
 

@@ -102,9 +102,9 @@ def question(sets, holds):
         f"which of {holds.shape[1]} claims",
         f"`wingbeat paper assumptions --sets {len(sets)} --piece {PIECE}` (numerical version {version}, {hours} "
         "core-hours)",
-        f"from {WORDS[int(starts)]} initial guesses, one of them the orbit at the previous speed (if there is one)",
+        f"from {WORDS[int(starts)]} initial guesses",
         *(f"strip at {name} span" for name in STATIONS),
-        f"If the surface explains under {100 * TRUSTED:.0f} %, we do not say that",
+        f"If the surface explains under {100 * TRUSTED:.0f} %, we do not say what the claim depends on",
     ]
 
 
@@ -122,7 +122,7 @@ def orbits_found(sets, holds):
         f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span. The sampled range ends at "
         f"{last:g}",
         f"Of the {spaced(needed)} orbits needed, {percent(found.mean())} % were found",
-        f"in {percent(told.min())} to {percent(told.max())} % of the sets",
+        f"these orbits were found in {percent(told.min())} to {percent(told.max())} % of the sets",
         f"With both mean angles fixed, only {trims['none']} % of the orbits were found; with both free, "
         f"{trims['both']} % were",
         f"With the shoulder in the rear quarter of its range {ahead[0]} % were found, in the front quarter "
@@ -193,9 +193,9 @@ def seldom(sets, holds):
         f"Here *very well* means a mean deviation of at most {percent(AGREES)} %",
         f"Half of the sets deviate by {percent(sets[loaded].median())} % or more from the first reference, or by "
         f"{percent(sets[law].median())} % or more from the second",
-        f'"almost twice the frequency" (bat near {SAMPLE_SPEED:g} m/s): in {percent(twice.mean())} % of sets: in '
-        f"{under(twice, sets.extension_su_fan)['mirrored']} % if the plate's coefficients are mirrored, and in "
-        f"{under(twice, sets.extension_dickinson)['signed']} % if Dickinson's are signed",
+        f'"almost twice the frequency" (bat near {SAMPLE_SPEED:g} m/s): in {percent(twice.mean())} % of sets. '
+        f"The share is {under(twice, sets.extension_su_fan)['mirrored']} % if the plate's coefficients are "
+        f"mirrored, and {under(twice, sets.extension_dickinson)['signed']} % if Dickinson's are signed",
         f"{ahead[False]} % satisfy the claim; of those with the shoulder in the front half, {ahead[True]} % do",
         f'"Power goes as frequency squared": in {of["power-exponent"]} % of sets',
         f"varies by at most {within:g} degrees in a wingbeat: in {of['pitch-range-su-fan']} %",
@@ -227,7 +227,7 @@ def under_one_choice(sets, holds):
     assert ((holds[about_half].mean() - 0.5).abs() < 0.1).all()
     tests = (DOCS / "claims.md").read_text()
     assert "the ratio is between 3 and 5" in tests
-    assert tests.count("ours is within 25 % of it") == len(PEAKS)
+    assert tests.count("our peak power is within 25 % of the paper's") == len(PEAKS)
     of_peaks = PAPER_PEAK_POWER["dickinson"] / PAPER_PEAK_POWER["su-fan"]
     return [
         f"These three claims concern the bat's peak power at {SAMPLE_SPEED:g} m/s",
@@ -236,20 +236,22 @@ def under_one_choice(sets, holds):
         f'"Four times the power": in {of["four-times"]} % of sets ({powers["four-times"]["mirrored"]} % if the '
         f"plate's coefficients are mirrored, {four.min()} to {four.max()} % otherwise)",
         f"The plate's peak of {PAPER_PEAK_POWER['su-fan']:g} W: in {of['peak-power-su-fan']} % of sets "
-        f"({powers['peak-power-su-fan']['mirrored']} % mirrored, {plate.min()} to {plate.max()} % otherwise)",
+        f"({powers['peak-power-su-fan']['mirrored']} % if the plate's coefficients are mirrored, {plate.min()} to "
+        f"{plate.max()} % otherwise)",
         f"Half of the sets need more than {sets['peak-power-su-fan'].median():.0f} W",
         f"Dickinson's {PAPER_PEAK_POWER['dickinson']:g} W: in {of['peak-power-dickinson']} % of sets "
-        f"({fly['clipped-drag']} % clipped-drag, {fly['mirrored']} % mirrored, {fly['signed']} % signed, "
-        f"{fly['signed-drag']} % signed-drag)",
+        f"({fly['clipped-drag']} % with clipped-drag, {fly['mirrored']} % with mirrored, "
+        f"{fly['signed']} % with signed, {fly['signed-drag']} % with signed-drag)",
         f"at -40 degrees the plate's C_D is {signed} if signed and {mirrored} if mirrored. Dickinson's C_D is "
         f"{fly_signed} if signed and {fly_mirrored} if mirrored",
         f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: in {of['bat-agrees']} % of sets",
         f"{agrees[0]} % if the shoulder is in the quarter of its range nearest to the plane of symmetry, "
-        f"{min(agrees[2], agrees[3])} to {max(agrees[2], agrees[3])} % in the outer half",
+        f"{min(agrees[2], agrees[3])} to {max(agrees[2], agrees[3])} % if it is in the outer half",
         f"does not change with speed: in {of['bat-invariant']} % of sets",
         f"A frequency of the bat closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's "
         f"coefficients: in {of['bat-closer-at-speed']} % (at {SAMPLE_SPEED:g} m/s and above)",
-        f"At {slow:g} m/s the models give the bat a similar frequency (the paper says: up to this speed): in "
+        f"up to {slow:g} m/s; we tested {slow:g} m/s",
+        f"At {slow:g} m/s the models give the bat a similar frequency: in "
         f"{of['bat-slow-alike']} % of sets. Above this speed the frequencies diverge: in {of['bat-parts']} %",
         f"make the bat's body pitch less: in {of['less-pitching-bat']} % of sets ({pitching[0]} % with the "
         f"shoulder in the rear quarter of its range, {pitching[3]} % with the shoulder in the front quarter)",

@@ -129,8 +129,9 @@ def argument_claims() -> list[FlightClaim]:
             "small-angles-critical",
             "abstract; discussion",
             "Lift with little drag at small angles of attack saves power and reduces pitching. "
-            "Tested: in the bat's flight with Su-Fan at 10 m/s, Dickinson's C_D would cost extra power. At least "
-            "half of this extra power arises at angles up to 13 deg. Ours: the share that arises there.",
+            "Tested: if Dickinson's C_D replaced Su-Fan's in the bat's flight at 10 m/s, the flight would need "
+            "extra power. At least half of this extra power arises at angles up to 13 deg. Ours: the share that "
+            "arises there.",
             "critical",
             "1",
             small_angles_critical,
@@ -198,8 +199,8 @@ def argument_claims() -> list[FlightClaim]:
             _DISCUSSION,
             "Su-Fan brings the frequencies of both animals closer to the measured ones, most of all at high speed. "
             "The gain is Dickinson's relative error minus Su-Fan's. Tested: its mean at 10 m/s and above is larger "
-            "than its mean below 10 m/s. Ours: the difference of the two means. It is the smallest of three: the "
-            "bat's, and the pigeon's with each of two references.",
+            "than its mean below 10 m/s. Ours: the difference of the two means. There are three such differences, "
+            "one for the bat and one for each of the pigeon's two references; we give the smallest.",
             "> 0",
             "1",
             gains_at_speed,
@@ -217,8 +218,8 @@ def argument_claims() -> list[FlightClaim]:
             "drag-costs-thrust",
             "introduction",
             "Drag measured at low Reynolds number is too large. This may explain why the thrust found for cruising "
-            "bats is low. Tested: in the bat's flight with Su-Fan at 10 m/s, Dickinson's C_D lowers the mean "
-            "forward force. Ours: the change divided by weight.",
+            "bats is low. Tested: if Dickinson's C_D replaces Su-Fan's in the bat's flight at 10 m/s, the mean "
+            "forward force falls. Ours: the change of this force divided by weight.",
             "< 0",
             "1",
             drag_costs_thrust,

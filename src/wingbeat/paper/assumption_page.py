@@ -62,7 +62,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         f"how they treat negative angles of attack. Here we use {len(study.sets)} sets of assumptions. The sets "
         "fill the plausible ranges below uniformly. The total masses of the animals are those of the paper. Each "
         f"set needs {ORBITS} orbits of lowest frequency: the pigeon and the bat, with both coefficient models, at "
-        f"the speeds of the claims. {100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % of these orbits "
+        f"the speeds of the claims. Of these orbits, {100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % "
         "were found and certified.",
         "",
         heading,
@@ -146,7 +146,7 @@ def _apart(study: Judged) -> list[str]:
     never = [claim.id for claim, holds in zip(study.claims, study.holds.T, strict=True) if np.nansum(holds) == 0]
     if never:
         lines.append(f"- no set satisfies any of these: {', '.join(f'`{name}`' for name in never)}")
-    return lines or ["- for any two claims, each of which holds in many sets, there is a set in which both hold"]
+    return lines or ["- for any two claims that each hold in many sets, at least one set satisfies both"]
 
 
 @drawing(font=9.0)

@@ -84,14 +84,15 @@ ASSUMPTIONS = (
     Assumption(
         "shoulder_above",
         "distance of the shoulder above the body's centre of mass, divided by semi-span",
-        "0 in the species files; 0.03 in the same pigeon",
+        "0 in the species files; 0.03 in the pigeon of Harvey et al. 2022",
         0.0,
         0.04,
     ),
     Assumption(
         "shoulder_aside",
         "distance of the shoulder from the plane of symmetry, divided by semi-span",
-        "the paper gives none; 0.10 in the same pigeon: its span is 0.613 m, and each wing is 0.278 m long",
+        "the paper gives none; 0.10 in the pigeon of Harvey et al. 2022, which has a span of 0.613 m and wings of "
+        "0.278 m",
         0.0,
         0.10,
     ),
@@ -141,8 +142,8 @@ ASSUMPTIONS = (
     Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
     Assumption(
         "airspeed",
-        "airspeed that determines a strip's loads: the component across the span only, or also the one along the "
-        "span",
+        "which components of the airspeed determine a strip's loads; only those across the span (planar), or also "
+        "the one along the span (full)",
         "the paper says 'airspeed at each segment'; strip theory uses the component across the span",
         choices=AIRSPEEDS,
     ),

@@ -81,13 +81,14 @@ def markdown(claims: Sequence[Claim]) -> str:
         "# The paper's claims beside our results",
         "",
         "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
-        "directional claim. After the claim, *Tested* says what we tested, and *Ours* says what our number is, "
-        "unless this is plain. The column *ours* gives this number under our default assumptions, the first in the "
-        "list below. A claim *holds* if it holds under every set of assumptions tried, and it *fails* if it "
-        "holds under none. *Holds under* means that it holds under some of them. *By assumption* gives our number "
-        "under each set of assumptions, and whether the claim then holds (yes or no). *No assumption needed* marks "
-        "a claim that we test on printed numbers and formulas alone. If a claim holds, our result is consistent "
-        "with the paper. This does not prove that the authors made the same assumptions.",
+        "directional claim. After the claim, *Tested* says what we tested, and *Ours* says what our number is. "
+        "Both are left out where the claim makes them plain. C_L, C_D and C_M are those of the plate of Su et al. "
+        "unless the claim names another model. The column *ours* gives this number under our default assumptions, "
+        "the first in the list below. A claim *holds* if it holds under every set of assumptions tried, and it "
+        "*fails* if it holds under none. *Holds under* means that it holds under some of them. *By assumption* "
+        "gives our number under each set of assumptions, and whether the claim then holds (yes or no). *No "
+        "assumption needed* marks a claim that we test on printed numbers and formulas alone. If a claim holds, "
+        "our result is consistent with the paper. This does not prove that the authors made the same assumptions.",
         "",
         f"Verdicts of the {len(claims)} claims: {tally}.",
         "",

@@ -61,7 +61,7 @@ def _about_lift() -> list[Claim]:
         tested(
             "lift-peak-angle",
             "results; discussion",
-            "C_L peaks near 40 deg. Tested: within 2 deg. Ours: the angle of the peak.",
+            "C_L peaks near 40 deg. Tested: the peak is within 2 deg of 40 deg. Ours: the angle of the peak.",
             40.0,
             "deg",
             _ALPHA_DEG[top],
@@ -210,7 +210,7 @@ def _about_moment() -> list[Claim]:
         tested(
             "moment-peak",
             "discussion",
-            "C_M peaks near 40 deg. Tested: within 2 deg. Ours: the angle of the peak.",
+            "C_M peaks near 40 deg. Tested: the peak is within 2 deg of 40 deg. Ours: the angle of the peak.",
             40.0,
             "deg",
             peak,
@@ -279,7 +279,8 @@ def _about_both() -> list[Claim]:
             "smaller-lift",
             "discussion",
             "The largest C_L is about 45 % smaller than Dickinson's. Tested: within 5 percentage points. "
-            f"Conversely, Dickinson's is {100 * (lifts[1].max() / lifts[0].max() - 1):.0f} % larger.",
+            f"In the other direction, Dickinson's largest C_L is {100 * (lifts[1].max() / lifts[0].max() - 1):.0f} "
+            "% larger.",
             45.0,
             "%",
             100 * less_lift,
@@ -289,7 +290,8 @@ def _about_both() -> list[Claim]:
             "smaller-drag",
             "discussion",
             "The largest C_D is about 65 % smaller than Dickinson's. Tested: within 5 percentage points. "
-            f"Conversely, Dickinson's is {100 * (drags[1].max() / drags[0].max() - 1):.0f} % larger.",
+            f"In the other direction, Dickinson's largest C_D is {100 * (drags[1].max() / drags[0].max() - 1):.0f} "
+            "% larger.",
             65.0,
             "%",
             100 * less_drag,

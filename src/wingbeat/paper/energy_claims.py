@@ -35,7 +35,7 @@ def peak_power(model: str) -> FlightClaim:
         f"peak-power-{model}",
         "results, energetics",
         f"With {model.title()} the peak power at 10 m/s is {paper:g} W. We read this as the bat's peak power. "
-        "Tested: ours is within 25 % of it.",
+        "Tested: our peak power is within 25 % of the paper's.",
         paper,
         "W",
         test,
@@ -81,12 +81,12 @@ def pitch_range(model: str, bound: bool) -> FlightClaim:
         found = float(np.degrees(evidence.record("bat", model)["body_pitch_range"]))
         return found, found <= paper if bound else abs(found / paper - 1) <= 0.25
 
-    amount, words = ("at most ", "ours is at most this") if bound else ("", "ours is within 25 % of this")
+    amount, words = ("at most ", "at most") if bound else ("", "within 25 % of")
     return FlightClaim(
         f"pitch-range-{model}",
         "results, body pitch",
         f"With {model.title()} body pitch varies by {amount}{paper:g} deg within a wingbeat. We read this as the "
-        f"bat's range at 10 m/s. Tested: {words}.",
+        f"bat's range at 10 m/s. Tested: our range is {words} {paper:g} deg.",
         paper,
         "deg",
         test,

@@ -65,8 +65,8 @@ def experiment_claims() -> list[Claim]:
         untestable(
             "collapse",
             "results, centre of pressure",
-            "The results at the four Reynolds numbers collapse. Ours: how much the formulas vary with Reynolds "
-            "number, which they do not contain.",
+            "The results at the four Reynolds numbers collapse onto one curve. Ours: how much the formulas vary "
+            "with Reynolds number, which they do not contain.",
             "collapse",
             "1",
             0.0,

@@ -81,9 +81,9 @@ def least_frequency(evidence: Evidence) -> TestResult:
 
 
 def bat_slow_alike(evidence: Evidence) -> TestResult:
-    """Return the ratio of the bat's frequency with Dickinson to its frequency with Su-Fan, up to 5 m/s.
+    """Return the bat's frequency with Dickinson divided by that with Su-Fan, up to 5 m/s.
 
-    Of the ratios at all these speeds, the result is the one that is farthest from 1.
+    The result is the ratio that differs most from 1, among the ratios at these speeds.
     """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)

@@ -28,7 +28,7 @@ _SMALL = (
     "'small' now means small compared with the coefficient's own maximum, as the paper uses the word for the drag "
     "of its plate"
 )
-_SEPARATELY = "each animal is now judged separately; before, the worse of the two decided for both"
+_SEPARATELY = "each animal is now judged separately; before, the worse of the two results decided for both animals"
 _IN_LINE = (
     "'in line with' now means that one wing's C_L, at the angle where the other wing's C_L peaks, is at most 5 % "
     "below its own maximum. C_L is flat near its peak, so the earlier limit of 2 degrees between the peaks was too "
@@ -112,7 +112,7 @@ _CLEARER = (
 # Why a claim is worded differently from before, by its present id.
 ASKED_OTHERWISE = {
     **dict.fromkeys(_CLEARER, "the same test in clearer words; a new verdict comes from new orbits"),
-    "pigeon-agrees": "the data that the paper draws were not available, and 6.25 Hz was our own guess",
+    "pigeon-agrees": "the data that the paper plots were not available, and 6.25 Hz was our own guess",
     **{
         f"pigeon-{what}-{by}": _REFERENCE
         for what in ("agrees", "dickinson-off", "closer-at-speed")
@@ -206,7 +206,7 @@ def changes_table(changes: Sequence[Change]) -> list[str]:
     return [
         "## What changed in the verdicts, and why",
         "",
-        f"{len(moved)} verdicts changed, {len(changes) - len(moved)} did not.",
+        f"Compared with an earlier run, {len(moved)} verdicts changed and {len(changes) - len(moved)} did not.",
         "",
         "| claim | before | now | why |",
         "| --- | --- | --- | --- |",

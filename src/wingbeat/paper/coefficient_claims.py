@@ -228,7 +228,7 @@ def _about_moment() -> list[Claim]:
         untestable(
             "moment-measured",
             "results",
-            "The C_M that follows from the formulas agrees with the measured moment. Ours: its largest value.",
+            "The C_M that follows from the formulas agrees with the measured moment. Ours: the largest C_M.",
             "excellent agreement",
             "1",
             moment.max(),
@@ -247,8 +247,8 @@ def _about_moment() -> list[Claim]:
         tested(
             "centre-monotonic",
             "discussion",
-            "The centre of pressure moves back monotonically as the angle grows. Ours: the farthest that it "
-            "returns forward between 1 and 110 deg.",
+            "The centre of pressure moves back monotonically as the angle grows. Ours: the largest distance by "
+            "which it moves forward again between 1 and 110 deg.",
             0.0,
             "chord",
             np.max(np.maximum.accumulate(centre) - centre),

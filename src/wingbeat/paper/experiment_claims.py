@@ -77,7 +77,8 @@ def experiment_claims() -> list[Claim]:
             "introduction; title",
             "Birds and bats fly at chord Reynolds numbers near 40 000, where the fit was made. Tested at each "
             f"speed: the Reynolds numbers of the paper's pigeon and bat are both from {REYNOLDS_FITTED[0]:.0f} to "
-            f"{REYNOLDS_FITTED[1]:.0f}. Ours: the one that is farther from 40 000 on a logarithmic scale.",
+            f"{REYNOLDS_FITTED[1]:.0f}. Ours: of these two numbers, the one that is farther from 40 000 on a "
+            "logarithmic scale.",
             40000.0,
             "1",
             tuple(_reynolds_at(speed) for speed in SPEEDS),

@@ -173,7 +173,7 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     text = paths[0].read_text()
     first, second, third = (claim.id for claim in study.claims[:3])
     assert "`as run`" in text
-    assert f"{100 * 9 / ORBITS:.0f} % of these orbits were found and certified" in text
+    assert f"Of these orbits, {100 * 9 / ORBITS:.0f} % were found and certified" in text
     assert f"no set satisfies both `{first}` and `{second}`" in text
     assert f"no set satisfies any of these: `{third}`" in text
     row = next(line for line in text.splitlines() if line.startswith(f"| `{first}`: {study.claims[0].claim} |"))

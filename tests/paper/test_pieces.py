@@ -87,7 +87,7 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     )
     assert "The orbits took 0.0 core-hours, 3.50 s per set." in page
     certified = sum(int(row.split(",")[len(ASSUMPTIONS)]) for row in joined[1:])
-    assert f"{100 * certified / 42:.0f} % of these orbits were found and certified" in page
+    assert f"Of these orbits, {100 * certified / 42:.0f} % were found and certified" in page
 
 
 @pytest.mark.usefixtures("without_figure")

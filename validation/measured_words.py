@@ -12,24 +12,25 @@ from wingbeat.experiment import FORMS, CurveFit
 
 HEAD = """# Measured wings against the paper's plate
 
-`python validation/measured_wings.py` writes this page and computes every number in and below its tables. The page
-compares wings with the plate whose coefficients Su et al. (arXiv 2302.09602) measured. Other people measured the
-wings; their data are not part of this project:
+`python validation/measured_wings.py` writes this page and computes every number in and below its tables. Su et al.
+(arXiv 2302.09602) measured the coefficients of a plate. The page compares this plate with wings and thin plates
+that other people measured. Their data are not part of this project:
 
 - 3D-printed half wings of a gull, in nine postures of elbow and wrist, each at two tunnel speeds
   (github.com/charvey23/UMWTStaticStability). The source's units are ambiguous. We read its columns CL and CD as
   areas, and the numbers support this reading.
-- A live gliding jackdaw. The forces on its wings, without those on its body, were computed from its wake
+- A live gliding jackdaw. Its wake gave the forces on its wings, without the forces on its body
   (KleinHeerenbrink, Warfvinge and Hedenstrom 2016, doi 10.1242/jeb.132480).
 - Thin plates of small aspect ratio. We read their values by eye from a figure of Pelletier and Mueller 2000
   (J. Aircraft 37:825).
 
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
-A: lift against the angle from zero lift (the gulls' wings are twisted, so their mount angles cannot be compared).
-B: drag against lift. C: lift-to-drag ratio against lift. B and C do not depend on how the angle was measured.
-D: moment about the shoulder (gulls) or about the leading edge (Su-Fan) against normal force; compare only the
-slopes.
+- Panel A shows lift against the angle from zero lift, because mount angles of twisted wings cannot be compared.
+- Panel B shows drag against lift, and panel C the lift-to-drag ratio against lift. Neither depends on how the angle
+  was measured.
+- Panel D shows the moment against normal force. The moment is about the shoulder for gulls and about the leading
+  edge for Su-Fan, so compare only the slopes.
 """
 
 COLUMNS = (
@@ -40,14 +41,14 @@ COLUMNS = (
 NOTES = f"""
 - For the gulls and the thin plates, the table uses the mean of the measurements at each angle.
 - *Lift slope* is a least-squares fit between zero lift and {LINEAR_SHARE:.0%} of the largest lift. It is given
-  with its 95 % interval. The lift curve of the plate of Su et al. is not straight there, so the table gives its
-  mean slope.
+  with its 95 % interval. In this range the lift curve of the plate of Su et al. is not straight, so the table gives
+  the mean slope of the curve.
 - For the drag of the jackdaw, the table uses a fitted parabola, C_D = a + b (C_L - c)^2. We do not use single
-  measurements, because the best of hundreds of scattered lift-to-drag ratios is an outlier. The jackdaw's largest
-  C_L is the largest in steady gliding; the bird did not stall.
-- *Centre* is the point at which the normal force due to a change of angle of attack acts: -dC_M/dC_N below stall.
-  For gulls it is measured in mean aerodynamic chords behind the shoulder, for Su-Fan in chords behind the leading
-  edge.
+  measurements, because they scatter, and the best lift-to-drag ratio of hundreds would be an outlier. The jackdaw's
+  *C_L max* is the largest C_L of its steady glides, in which the bird did not stall.
+- *Centre* is -dC_M/dC_N below stall. If the angle of attack changes, the normal force changes, and this change acts
+  at the centre. For gulls the centre is given in mean aerodynamic chords behind the shoulder, for Su-Fan in chords
+  behind the leading edge.
 - The coefficients of Su-Fan and Dickinson are evaluated from 0 to 60 degrees. A dash means that a value was not
   measured.
 """
@@ -120,9 +121,9 @@ def _meaning(rows: list[Row]) -> list[str]:
         f"- **Drag.** In cruise (C_L {CRUISE[0]:g} to {CRUISE[1]:g}) the plate's lift-to-drag ratio is "
         f"{plate.cruise_ratio:.1f}. With Dickinson's coefficients it is {insect.cruise_ratio:.1f}, for the gulls "
         f"{_between(lambda row: row.cruise_ratio, gulls)} and for the jackdaw's wings {jackdaw.cruise_ratio:.1f}. "
-        f"Measured wings are thus {_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} times "
-        "better than the plate. In steady flight at that lift, the power computed with the plate's wing drag is "
-        "too high by this factor.",
+        f"The ratio of measured wings is thus {_between(lambda row: row.cruise_ratio / plate.cruise_ratio, wings)} "
+        "times that of the plate. If the power of steady flight at that lift is computed with the plate's wing "
+        "drag, it is too high by this factor.",
         "- **Bluntness.** The plate's least drag is "
         f"{_between(lambda row: plate.least_drag / row.least_drag, wings)} times that of the wings and "
         f"{_between(lambda row: plate.least_drag / row.least_drag, thin)} times that of the thin plates. The "
@@ -130,22 +131,21 @@ def _meaning(rows: list[Row]) -> list[str]:
         f"- **Lift.** The plate's largest lift, {plate.lift_max:.2f}, is "
         f"{_between(lambda row: 1 - plate.lift_max / row.lift_max, gulls, '{:.0%}')} below that of the "
         f"gulls ({_between(lambda row: row.lift_max, gulls, '{:.2f}')}). The gulls' data end at a mount angle "
-        "of 25 degrees, soon after their largest lift. Zero lift is at another mount angle for each wing. Measured "
-        f"from zero lift, the gulls' largest lift is at {min(turn):.0f} to {max(turn):.0f} degrees. The plate has "
-        f"its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these data cannot test the "
-        "plate.",
-        f"- **Small angles.** The plate's mean slope is above that of {steeper} of {len(gulls)} gull wings "
-        f"(plate {_slope_of(plate.slope):.1f} per rad, all gulls "
-        f"{_between(lambda row: _slope_of(row.slope), gulls)}) and above those of the "
-        f"thin plates ({_between(lambda row: _slope_of(row.slope), thin)}; "
-        "these have a smaller aspect ratio). "
-        f"Zero lift is at {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} degrees of mount angle for the "
-        "gulls, because of twist and camber, and at 0 for the plate.",
+        "of 25 degrees, soon after their largest lift. Each gull wing has its zero lift at another mount angle. If "
+        f"angles are counted from zero lift, the gulls' largest lift is at {min(turn):.0f} to {max(turn):.0f} "
+        f"degrees. The plate has its largest lift at {plate.lift_max_deg:.0f} degrees. Beyond 25 degrees these "
+        "data cannot test the plate.",
+        f"- **Small angles.** The mean lift slope of the plate is {_slope_of(plate.slope):.1f} per rad, larger "
+        f"than that of {steeper} of {len(gulls)} gull wings (all gulls "
+        f"{_between(lambda row: _slope_of(row.slope), gulls)}). It is also larger than that of the thin plates "
+        f"({_between(lambda row: _slope_of(row.slope), thin)}), which have a smaller aspect ratio. "
+        f"The gulls' zero lift is at mount angles of {_between(lambda row: row.zero_lift_deg or 0.0, gulls)} "
+        "degrees, because of twist and camber. The plate's zero lift is at 0 degrees.",
         f"- **Moment.** The lift due to angle of attack acts {min(postures):.2f} to {max(postures):.2f} chords "
-        f"behind the gulls' shoulder: posture alone moves this point by {max(postures) - min(postures):.2f} "
-        "chords. Between angles of attack of 5 and 60 degrees, the plate's centre of pressure moves by "
-        f"{centre[1] - centre[0]:.2f} chords. A model that gives all postures the same centre of pressure omits "
-        "the larger of these two effects.",
+        "behind the gulls' shoulder. The wing's posture alone moves this point by "
+        f"{max(postures) - min(postures):.2f} chords. The plate's centre of pressure moves by only "
+        f"{centre[1] - centre[0]:.2f} chords between angles of attack of 5 and 60 degrees. So a model that gives "
+        "all postures the same centre of pressure omits the larger of these two effects.",
         f"- **Reynolds numbers.** The gulls were measured at {_thousand(gulls)} thousand, the plate at "
         f"{_thousand([plate])} thousand. Only the jackdaw ({_thousand([jackdaw])} thousand) comes close to the "
         "plate. The difference in drag is partly due to Reynolds number and partly to shape; these data cannot "
@@ -158,13 +158,13 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     lines = [
         "## Which forms these data determine",
         "",
-        "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the form is",
-        "not identified: an interval is wider than its own parameter, a parameter is at a bound of the fit, or",
-        "the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form of",
+        "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the data do",
+        "not determine the form: an interval is wider than its own parameter, a parameter is at a bound of the",
+        "fit, or the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form of",
         "lift is the sum of a sine and an exponential that decays with angle of attack. At negative angles the",
         "exponential grows without bound, so lift and drag of this form are fitted only from 0 degrees up. The",
-        "other three forms are fitted to all measurements; of these three, the best by AICc (a corrected Akaike",
-        "criterion) is in bold.",
+        "other three forms are fitted to all measurements. Among these three, the best by AICc (a corrected",
+        "Akaike criterion) is in bold.",
         "",
         f"| wing | curve | {' | '.join(FORMS)} |",
         "|---|---|" + "---|" * len(FORMS),
@@ -180,13 +180,13 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
     return [
         *lines,
         "",
-        f"Su-Fan's form of lift is identified for {told} of {len(lift)} wings: only angles far beyond stall can "
-        "distinguish the",
+        f"The data determine Su-Fan's form of lift for {told} of {len(lift)} wings, because only angles far beyond "
+        "stall can distinguish the",
         f"exponential from the slow sine. The form `cambered` is the best by AICc for {followed} of the "
         f"{2 * len(lift)} curves. Beyond the",
-        "measurements this form continues with the coefficients of a plate. For a wing measured up to 25 degrees "
-        "on both sides,",
-        "use `cambered`; Dickinson's form is valid only within the measured range.",
+        "measurements this form continues with the coefficients of a plate. If you measured a wing up to 25 "
+        "degrees on both",
+        "sides, use `cambered`. Dickinson's form is valid only within the measured range.",
     ]
 
 

@@ -28,20 +28,21 @@ TEXT = """# Another predictive model of a pigeon
 
 `python validation/parslew.py` writes this page. Parslew and Crowther (2010, J Biomech 43:3191,
 doi 10.1016/j.jbiomech.2010.07.018) and Parslew (2015, J R Soc Interface 12:20140953, doi 10.1098/rsif.2014.0953)
-predict how a pigeon flies with the least mechanical power. Their model is the one closest to ours: it optimises
-the motion of wings with several segments, with air loads and inertia.
+predict how a pigeon flies with the least mechanical power. Of the published models, theirs is the most similar to
+ours. It optimises the motion of wings with several segments, and it includes air loads and inertia.
 
-**We could read only the two abstracts, not the papers.** So we have neither their speeds nor their curves of power
-and frequency, and we cannot say how far their predictions are from measurements. This page tests whether our pigeon
-does what the abstracts say of theirs.
+**We could read only the two abstracts, not the papers.** So we know neither their speeds nor their curves of power
+and frequency, and we cannot say how far their predictions are from measurements. This page tests whether our
+predicted pigeon flies as the abstracts say that their predicted pigeon does.
 
 ## How we flew
 
-We flew the pigeon of the model [`animal`](models.md) with two changes. It minimises mean positive power, because
-their model minimises mechanical power. The tilt of the stroke plane and the span retraction are free as well.
-*Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. Without this limit the
-model spends the least power on fast, small strokes ([muscles](muscles.md)). {certified} of {count} flights are
-certified.
+We flew the pigeon of the model [`animal`](models.md) with two changes. First, we minimise mean positive power,
+because their model minimises mechanical power. Second, the tilt of the stroke plane and the span retraction are
+free parameters.
+*Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. *Frequency free* means
+without this limit. Fast, small strokes then need the least power in our model ([muscles](muscles.md)). Of the
+{count} flights, {certified} are certified.
 
 ![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
 
@@ -53,8 +54,9 @@ certified.
 | --- | --- | --- | --- |
 {statements}
 
-So {sums}. A retraction of {most:g} is the most that we allow. In hover with the frequency free, the stroke plane is
-horizontal ({hover:.0f} degrees from vertical) and the wing stays spread, as the abstract says of hummingbirds.
+{sums}
+A retraction of {most:g} is the most that we allow. In hover with the frequency free, the stroke plane is horizontal
+({hover:.0f} degrees from vertical) and the wing stays spread, as the abstract says of hummingbirds.
 
 Power in hover and climb:
 
@@ -164,12 +166,13 @@ STATEMENTS = (
     ),
     Statement(
         "In hover, flexing the wings costs 20 % more power (2015).",
-        f"{100 * FLEXING_COSTS[0]:.0f} to {100 * FLEXING_COSTS[1]:.0f} % more at one of the two retractions flown",
+        f"{100 * FLEXING_COSTS[0]:.0f} to {100 * FLEXING_COSTS[1]:.0f} % more power at one at least of the two "
+        "retractions that we flew",
         _costly,
     ),
     Statement(
         "The cheapest way to reach an altitude is to climb as steeply as possible (2015).",
-        "power divided by the rate of climb falls as the climb steepens, at 8 m/s forward",
+        "at 8 m/s forward, power divided by the rate of climb falls if the rate of climb rises",
         _steep,
     ),
 )
@@ -184,7 +187,7 @@ def _told(test: Callable[[pd.DataFrame], tuple[str, bool | None]], table: pd.Dat
 def _sum(name: str, table: pd.DataFrame) -> str:
     verdicts = [one.test(table)[1] for one in STATEMENTS]
     told = [verdict for verdict in verdicts if verdict is not None]
-    return f"{sum(told)} of the {len(told)} statements that can be tested hold with the frequency {name}"
+    return f"With the frequency {name}, {len(told)} statements can be tested, and {sum(told)} of these hold."
 
 
 def _powers(limited: pd.DataFrame, free: pd.DataFrame) -> Iterator[str]:
@@ -234,7 +237,7 @@ def page(table: pd.DataFrame, figure: Path, highest: float) -> str:
     )
     spread = _rows(free, "hover")
     return TEXT.format(
-        sums=", and ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
+        sums=" ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
         most=table["retraction"].max(),
         hover=spread[spread["held"].isna()]["from_vertical_deg"].iloc[0],
         highest=highest,

@@ -36,16 +36,18 @@ TEXT = """# Which numbers would a better prediction need?
 ([whole flights](whole_flights.md)). Do they differ because numbers of the animal are uncertain? And which number
 would be worth measuring better?
 
-We drew {sets} sets of numbers: {drawn}. Each set draws all numbers of the animal, its tail, its muscle and its
-wing's coefficients at once, each evenly within the range that its source gives. The speed is drawn, too. The model
-[`animal`](models.md) flies each set from two starts: the stock wingbeat, and the animal's own best flight at the
-nearest speed of the whole flights. If both flights are certified, the one with less metabolic power counts.
-{certified} sets have a certified flight; in {own} of them it started from the animal's own flight.
+We drew {sets} sets of numbers: {drawn}.
+A set holds all numbers of the animal, of its tail, of its muscle and of its wing's coefficients, and a speed. Each
+number is drawn evenly from the range that its source gives. We flew each set with the model
+[`animal`](models.md) from two starts: the stock wingbeat, and the best flight of the species' own numbers at the
+nearest speed of the [whole flights](whole_flights.md). If both starts lead to a certified flight, we keep the one
+with less metabolic power. For {certified} sets we found a certified flight.
+For {own} of these sets, the flight that we kept started from the flight of the species' own numbers.
 
 ![Predicted over measured values for each quantity and band of speeds]({figure})
 
-*Bars: 10th to 90th percentile of the certified flights, with the median as a point. Shaded: ratios at which a
-prediction would agree if each measured range consisted of its middle alone.*
+*Bars: 10th to 90th percentile of the certified flights, with the median as a point. Shaded: the ratios at which a
+prediction would agree if the measurement were a single value, the middle of the measured range.*
 
 {table}
 
@@ -58,27 +60,28 @@ correlations of up to {chance:.2f} by chance.
 {findings}
 
 Two starts do not find the best family of wingbeats for every set. Jumps between families add scatter that no number
-explains. Ranges are those of the species files and of the wings' coefficients, and they are not probabilities.
+explains. The ranges are those of the species files and of the wings' coefficients. They are ranges, not probability
+distributions.
 """
 FINDINGS = """## What this says
 
 - **Uncertain numbers do not explain the frequencies.** Few sets come near a measured frequency, or near the law for
-  birds in cruise. The median prediction is two to four times as high. {least:.0f} % of the certified flights beat
-  with the smallest flap amplitude that the species files allow, 5 degrees. So the cause is probably in the model;
-  [what sets the frequency](frequency_trials.md) names the lag of the wake.
+  birds in cruise. The median prediction is two to four times the measured frequency or the law's frequency. In
+  {least:.0f} % of the certified flights, the flap amplitude is the smallest that the species files allow, 5
+  degrees. So the cause is probably in the model; [what sets the frequency](frequency_trials.md) names the lag of the wake.
 - **In slow flight the place of the shoulder matters most.** The distance of the shoulder from the plane of symmetry
   (`wing.shoulder.y`) goes with {slow:.0f} % of the scatter of the pigeon's frequency near 4.5 m/s. Below 7 m/s the
   pigeon's median is {near:.0f} Hz where this distance is less than 1 cm, and {far:.0f} Hz where it is more than
   2 cm. Wings whose shoulders are far apart can flap higher before they cross the plane. In {crossed:.0f} % of all
-  sets the shoulder is beyond the plane. None of these sets has a certified flight, because such a wing cannot stay
-  on its own side. These sets exist because a species file gives one range for all three coordinates of the
-  shoulder. A measured position of the shoulder would remove these sets and this part of the scatter.
+  sets the shoulder is on the wrong side of the plane. None of these sets has a certified flight, because such a
+  wing cannot stay on its own side. These sets exist because a species file gives one range for all three
+  coordinates of the shoulder. A measured position of the shoulder would remove these sets and this part of the scatter.
 - **Powers mostly agree.** 78 to 91 % of the flights agree with the measured powers. The mass of the muscle, and how
-  far the wing folds and retracts in the upstroke, move the cockatiel's power most: measure these first. The
-  cockatiel's efficiency depends on the curvature and the largest strain rate of the muscle. In no set is the
-  predicted efficiency within a factor of 2 of the measured one.
-- **Two starts matter.** In {own:.0f} % of the certified sets the better flight starts from the animal's own best
-  flight.
+  far the wing folds and retracts in the upstroke, move the cockatiel's power most. Measure these numbers first. The
+  cockatiel's efficiency depends most on the curvature and the largest strain rate of the muscle. In no set is the
+  predicted efficiency within a factor of 2 of the measured efficiency.
+- **Two starts matter.** In {own:.0f} % of the certified sets, the flight that we kept started from the flight of
+  the species' own numbers.
 """
 
 

@@ -68,14 +68,16 @@ FINDINGS = """## What this says
 - **Uncertain numbers do not explain the frequencies.** Few sets come near a measured frequency, or near the law for
   birds in cruise. The median prediction is two to four times the measured frequency or the law's frequency. In
   {least:.0f} % of the certified flights, the flap amplitude is the smallest that the species files allow, 5
-  degrees. So the cause is probably in the model; [what sets the frequency](frequency_trials.md) names the lag of the wake.
+  degrees. So the cause is probably in the model; [what sets the frequency](frequency_trials.md) names the lag of
+  the wake.
 - **In slow flight the place of the shoulder matters most.** The distance of the shoulder from the plane of symmetry
   (`wing.shoulder.y`) goes with {slow:.0f} % of the scatter of the pigeon's frequency near 4.5 m/s. Below 7 m/s the
   pigeon's median is {near:.0f} Hz where this distance is less than 1 cm, and {far:.0f} Hz where it is more than
   2 cm. Wings whose shoulders are far apart can flap higher before they cross the plane. In {crossed:.0f} % of all
   sets the shoulder is on the wrong side of the plane. None of these sets has a certified flight, because such a
   wing cannot stay on its own side. These sets exist because a species file gives one range for all three
-  coordinates of the shoulder. A measured position of the shoulder would remove these sets and this part of the scatter.
+  coordinates of the shoulder. A measured position of the shoulder would remove these sets and this part of the
+  scatter.
 - **Powers mostly agree.** 78 to 91 % of the flights agree with the measured powers. The mass of the muscle, and how
   far the wing folds and retracts in the upstroke, move the cockatiel's power most. Measure these numbers first. The
   cockatiel's efficiency depends most on the curvature and the largest strain rate of the muscle. In no set is the

@@ -17,11 +17,16 @@ uv run wingbeat orbit pigeon --speed 12 -o pigeon.nc
 uv run --extra uvlm wingbeat compare pigeon.nc --with uvlm --plot lift.png
 ```
 
-Both codes give the force on the wings alone, in world axes (thrust forward, lift up), and the power that the wings
-give to still air: minus the force times the velocity of the wing. We evaluate our loads four times on the motion
-of the orbit: with the measured coefficients alone, with `--unsteady thin-aerofoil` (rotation, added mass), with
-`--inflow momentum`, and with both. Each orbit is the one of lowest frequency, solved with the Su-Fan coefficients
-alone.
+Both codes give the force on the wings alone, in world axes: thrust is forward, lift is up. Both also give the power
+that the wings give to still air. This power is minus the force times the velocity of the wing. We evaluate our loads
+four times on the motion of the orbit:
+
+- with the measured coefficients alone;
+- with `--unsteady thin-aerofoil`, which adds rotation and added mass;
+- with `--inflow momentum`, which adds induced flow;
+- with both options.
+
+Each orbit is the orbit of lowest frequency. It was solved with the Su-Fan coefficients alone.
 
 ## The result
 
@@ -30,10 +35,10 @@ alone.
 - *lift delay*: the delay of the lattice's lift behind ours, as a fraction of the beat; a negative number means that
   the lattice's lift is earlier.
 - *rms / weight*: root mean square over the beat of the difference between the two lifts, divided by the weight.
-- *rms / lattice*: the same root mean square, divided by that of the lattice's lift.
-- *beyond 15 deg*: the share of strips, averaged over the beat, at which the angle of attack in our model exceeds 15
-  degrees. In a vortex lattice the flow is attached at any angle, so beyond 15 degrees the lattice must be wrong.
-  The lattice therefore checks our loads only if this share is small.
+- *rms / lattice*: the same root mean square, divided by the root mean square of the lattice's lift.
+- *beyond 15 deg*: the share of strips whose angle of attack in our model exceeds 15 degrees, averaged over the
+  beat. In a vortex lattice the flow is attached at any angle, so beyond 15 degrees the lattice must be wrong. The
+  lattice therefore checks our loads only if this share is small.
 
 ![lift and thrust by both codes](second_opinion.png)
 
@@ -59,46 +64,50 @@ Pigeon at 12 m/s. a: lift, b: thrust. The lower panels show the share of strips 
 ## How well the lattice is converged
 
 The lattice uses velocities from the previous step, so its loads are late by up to a step. Its discretisation error
-is proportional to the size of the panels. `wingbeat compare` therefore computes two lattices, one with half as many
-panels in each direction and half as many steps as the other. It extrapolates the results to panels and steps of
-zero size. The next table gives extrapolated results for the pigeon at 12 m/s. Each row names the finer of its two
-lattices:
+is proportional to the size of the panels. `wingbeat compare` therefore computes two lattices: the coarser one has
+half as many panels in each direction and half as many steps as the finer one. From the results of both, it
+extrapolates to panels and steps of zero size. The next table gives extrapolated results for the pigeon at 12 m/s.
+Each row names the finer of its two lattices:
 
 {convergence}
 
-The default, {default}, differs from the finest by {errors}. A third beat
-changes the results by 0.1 %, because in forward flight the wake is soon left behind. For the bat at 5 m/s it
-changes them by 0.4 %. We measured the convergence with panels and steps for the pigeon only.
+The default is {default}. Its results differ from those of the finest lattice by
+{errors}. A third beat changes the results by only 0.1 %, because in forward
+flight the wings soon leave the wake behind. For the bat at 5 m/s it changes them by 0.4 %. We measured the
+convergence with panels and steps for the pigeon only.
 
-The tests contain two cases with known results. A steady plate of aspect ratio 6 at 3 degrees has the lift of a
-lifting line within 3 %. A plate of large aspect ratio that heaves at a reduced frequency of 0.31 has 1.07
-times Theodorsen's lift, and the phase of the lift agrees within 1 degree. The excess of lift remains when panels
-and steps are refined further, so it is a property of this lattice.
+The tests contain two cases with known results. For a steady plate of aspect ratio 6 at 3 degrees, the lattice's
+lift agrees with lifting-line theory within 3 %. For a plate of large aspect ratio that heaves at a reduced
+frequency of 0.31, the lattice's lift is 1.07 times Theodorsen's lift, and the phases of the two lifts agree within
+1 degree. The excess of lift remains when panels and steps are refined further, so it is a property of this
+lattice.
 
 ## The version
 
-wingbeat requires exactly PteraSoftware 5.0.0. PteraSoftware has no movement in which a wing flaps, pitches, twists,
-sweeps, folds and shortens while the body heaves and pitches. We therefore supply the panels of every step. For this
-we use PteraSoftware's private class of panels, and derive our own classes from its wing and its movement. Another
-version of PteraSoftware may change these three classes. Version 5.1.0 requires an older MuJoCo than our tests do.
+wingbeat requires exactly PteraSoftware 5.0.0. PteraSoftware has no movement in which a wing flaps, pitches,
+twists, sweeps, folds and shortens while the body heaves and pitches. We therefore supply the panels of every step.
+For this we use PteraSoftware's private class of panels, and derive our own classes from its classes of a wing and
+of a movement. Another version of PteraSoftware may change these three classes. Version 5.1.0 requires an older
+MuJoCo than our tests do.
 """
 
 
 READING = """
 
-**In none of these flights does the lattice check the whole beat**: averaged over the beat, {0:.0%} to {1:.0%} of
+**The lattice does not check the whole beat in any of these flights**: averaged over the beat, {0:.0%} to {1:.0%} of
 the strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the
-leading edge and no profile drag. For the same motion its power is {2:.0%} to {3:.0%} of ours with the coefficients
-alone. Its mean thrust is large, while ours is about zero.
+leading edge and no profile drag. For the same motion the lattice's power is {2:.0%} to {3:.0%} of our power with the
+coefficients alone. The lattice's mean thrust is large, while ours is about zero.
 
 **Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
-beyond 15 degrees: the pigeon at 16 m/s, and the pigeon with at most 45 degrees of flap amplitude. For the pigeon at
-12 m/s and for the bat, these terms change the difference of the lifts by a few percent. For the pigeon at 8 m/s,
-they increase the difference. They improve neither thrust nor power. In an earlier trial of these terms, the
-difference fell from 0.37 to 0.14 for a pigeon with 45 degrees of amplitude. Here it falls as well, but by less.
+beyond 15 degrees: the pigeon at 16 m/s, and the pigeon whose flap amplitude is at most 45 degrees. For the bat,
+and for the pigeon at 12 m/s without this limit of the amplitude, the terms change the difference of the lifts by a
+few percent. For the pigeon at 8 m/s, the terms increase the difference. They improve neither thrust nor power. In
+an earlier trial of these terms, the difference fell from 0.37 to 0.14 for a pigeon with 45 degrees of amplitude.
+Here the difference falls as well, but by less.
 
 **Inflow** alone reduces our lift on the same motion. *rms / lattice* then increases or stays the same. The
-coefficients are those of a finite plate and already include most of its induced flow.
+coefficients were measured on a finite plate and already include most of the plate's induced flow.
 """
 
 

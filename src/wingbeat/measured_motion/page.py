@@ -17,19 +17,19 @@ docstring of `wb.read_strip_case` describe its files.
 ## What is compared
 
 - **Rows.** Each row is a coefficient model with a choice of terms. `thin-aerofoil` is rotation, added mass and
-  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each choice has a row without momentum inflow and
-  one with it. Rows with inflow or lag need a model that states its aspect ratio.
-- **Recommended.** The rule below chooses one row from the Reynolds number, the reduced frequency, the kind of wing
-  and the motion. It never sees the measured force, so the recommended row is not always the closest.
+  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each choice has one row without momentum inflow and
+  one row with momentum inflow. Rows with inflow or lag need a model that states its aspect ratio.
+- **Recommended.** The rule below recommends one row. It uses the Reynolds number, the reduced frequency, the kind
+  of wing and the motion. It never sees the measured force, so the recommended row is not always the closest.
 - **mean** is the computed mean force divided by the measured mean force, and **peak** is the largest computed force
   divided by the largest measured force.
 - **rms** is the root mean square of the difference between the two forces, divided by the weight. For **rms about
-  mean**, we first subtract from each force its own mean, and then divide the rms of the difference by the rms of
-  the measurement.
+  mean**, we first subtract from each force its own mean. We then divide the rms of the difference by the rms of
+  the measured force.
 - **lag** is the delay of the computed force behind the measured one, as a fraction of the beat.
 - **power** is the mean power that the wings give to the air.
-- The **best sine** is a mean and a sine at the beat's frequency, fitted to the measured force itself. A row that is
-  farther from the measurement than the best sine explains little.
+- The **best sine** is a constant plus a sine at the beat's frequency, both fitted to the measured force itself. A
+  row that is farther from the measurement than the best sine explains little.
 
 ## The rule
 
@@ -37,9 +37,9 @@ docstring of `wb.read_strip_case` describe its files.
    an insect with rigid wings, and any other flyer as a bird with feathered wings.
 2. Below a Reynolds number of 10 000 the leading-edge vortex of a revolving wing stays attached, on wings of
    insects and hummingbirds alike ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)). The
-   rule chooses `dickinson`, a polar of revolving wings. It already includes induced flow.
-3. Above this Reynolds number, the rule chooses the model named after the kind of wing if there is one, and
-   otherwise the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
+   rule chooses `dickinson`, a polar of revolving wings. This polar already includes induced flow.
+3. Above this Reynolds number, the rule chooses the model named after the kind of wing. If there is no such model,
+   it chooses the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
    measured on revolving wings of the same kind.
 4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
    (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
@@ -50,8 +50,8 @@ docstring of `wb.read_strip_case` describe its files.
    - the speed is at least twice the induced speed of hover;
    - the flow is attached for at least 90 % of beat and wing area. Flow counts as attached if the angle of attack,
      computed from the motion alone, is below the angle of the polar's largest lift.
-6. In slow flight the polar of a finite wing does not include the right induced flow. The rule then adds momentum
-   inflow if the model states its aspect ratio.
+6. In slow flight the induced flow in the polar of a finite wing is not the right one. If the model states its
+   aspect ratio, the rule then adds momentum inflow.
 
 """
 
@@ -59,9 +59,10 @@ _TAIL = """## Derivatives of measured data
 
 Added mass needs accelerations, and measured positions are noisy. Rates of change are therefore the slopes of a
 cubic smoothing spline. Generalised cross-validation ([Craven and Wahba 1979](https://doi.org/10.1007/BF01404567))
-chooses the spline's stiffness, one value for all strips. Exact data pass unchanged, and the first four harmonics of
-the beat are never smoothed away. If a motion repeats, the spline also uses frames of the neighbouring beats. If
-not, rates at the first and last frames are less certain: exclude these frames with `from` and `to` in the case.
+chooses the spline's stiffness, one value for all strips. The spline leaves data without noise unchanged, and it
+never smooths away the first four harmonics of the beat. If a motion repeats, the spline also uses frames of the
+neighbouring beats. If a motion does not repeat, rates at its first and last frames are less certain. Exclude these
+frames with `from` and `to` in the case.
 
 Velocities in a case are those of the wing's material through still air. If a case has none, wingbeat differentiates
 the positions. If the positions do not advance with the animal, wingbeat takes them as measured in a wind tunnel and
@@ -69,25 +70,25 @@ adds the flight speed.
 
 ## The lag of the wake
 
-When the lift of a wing changes, the wing sheds vorticity, and this wake slows the change. Each strip has the two
-states of Jones's form of Wagner's function (Jones 1940, NACA Report 681). The downwash at three quarters of the
-chord drives these states; past the angle of largest lift, the polar's lift drives them instead. The wake moves the
-air at the strip, and the angle of attack in this moving air gives the coefficients. With lift `2 pi sin(alpha)`,
-the result is Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too. In any other motion,
-the wake starts as in steady flight.
+When the lift of a wing changes, the wing sheds vorticity into its wake, and the wake delays the change of lift.
+Wagner's function describes this delay; Jones (1940, NACA Report 681) writes it as two states, and each strip has
+two such states. The downwash at three quarters of the chord drives these states; past the angle of largest lift,
+the polar's lift drives them instead. The wake moves the air at the strip, and the angle of attack in this moving
+air gives the coefficients. With lift `2 pi sin(alpha)`, the result is Theodorsen's lift with his C(k). In a motion
+that repeats, the states repeat too. In any other motion, the wake starts as in steady flight.
 
 The lag, like rotation and added mass, is computed for a wing section. A whole wing lags less than its sections:
 [air loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## Whole flights
 
-`wingbeat validate pigeon` predicts flights instead of computing loads on a given motion: see
-[whole flights](whole_flights.md).
+`wingbeat validate pigeon` predicts flights; it does not compute loads on a given motion. See [whole
+flights](whole_flights.md).
 
 ## What all rows leave out
 
-No row includes the delay of stall in fast pitching. In the computation, strips do not influence each other, and the
-fore wing and the hind wing do not influence each other.
+No row includes the delay of stall in fast pitching. No row includes an influence of one strip on another, or of
+the fore wing and the hind wing on each other.
 """
 
 

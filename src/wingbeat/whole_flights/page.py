@@ -16,19 +16,20 @@ _FIT = (
 
 _SUMMARY = """## What the comparisons say
 
-- **Power agrees best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives
-  54 to 85 W/kg from 7 to 11 m/s, within the 40 to 120 W/kg that were measured over all speeds. At 3 and 14 m/s the
-  predicted power is too high. Curves of power are U-shaped. The predicted minimum is at 9 m/s for the cockatiel
-  (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
+- **Power agrees best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives 54
+  to 85 W/kg from 7 to 11 m/s, within the 40 to 120 W/kg that were measured over all speeds. At 3 and 14 m/s the
+  predicted power is too high. The predicted curves of power against speed are U-shaped. The predicted minimum is
+  at 9 m/s for the cockatiel (measured: 10 m/s) and at 12 m/s for the pigeon (estimated: 8 to 9 m/s).
 - **Frequency agrees worst.** In slow flight the predicted frequency is about twice that of live animals. At medium
   speed, the predicted frequencies of pigeon and zebra finch are about half of those of live animals. No
   single number of the muscle explains these differences ([what sets the frequency](frequency_trials.md)).
-- **The predicted murre and puffins beat twice as fast as measured**, with smaller amplitudes. Their wings are
-  small. To carry the weight at 16 m/s without flapping, they need a mean lift coefficient of 1.0 to 1.25, and our
-  gliding wings stall at 1.4. Perhaps the puffins flew faster than the 14 to 18.6 m/s that the authors of the
-  measurements assume. We have not tested that.
+- **The predicted murre and puffins beat twice as fast as measured**, and their amplitudes are smaller than
+  measured. Their wings are small. To carry the weight at 16 m/s without flapping, they need a mean lift
+  coefficient of 1.0 to 1.25, and our gliding wings stall at 1.4. Perhaps the puffins flew faster than the 14 to
+  18.6 m/s that the authors of the measurements assume. We have not tested that.
 - **The predicted muscle is too efficient**: its efficiency is 0.5. The measured or estimated efficiency is 0.06 to
-  0.11. Measured metabolic power includes the rest of the body and the recovery of the muscle, and ours does not."""
+  0.11. The measured metabolic power includes the rest of the body and the recovery of the muscle. The predicted
+  metabolic power includes neither."""
 
 
 _RATIO = " *Ratio* is the prediction divided by the middle of the measured range."

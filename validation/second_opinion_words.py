@@ -18,8 +18,8 @@ uv run --extra uvlm wingbeat compare pigeon.nc --with uvlm --plot lift.png
 ```
 
 Both codes give the force on the wings alone, in world axes: thrust is forward, lift is up. Both also give the power
-that the wings give to still air. This power is minus the force times the velocity of the wing. We evaluate our loads
-four times on the motion of the orbit:
+that the wings give to still air. This power is minus the force times the velocity of the wing. We evaluate our
+loads four times on the motion of the orbit:
 
 - with the measured coefficients alone;
 - with `--unsteady thin-aerofoil`, which adds rotation and added mass;
@@ -96,8 +96,8 @@ READING = """
 
 **The lattice does not check the whole beat in any of these flights**: averaged over the beat, {0:.0%} to {1:.0%} of
 the strips are beyond 15 degrees. The codes differ most in thrust and power. The lattice has full suction at the
-leading edge and no profile drag. For the same motion the lattice's power is {2:.0%} to {3:.0%} of our power with the
-coefficients alone. The lattice's mean thrust is large, while ours is about zero.
+leading edge and no profile drag. For the same motion the lattice's power is {2:.0%} to {3:.0%} of our power
+with the coefficients alone. The lattice's mean thrust is large, while ours is about zero.
 
 **Rotation and added mass** bring our lift clearly closer to the lattice's in the flights with the smallest share
 beyond 15 degrees: the pigeon at 16 m/s, and the pigeon whose flap amplitude is at most 45 degrees. For the bat,

@@ -170,7 +170,7 @@ def _print(found: Validation) -> None:
             numbers = [getattr(one, key) for key in known.values()]
             table.add_row(*_cells(row, numbers), style="bold green" if row.recommended else "")
         console.print(table)
-    console.print(f"* recommended: {found.reason}")
+    console.print(f"* marks the recommended row. {found.reason}")
     said = found.to_dict()
     for axis, label in (("fz", "upward force"), ("fx", "forward force")):
         sine, noise = said["null_model"][axis], said["floor"][axis]

@@ -3,26 +3,30 @@
 The rule never sees a measured force. It follows from what is known of the flow, not from scores:
 
 1. The case names the kind of wing. If it does not, a flyer below 2.5 g whose wings work at Reynolds numbers below
-   7000 counts as an insect with rigid wings, any other as a bird with feathered wings.
+   7000 counts as an insect with rigid wings, any other flyer as a bird with feathered wings.
 2. Below a Reynolds number of 10 000 the vortex on the leading edge of a wing that turns about its root stays
    attached, on wings of insects and hummingbirds alike (Usherwood and Ellington 2002, doi
    10.1242/jeb.205.11.1565). The rule takes the polar of a revolving wing, `dickinson`, which includes the induced
    flow.
-3. Above it, the rule takes the model named after the kind of wing (`feathered`, `membrane`), and the plate,
-   `su-fan`, for a rigid wing. In slow flight, below twice the induced speed of hover, a wing moves like a revolving
-   one. The rule then prefers a model of revolving wings of the same kind (`feathered-revolving`), because a
-   revolving wing stalls later and its polar includes the induced flow.
+3. Above this number, the rule takes the model named after the kind of wing (`feathered`, `membrane`). For a rigid
+   wing it takes the plate, `su-fan`. In slow flight, below twice the induced speed of hover, a wing moves like a
+   revolving wing. The rule then prefers a model of revolving wings of the same kind (`feathered-revolving`),
+   because a revolving wing stalls later and its polar includes the induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
    section 8.2, draws the line between 0.05 and 0.2). The rule adds rotation and added mass.
 5. Changes of lift leave a wake behind. Above a reduced frequency of 0.1 this wake is near enough to reduce the
-   changes of lift (Theodorsen 1935, NACA Report 496: by 15 % at a reduced frequency of 0.1, by 38 % at 0.5).
+   changes of lift: by 15 % at a reduced frequency of 0.1, and by 38 % at 0.5 (Theodorsen 1935, NACA Report 496).
    Theodorsen assumes a straight wake that stays behind the flyer, and a wing whose lift rises with its angle of
-   attack. So the rule adds the lag of the wake on three conditions: the model states an aspect ratio, as models
-   measured in straight flow do; the speed is at least twice the induced speed of hover; and for nine tenths of the
-   beat, weighted by area, the angle of attack of the motion is below that of the polar's largest lift. The theory
-   has no upper limit of the reduced frequency.
-6. The polar of a finite wing includes an induced flow of W/(2 rho A U), which is that of momentum theory in fast
-   flight. In slow flight momentum theory gives another induced flow, so the rule adds momentum inflow if the model
+   attack. So the rule adds the lag of the wake if three conditions are met:
+
+   - the model states an aspect ratio, as models measured in straight flow do;
+   - the speed is at least twice the induced speed of hover;
+   - for nine tenths of the beat, weighted by area, the angle of attack is below the angle of the polar's largest
+     lift. Only the motion determines this angle of attack.
+
+   The theory has no upper limit of the reduced frequency.
+6. The polar of a finite wing includes an induced flow of W/(2 rho A U). Momentum theory gives the same value in
+   fast flight and another one in slow flight. In slow flight the rule therefore adds momentum inflow if the model
    states its aspect ratio.
 """
 
@@ -58,7 +62,8 @@ class Regime:
     ----------
     wing : "feathered", "membrane" or "rigid".
     guessed : whether the kind of wing was guessed.
-    speed : mean speed of the quarter chords through the air across the span, weighted by area [m/s].
+    speed : mean speed of the quarter chords through the air, without the component along the span, weighted by area
+        [m/s].
     chord : mean chord, weighted by area [m].
     reynolds : Reynolds number of that chord at that speed.
     reduced_frequency : ``pi f c / U`` with the same chord and speed.
@@ -115,10 +120,10 @@ def wanted_model(regime: Regime, names: list[str]) -> str:
 
 
 def attached_share(case: StripCase, motion: StripMotion, model: CoefficientModel) -> float:
-    """Return the share of the compared time in which the angle of attack is below that of largest lift.
+    """Return the share of the compared time in which the angle of attack is below the angle of largest lift.
 
-    The share is weighted by the strips' areas. The angle is that of the motion through still air; the measured
-    force is not used.
+    The share is weighted by the strips' areas. The angle of attack comes from the motion through still air; the
+    measured force is not used.
 
     Parameters
     ----------
@@ -162,9 +167,9 @@ def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) ->
 
 
 def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tuple[float, ...]:
-    """Return how far air loads are from those that suit a motion; the smallest tuple is the best.
+    """Return how much air loads differ from those that suit a motion; the smallest tuple is the best.
 
-    The model comes first, then the unsteady terms, then the inflow.
+    The model counts first, then the unsteady terms, then the inflow.
 
     Parameters
     ----------
@@ -205,7 +210,7 @@ def _distance(model: CoefficientModel, reynolds: float) -> float:
 
 
 def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
-    """Return in a sentence or two why these air loads are recommended.
+    """Return in a few sentences why these air loads are recommended.
 
     Parameters
     ----------
@@ -215,35 +220,40 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
     attached : share of the beat with attached flow, from `attached_share`.
     """
     aero = rung.aero
-    kind = f"{regime.wing} wing" + (" (guessed from mass and Reynolds number)" if regime.guessed else "")
-    said = f"{kind}, Reynolds number {significant(regime.reynolds)}"
-    said += f", reduced frequency {regime.reduced_frequency:.2g}"
-    why = "the model of its kind" + (" in slow flight" if wanted.endswith("-revolving") else "")
+    kind = f"The wing is {regime.wing}" + (" (guessed from mass and Reynolds number)" if regime.guessed else "")
+    numbers = f"the Reynolds number is {significant(regime.reynolds)}"
+    numbers += f", and the reduced frequency is {regime.reduced_frequency:.2g}"
+    why = "the model of this kind of wing" + (" in slow flight" if wanted.endswith("-revolving") else "")
     if wanted == _PLATE:
-        why = "polar of a plate, Reynolds number above 10000"
+        why = "a polar of a plate, because the Reynolds number is above 10000 and no model is named after "
+        why += f"{regime.wing} wings"
     elif wanted == _REVOLVING:
-        why = "polar of a revolving wing, Reynolds number below 10000"
-    parts = [f"{said}: {wanted} ({why})"]
+        why = "a polar of a revolving wing, because the Reynolds number is below 10000"
+    parts = [f"{kind}, {numbers}", f"The rule chooses {wanted}, {why}"]
     if aero.coefficients.name != wanted:
-        parts.append(f"this model is not among the rows; {aero.coefficients.name} is the nearest one")
+        parts.append(f"This model is not among the rows, and {aero.coefficients.name} is the nearest one")
     parts.append(_unsteady_reason(regime, aero.coefficients, attached))
     if rung.unsteady != wanted_unsteady(regime, aero.coefficients, attached):
-        parts.append(f"no row of {aero.coefficients.name} has this choice of unsteady terms")
+        parts.append(f"No row of {aero.coefficients.name} has this choice of unsteady terms")
+    slow = regime.slowness < _SLOW
     if aero.coefficients.aspect_ratio is None:
-        parts.append("no momentum inflow (the polar includes induced flow)")
+        parts.append("It adds no momentum inflow, because the polar includes induced flow")
     elif aero.inflow != "none":
-        parts.append("momentum inflow" + (" (slow flight)" if regime.slowness < _SLOW else ""))
+        slow_inflow = "It adds momentum inflow, because the flight is slow"
+        parts.append(slow_inflow if slow else "The row has momentum inflow")
+    elif slow:
+        parts.append("The row has no momentum inflow")
     else:
-        fast = regime.slowness >= _SLOW
-        parts.append("no momentum inflow" + (" (fast flight: the polar includes induced flow)" if fast else ""))
-    return "; ".join(parts)
+        parts.append("It adds no momentum inflow, because the polar includes the induced flow of fast flight")
+    return ". ".join(parts) + "."
 
 
 def _unsteady_reason(regime: Regime, model: CoefficientModel, attached: float) -> str:
     terms = wanted_unsteady(regime, model, attached)
     if terms == "none":
-        return f"no unsteady terms (reduced frequency at most {_UNSTEADY_ABOVE:g})"
+        return f"It adds no unsteady terms, because the reduced frequency is at most {_UNSTEADY_ABOVE:g}"
+    above = f"because the reduced frequency is above {_UNSTEADY_ABOVE:g}"
     if terms == "thin-aerofoil":
-        return f"rotation and added mass (reduced frequency above {_UNSTEADY_ABOVE:g})"
-    share = f"flow attached for {math.floor(100 * attached)} % of the beat"
-    return f"rotation, added mass and the lag of the wake (reduced frequency above {_UNSTEADY_ABOVE:g}, {share})"
+        return f"It adds rotation and added mass, {above}"
+    share = f"the flow is attached for {math.floor(100 * attached)} % of the beat"
+    return f"It adds rotation, added mass and the lag of the wake, {above} and {share}"

@@ -71,19 +71,20 @@ adds the flight speed.
 ## The lag of the wake
 
 When the lift of a wing changes, the wing sheds vorticity into its wake, and the wake delays the change of lift.
-Wagner's function describes this delay; Jones (1940, NACA Report 681) writes it as two states, and each strip has
-two such states. The downwash at three quarters of the chord drives these states; past the angle of largest lift,
-the polar's lift drives them instead. The wake moves the air at the strip, and the angle of attack in this moving
-air gives the coefficients. With lift `2 pi sin(alpha)`, the result is Theodorsen's lift with his C(k). In a motion
-that repeats, the states repeat too. In any other motion, the wake starts as in steady flight.
+Wagner's function describes this delay. Jones (1940, NACA Report 681) approximates this function with two states,
+and each strip has two such states. The downwash at three quarters of the chord drives these states; past the angle
+of largest lift, the polar's lift drives them instead. The wake moves the air at the
+strip, and the angle of attack in this moving air gives the coefficients. With lift `2 pi sin(alpha)`, the result is
+Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too. In any other motion, the wake
+starts as in steady flight.
 
 The lag, like rotation and added mass, is computed for a wing section. A whole wing lags less than its sections:
 [air loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## Whole flights
 
-`wingbeat validate pigeon` predicts flights; it does not compute loads on a given motion. See [whole
-flights](whole_flights.md).
+`wingbeat validate pigeon` predicts flights; it does not compute loads on a given motion. See
+[whole flights](whole_flights.md).
 
 ## What all rows leave out
 
@@ -118,7 +119,7 @@ def _summary(found: Validation) -> list[str]:
 
 
 def _section(found: Validation, figure: str) -> str:
-    lines = [f"## {found.case.name}", "", f"Recommended: {found.reason}.", ""]
+    lines = [f"## {found.case.name}", "", found.reason, ""]
     for axis, label in (("fz", "Upward force"), ("fx", "Forward force")):
         if any(value is not None for row in found.rows for value in getattr(row, axis).to_dict().values()):
             rows = [_cells(row, getattr(row, axis)) for row in found.rows]

@@ -116,14 +116,14 @@ def _how_to_read() -> str:
     by_factor: dict[float, list[str]] = {}
     for name, words in _IN_SHORT.items():
         by_factor.setdefault(AGREES[name], []).append(words)
-    factors = " or ".join(f"{factor:g} ({_listed(names)})" for factor, names in by_factor.items())
+    factors = ", and ".join(f"{factor:g} for {_listed(names)}" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]
     return (
-        "A prediction agrees if, at every speed, it is within the measured range or outside this range by at most "
-        f"a factor of {factors}. If the range begins at 0, its upper end is a limit, and no factor applies. The "
-        f"speed of minimum power agrees if it is at most {near:g} m/s outside the range. *Basis*: a *measured* "
-        "number comes from the animal, an *estimated* number also depends on a model of its authors, and a *law* "
-        "was fitted to other animals."
+        "A prediction agrees if, at every speed, it is within the measured range or differs from the nearer end of "
+        f"the range by at most a factor. This factor is {factors}. If the range begins at 0, its upper end is a "
+        f"limit, and no factor applies. The speed of minimum power agrees if it is at most {near:g} m/s outside "
+        "the range. *Basis* is one of three: a *measured* range was measured on the animal; an *estimated* range "
+        "also comes from a model; a *law* was fitted to other animals."
     )
 
 

@@ -111,7 +111,7 @@ class Influence:
         with box("Sensitivities", "influence"):
             tag(
                 "p",
-                "Exact derivatives of the certified optimum with respect to every number it depends on.",
+                "Exact derivatives of the certified optimum with respect to every number on which it depends.",
                 "note",
             )
             with tag("div", classes="acts"):

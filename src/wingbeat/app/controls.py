@@ -152,7 +152,7 @@ class Controls:
     def _choose_animal(self, name: str) -> None:
         if name == _OWN:
             return
-        # The numbers that were changed were another animal's, and a model depends on the kind of flyer.
+        # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
         model = self._scenario.model
         loads = {} if model == "paper" else choices_of(model, own_species(Scenario(species=name)))
         self._change(species=name, species_file="", values={}, bounds={}, **loads)

@@ -52,8 +52,8 @@ class Door:
     """Refuses requests and socket messages that no page of this server sends, and says why.
 
     Browsers set the Host and Origin headers themselves; a page cannot forge them. If another site gives this
-    machine a name of its own (DNS rebinding), the Host header shows it. If a page of another site sends requests to
-    this server, the Origin header shows it.
+    machine a name of that site (DNS rebinding), the Host header shows this name. If a page of another site sends
+    requests to this server, the Origin header shows that site.
 
     Parameters
     ----------

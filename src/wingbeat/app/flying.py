@@ -10,7 +10,7 @@ from wingbeat.app.widgets import run_script, tag
 from wingbeat.viewer import bundle_path
 
 BUNDLE = "/wingbeat/viewer.js"
-# Scenes come by their own requests; one that is overtaken by a later one is not shown.
+# Each scene has its own request; a scene that arrives after a later one is not shown.
 SCRIPT = f"""
 window.wingbeatFlying = {{
   handle: null, asked: 0, shown: 0, theme: "system",

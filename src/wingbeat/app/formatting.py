@@ -1,4 +1,4 @@
-"""Numbers as the page shows them: with units, angles in degrees, and no more digits than they deserve."""
+"""Numbers as the page shows them: with units, angles in degrees, and rounded."""
 
 from __future__ import annotations
 

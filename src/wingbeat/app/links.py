@@ -16,7 +16,7 @@ from urllib.parse import parse_qsl, urlencode
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError, is_number
 
-# Servers and browsers hold addresses of 16 kB and more; a species file takes some 6.
+# Servers and browsers accept addresses of 16 kB and more; a species file takes some 6 kB.
 _LONGEST_QUERY = 24_000
 _VERSION = 1
 _PAIRS = "bounds"

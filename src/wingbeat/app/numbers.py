@@ -27,7 +27,7 @@ _GROUPS = {
     "air": "Air",
 }
 _OF_PARTS = tuple(key for keys in PARTS.values() for key in keys)
-# Parts whose numbers laws of birds give.
+# Parts whose numbers follow from laws for birds.
 _BY_LAWS = {"vehicle.tail": ("tail", tail_numbers), "vehicle.muscle": ("muscle", muscle_numbers)}
 # Bounds of the tail's tilt until the user gives both: the range in the template of species files [rad].
 _TILTS = (-math.radians(30.0), math.radians(30.0))

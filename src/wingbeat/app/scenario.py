@@ -28,7 +28,7 @@ from wingbeat.species.loading import species_of
 from wingbeat.species_schema import read_species_text
 from wingbeat.studies.recipe import OF_ELEMENTS
 
-# What one visitor may ask of a machine that others use, too.
+# Limits for one visitor, because others use the machine, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
 TAIL_TILT = "tail_tilt"  # the parameter that a species holds fixed and the page can free
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it

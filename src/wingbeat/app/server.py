@@ -32,7 +32,7 @@ from wingbeat.workers.leftovers import Leftover
 _WORK = "wingbeat.app.jobs:do"
 _LOOPBACK = "127.0.0.1"
 _HEADERS = {
-    # Nothing is fetched from elsewhere, and nobody else's page frames this one.
+    # Nothing is fetched from elsewhere, and no page of another site frames this page.
     "content-security-policy": "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
     "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'; object-src 'none'",
@@ -44,9 +44,10 @@ _HEAD = """<link rel="stylesheet" href="/wingbeat/page.css"><script src="/wingbe
 _ICON = "🐦"
 # Seconds that a page may be silent, on a busy machine or a train, before it is taken to be gone.
 _PATIENCE = 30.0
-# Bytes of the head of a request; a longer one is cut off unanswered, a shorter link is refused in words.
+# Most bytes of the head of a request. A longer head is cut off without an answer; a shorter one gets an answer,
+# even if its link is too long.
 _LONGEST_HEAD = 1 << 20
-# Seconds that browsers get to let go of the server once it ends; one that is suspended never does.
+# Seconds that browsers have to close their connections when the server ends; a suspended one never closes its own.
 _FAREWELL = 0.2
 
 
@@ -130,7 +131,7 @@ def serve(host: str, port: int, processes: int, opens: bool) -> None:
 def _announce(host: str, listening: socket.socket) -> str:
     """Print where the server listens, and warn if other machines can reach it; return the address to open."""
     bound, port = listening.getsockname()[:2]
-    # "Every address" is no address to open; this machine's own is one of them.
+    # A browser cannot open "every address"; it can open this machine's own address.
     shown = {"0.0.0.0": _LOOPBACK, "::": "::1"}.get(bound, host)
     address = f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}"
     print(f"wingbeat explorer: {address} (Ctrl-C ends it)", flush=True)
@@ -138,7 +139,7 @@ def _announce(host: str, listening: socket.socket) -> str:
         where = "every address of this machine" if shown != host else f"{host}, a public address"
         print(
             f"warning: the explorer listens on {where}. Anyone who reaches it can use this machine's processors: "
-            "there are no passwords. Leave --host out, and only this machine can reach it.",
+            "there are no passwords. Without --host, only this machine can reach it.",
             file=sys.stderr,
             flush=True,
         )
@@ -232,7 +233,7 @@ async def _take(house: House, session: str, request: Request) -> Response:
     told = request.headers.get("content-length", "0")
     if not told.isdecimal() or int(told) > MOST_BYTES:
         return Response(rule, 413, media_type="text/plain", headers={"connection": "close"})
-    # A name of our own: the visitor's is only ever shown.
+    # The file gets a name of our own; the visitor's name for it is only shown.
     path = Path(house.folder.name) / secrets.token_hex(12)
     size = 0
     try:

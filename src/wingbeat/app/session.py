@@ -13,7 +13,7 @@ from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.workers.fair_pool import Event, FairPool, Job
 
-# Seconds without a change after which an answer that was continued is searched for anew, from every start.
+# After so many seconds without a change, a search from every start follows an answer that was continued.
 _CALM = 0.35
 # If a continuation takes at most this time, its result is awaited while the slider moves on.
 _BRIEF = 0.4

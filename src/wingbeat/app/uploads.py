@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     import h5py
 
 MOST_BYTES = 5_000_000
-# What all arrays of a file may take once they are unpacked; an orbit takes less than one million.
+# Most bytes of all arrays of a file once they are unpacked; an orbit takes less than one million bytes.
 MOST_DECLARED = 50_000_000
 _MOST_OBJECTS = 400
 _MOST_ATTRIBUTE = 1_000_000
-# Many texts may share one place in a file of modest size, and all be unpacked.
+# In a small file, many texts may share one place, and each of them is unpacked.
 _MOST_TEXTS = 8
 # What the parts of a problem are called on the page, where their keys would not be understood.
 _SPOKEN = {"aero": "model of the air loads", "free": "choice of free parameters"}

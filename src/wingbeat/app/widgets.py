@@ -169,7 +169,7 @@ def text_field(label: str, value: str, act: Callable[[str], Any], *, hint: str =
 
 
 def choice_field(label: str, options: Sequence[tuple[str, str]], value: str, act: Callable[[str], Any]) -> Field:
-    """Return a field for one of several (value, label)."""
+    """Return a field to choose one of several (value, label) pairs."""
 
     def make() -> Any:
         control = tag("select", value=value)

@@ -50,13 +50,13 @@ COMMANDS = {
     "bench": "Measure how fast this machine solves.",
 }
 
-# Limits of one word of the command line: its length, beyond that of any path, and how deep its lists are nested.
+# Limits of one word of the command line: its length (longer than any path), and how deep its lists are nested.
 _LONGEST = 10_000
 _DEEPEST = 50
-# A line on stderr; of a longer one the middle is left out.
+# Longest line on stderr; the middle of a longer line is left out.
 _LINE = 600
 
-# Commands whose module goes by another name.
+# Commands whose module has another name.
 _HOMES = {"app": "explorer"}
 
 

@@ -44,7 +44,7 @@ def carried(
 ) -> tuple[CarriedFlight, dict[str, float | None]]:
     """Return the flight of a filmed body with filmed wings, and the standard errors of its summary.
 
-    The errors include the noise of the filmed wing motion, but not that of the body's path.
+    The errors include the noise of the filmed wing motion, but not the noise of the filmed path of the body.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ def compare(
     spanwise: Annotated[Whole, Parameter(help="Panels along the span of one wing.")] = _DEFAULT.spanwise,
     steps: Annotated[Whole, Parameter(help="Time steps of a beat.")] = _DEFAULT.steps,
     beats: Annotated[
-        Whole, Parameter(help="Beats flown from rest. The last one is compared; all leave a wake.")
+        Whole, Parameter(help="Beats flown from rest. All beats leave a wake; only the last beat is compared.")
     ] = _DEFAULT.beats,
     json: Annotated[bool, Parameter(negative="", help="Print the comparison as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw lift and thrust over the beat: .png, .pdf or .svg.")] = None,
@@ -84,7 +84,7 @@ def _print(record: dict[str, Any]) -> None:
         table.add_row(Text(_name(row) + mark), *_cells(row))
     console.print(table)
     console.print(
-        "* the loads of the file; lift delay: how far the lattice's lift lags behind ours, as a share of a beat"
+        "* marks the loads of the file; lift delay: how far the lattice's lift lags behind ours, in beats"
     )
     for row in record["terms"]:
         if "refused" in row:

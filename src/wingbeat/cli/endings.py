@@ -22,7 +22,7 @@ EXIT_INTERRUPTED = 130  # 128 + SIGINT, as shells report it
 EXIT_TERMINATED = 143  # 128 + SIGTERM
 
 _WORDS: dict[int, str] = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
-# Seconds for the main thread to come out of compiled code, then for it to clear up, before another thread ends all.
+# Seconds that the main thread has to leave compiled code, and then to clear up, before another thread ends all.
 _PATIENCE = 0.5
 _CLEARING = 1.0
 

@@ -19,7 +19,7 @@ _LONGEST_HOST = 253  # of a name in the domain name system
 def app(
     *,
     host: Annotated[str, Parameter(help="Address to listen on; the explorer has no passwords.")] = "127.0.0.1",
-    port: Annotated[Whole, Parameter(help="Port to listen on; 0 takes any free one.")] = 8080,
+    port: Annotated[Whole, Parameter(help="Port to listen on; 0 takes any free port.")] = 8080,
     processes: Annotated[
         Whole | None, Parameter(help="Solver processes; default: as many as cores, at most 4.")
     ] = None,

@@ -28,7 +28,7 @@ FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
 _GUST = ["w=2", "duration=0.3"]
 _MOST_GUSTS = 100_000
-# The state as it is printed: what is a unit of it, and its size in SI units.
+# Units in which the state is printed, and the size of each in SI units.
 _UNITS = {
     "z": ("z [m]", 1.0),
     "body_pitch": ("pitch [deg]", math.radians(1.0)),
@@ -47,12 +47,15 @@ def feedback(
             consume_multiple=True,
             negative=(),
             help="Parameters of the wingbeat that change from beat to beat: frequency pitch_mean ... Default: "
-            "those free ones whose jumps harmonics can undo.",
+            "the free parameters whose jumps harmonics can undo.",
         ),
     ] = None,
     delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that it changes.")] = 0,
     late: Annotated[
-        Whole, Parameter(help="Further beats by which inputs act later in flight, unknown to the feedback.")
+        Whole,
+        Parameter(
+            help="Further beats by which the inputs are late in the flights; the feedback is computed without them."
+        ),
     ] = 0,
     gust: Gust = None,
     turbulence: Turbulence = None,
@@ -73,10 +76,10 @@ def feedback(
 ) -> int:
     """Compute the feedback that holds a saved orbit from beat to beat, and fly it through a gust.
 
-    It prints gains, multipliers with and without feedback, the inputs that suffice alone, and a flight through the
-    gust with and without feedback. Without --gust and --turbulence the gust is w=2 duration=0.3. --survey flies
-    random gusts and prints the share survived. A flight is lost if its body pitch is 60 degrees from the orbit's,
-    or if it sinks 5 m below the orbit's path.
+    The command prints gains, multipliers with and without feedback, every input that can hold the orbit alone, and
+    a flight through the gust with and without feedback. Without --gust and --turbulence the gust is w=2
+    duration=0.3. --survey flies random gusts and prints the share survived. A flight is lost if its body pitch is
+    60 degrees from the orbit's, or if it sinks 5 m below the orbit's path.
 
     --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains cost lower
     upper multipliers spectral_radius open_loop controllability sufficient version; late and beats;
@@ -203,7 +206,7 @@ def _with(name: str) -> str:
 
 
 def _numbers(pairs: list[list[float]]) -> str:
-    """Return the multipliers, of a pair one; those of pending inputs are near 0 and left out."""
+    """Return the multipliers, one of each complex pair, without those near 0, which belong to pending inputs."""
     shown = [
         (real, imaginary) for real, imaginary in pairs if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
     ]

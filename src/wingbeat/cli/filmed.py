@@ -69,7 +69,7 @@ def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
         factor, unit = for_people(NOMENCLATURE[name].unit)
         shown = plus_minus(factor * value, None if error is None else factor * error)
         lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
-    edge = "; the others have none: the wingbeat is close to the limit of flight, and errors may be larger"
+    edge = "; the other draws have none: the wingbeat is close to the limit of flight, and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
     flown = f"{spread.certified} of {spread.asked} random draws of the film have an orbit"
     return [*lines, f"one standard error; {flown}{ending}"]

@@ -36,10 +36,10 @@ def fit(
 ) -> None:
     """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
 
-    Use the form cambered for a wing whose upper and lower sides differ, with data at positive and negative
-    angles. The other forms mirror one side.
-    The model file works wherever a coefficient model is named: `polar mymodel.toml`, `orbit --aero mymodel.toml`.
-    Compare forms by AICc, the lower the better, on the same table.
+    Use the form cambered for a wing whose upper and lower sides differ; it needs data at positive and negative
+    angles. The other forms mirror the data of one side. The model file works wherever a coefficient model is
+    named: `polar mymodel.toml`, `orbit --aero mymodel.toml`. To compare forms, fit them to the same table: the
+    form with the lowest AICc is best.
 
     Example: wingbeat fit coefficients.csv --form su-fan -o mymodel.toml --plot fit.png
     """

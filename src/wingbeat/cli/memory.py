@@ -8,7 +8,7 @@ from wingbeat.workers.affinity import core_count
 # 1.84 GB on two cores and 1.65 GB on one. Most of it is set aside for threads. With 1.6 GB on two cores it aborts.
 _SOLVER = 1_700_000_000
 _SOLVER_PER_CORE = 200_000_000
-# What `wingbeat species` takes, which solves nothing.
+# Address space of `wingbeat species`, which solves nothing.
 _READER = 500_000_000
 _READERS = ("species",)
 

@@ -55,8 +55,8 @@ class ModelOptions:
     airspeed: Annotated[
         str | None,
         Parameter(
-            help="Airspeed that determines a strip's loads: planar (default; only across the span) or full "
-            "(also along it)."
+            help="Airspeed that determines a strip's loads: planar (default: without the component along the span) "
+            "or full (with this component)."
         ),
     ] = None
     strips: Annotated[Whole | None, Parameter(help="Number of strips of one wing; default 10.")] = None

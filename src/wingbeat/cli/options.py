@@ -57,12 +57,12 @@ WithinPlausible = Annotated[
 ]
 WingsMayCross = Annotated[
     bool,
-    Parameter(negative="", help="Let the wings pass through the plane of symmetry and each other."),
+    Parameter(negative="", help="Let the wings pass through the plane of symmetry and through each other."),
 ]
 
 
 def with_stability(limits: list[str] | None, stable: bool) -> list[str]:
-    """Return the limits of ``--subject-to``, with that of ``--stable``."""
+    """Return the limits of ``--subject-to``, with the limit of ``--stable``."""
     return [*(limits or ()), *([f"spectral_radius<={STABLE_RADIUS}"] if stable else [])]
 
 
@@ -98,7 +98,7 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
 
 @contextmanager
 def unpacking(path: Path) -> Iterator[None]:
-    """Turn any error that occurs while the orbit of the file at `path` is set up into a `FileError`."""
+    """Raise a `FileError` in place of any error that occurs while the orbit of the file at `path` is set up."""
     try:
         yield
     except NotInFileError as error:

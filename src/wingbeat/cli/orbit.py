@@ -118,8 +118,8 @@ def orbit(
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
-    With --kinematics, the filmed motions are kept and the others are solved for; the errors printed are due to the
-    noise of the film.
+    With --kinematics, the command keeps the filmed motions and solves for the other motions. The errors that it
+    prints are due to the noise of the film.
     Exit code 0: certified. 3: nothing certified; the message says what to change.
 
     Examples: wingbeat orbit pigeon --speed 12 --plot pigeon.png;

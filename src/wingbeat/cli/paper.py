@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from wingbeat.paper.pieces import Sample
 
 _SETS = 1000
-# Each piece has its worker processes load every program anew, which takes them minutes.
+# For each piece the worker processes load every program anew, which takes minutes.
 _PIECE = 5000
 
 
@@ -52,7 +52,8 @@ def paper(
 
     `wingbeat paper assumptions` samples the assumptions that Su et al. leave open, and counts the sets under which
     each claim holds. An interrupted run resumes. Finished pieces are in the subfolder `pieces`. Other machines can
-    run pieces with --only; copy their pieces into this subfolder. Page, table and figure cover all pieces there.
+    run pieces with --only; copy their pieces into this subfolder. Page, table and figure cover all pieces in this
+    subfolder.
 
     Examples: wingbeat paper --quick -o paper; wingbeat paper assumptions --sets 2000 --only 1 -o assumptions
     """

@@ -138,7 +138,7 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
     figure.suptitle(_title(model), fontsize=8)
     for axes, (name, label) in zip(figure.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
         axes.plot(fine, columns[name], color=BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
-        # Limits before the lines of theory, which would leave the page.
+        # Set the limits before the lines of theory are drawn, because these lines would leave the page.
         axes.set(ylabel=label, ylim=axes.get_ylim(), xlim=axes.get_xlim())
         if name in theory:
             ends = np.array(axes.get_xlim())

@@ -35,7 +35,7 @@ def _exact(faults: FaultList, where: str, text: str) -> Fraction | None:
 
 
 def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]) -> None:
-    """Note a step that is zero, leads away from the stop, misses it, or takes too many steps to reach it."""
+    """Note a step that is zero, too small, leads away from the stop, or misses the stop."""
     start, stop, step = parts
     if step == 0:
         faults.add(where, text, "the step must not be 0", _SYNTAX)

@@ -30,8 +30,8 @@ def reduce(
     A record has the columns time [s], normal_force [N], tangential_force [N], moment [N m] (about mid-chord,
     nose-up positive) and alpha_deg. Lines above them, such as "# speed = ...", give speed, density, viscosity
     (kinematic), chord and span in SI units. Thickness and channel_width are optional. Readings in still fluid
-    before and after the run are optional, too: "# tare_normal_force = before, after" and so on. A zero that drifts
-    linearly from one reading to the other is subtracted.
+    before and after the run are optional, too: "# tare_normal_force = before, after" and so on. Between these two
+    readings the zero is taken to drift linearly, and is subtracted.
 
     Example: wingbeat reduce run*.csv -o coefficients.csv --last 20
     """

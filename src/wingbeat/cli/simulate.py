@@ -77,10 +77,10 @@ def simulate(
 
     The wingbeat comes from the species (change it with --set wingbeat.frequency=7 ...), from an orbit (--from), or
     from a film (--kinematics; the species gives the motions that were not filmed). If the film shows the path of
-    the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the missing force is reported. To
-    disturb an orbit, give --u, --w, --body-pitch-deg or --pitch-rate; each replaces that number in the orbit's
-    initial state. With a film, power is printed with the error due to the noise of the film. --gust and
-    --turbulence move the air.
+    the body (body_x_m, body_z_m, body_pitch_deg), the body moves as filmed, and the command prints the force and
+    moment that the model lacks. To disturb an orbit, give --u, --w, --body-pitch-deg or --pitch-rate; each
+    replaces that number in the orbit's initial state. With a film, power is printed with the error due to the
+    noise of the film. --gust and --turbulence move the air.
     Exit code 3: the vehicle tumbled and the flight could not be finished.
     """
     beside = given_beside(simulate, locals(), *_BESIDE_FROM)

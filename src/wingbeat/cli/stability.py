@@ -86,7 +86,7 @@ def stability(
 
     The command prints the modes of body pitch, velocity and pitch rate. --json prints the linear maps from one top
     of the stroke to the next: A of the state, B of the inputs, G of a gust that is constant for one beat. With
-    several speeds it prints a list; there, a speed without a certified orbit has its status and message.
+    several speeds --json prints a list. The entry of a speed without a certified orbit has status and message.
     Exit code 0: some speeds are certified. 3: no speed is certified.
 
     Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;

@@ -118,7 +118,7 @@ def plot(
         Parameter(help="Column of the table to draw, such as mean_power; default: the minimised quantity."),
     ] = None,
 ) -> None:
-    """Draw a result against the varied parameters: lines for one, maps for two, parallel coordinates for more."""
+    """Draw a result against the varied parameters: lines for one, maps for two, parallel axes for more of them."""
     from wingbeat.plots import check_figure_name, save_figure, study_page
 
     with _written(output, check_figure_name, "figure.png, .pdf or .svg") as path:

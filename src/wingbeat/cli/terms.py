@@ -36,7 +36,7 @@ def terms(
     speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
-    shares: Annotated[str, Parameter(help="Shares of the terms, start:stop:step; 0 applies no term, 1 all.")] = (
+    shares: Annotated[str, Parameter(help="Shares of the terms, start:stop:step: 0 is none, 1 is all of them.")] = (
         "0:1:0.25"
     ),
     within_plausible: WithinPlausible = False,

@@ -95,7 +95,7 @@ def _known(problem: OrbitProblem, names: Sequence[str]) -> list[Quantity]:
 
 
 def _processes(samples: int) -> int:
-    """Return how many processes are worth starting: one takes as long to start as some hundred draws to solve."""
+    """Return how many processes are worth starting; starting one takes as long as solving some hundred draws."""
     return max(1, min(core_count(), samples // 200))
 
 

@@ -31,7 +31,7 @@ _KEYS = tuple(field.name for field in fields(CosineGust))
 
 
 def wind_of(gust: list[str] | None, turbulence: str | None, seed: int, airspeed: float) -> Wind | None:
-    """Return the wind that the options ask for, None for still air; several add up.
+    """Return the wind that the options ask for, the sum if they ask for several; None for still air.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ _LAWS = {
 LAW_NAMES = tuple(_LAWS)
 # Values of a law that is off.
 _OFF = {"span_ratio": 1.0, "chord_ratio": 1.0}
-# Of these the record has the sum of both wings.
+# For these quantities the record has the sum of both wings.
 _OF_ONE_WING = ("flap_torque", "pitch_torque", "hinge_power", "actuator_power")
 
 
@@ -59,16 +59,16 @@ def _laws(wingbeat: Wingbeat, phase: Phases) -> tuple[Phases, Phases, Phases]:
     return time_rates(values, phase, wingbeat.frequency)
 
 
-# The laws of `LAW_NAMES` with their first and second time derivatives, shape (..., laws) each.
+# Three arrays of shape (..., laws): the laws of `LAW_NAMES`, and their first and second time derivatives.
 Laws = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> Laws:
-    """Return the laws of `LAW_NAMES` with their first and second time derivatives, shape (..., laws) each.
+    """Return three arrays of shape (..., laws): the laws of `LAW_NAMES`, their first and second time derivatives.
 
     Parameters
     ----------
-    wingbeat : gives the laws; one that is off keeps its value.
+    wingbeat : gives the laws; a law that is off is constant.
     phase : phases, shape (...).
     """
     value, rate, acceleration = _laws(wingbeat, np.asarray(phase, dtype=float))
@@ -123,7 +123,7 @@ class Gait:
 
     @staticmethod
     def _stands_out(name: str, value: float) -> bool:
-        """Return whether a law that stands still has another value than one that is off."""
+        """Return whether a law stands still at another value than that of a law that is off."""
         return bool(abs(value - _OFF.get(name, 0.0)) > 0)
 
     @functools.cached_property

@@ -15,13 +15,13 @@ from wingbeat.results.orbit import Orbit
 
 _BODY = slice(0, len(BODY_JOINTS))
 _WINGS = slice(len(BODY_JOINTS), None)
-# The wings are held to the gait as by critically damped springs of this frequency, in wingbeat frequencies. This
-# removes the drift of the integrator, and vanishes on the gait.
+# Critically damped springs of this frequency, in wingbeat frequencies, hold the wings to the gait. They remove the
+# drift of the integrator, and their torques are zero on the gait.
 _HOLD = 4.0
 
 
 class MujocoStates(NamedTuple):
-    """Where MuJoCo's steps led.
+    """The flight that MuJoCo computed, step by step.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class MujocoFlight:
             engine.mj_mulM(model, data, force, acceleration)
             return force + self._spread @ (added @ (self._spread.T @ acceleration))
 
-        # The body's accelerations follow from its own rows; what the wings' rows then lack, the motors give.
+        # The body's accelerations follow from the body's rows. The motors give what the wings' rows then lack.
         own = np.stack([resisted(unit)[_BODY] for unit in np.eye(model.nv)[_BODY]], axis=-1)
         free = (loads - data.qfrc_bias - resisted(wanted))[_BODY]
         wanted[_BODY] = np.linalg.solve(own, free)
@@ -126,10 +126,10 @@ class MujocoFlight:
         data.ctrl[:] = (inertia + data.qfrc_bias - air)[_WINGS]
 
     def _air_loads(self, model: Any, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
-        """Return the air loads on the joints without those of accelerations, and the added mass, shape (5, 5)."""
+        """Return the air loads on the joints that no acceleration causes, and the added mass, shape (5, 5)."""
         engine = _mujoco()
         position, rate = data.qpos.copy(), data.qvel.copy()
-        # What span, fold, sweep and twist do at this time is no matter of the five coordinates.
+        # The five coordinates do not contain the motion of span, fold, sweep and twist at this time.
         besides = self._besides.motion(laws)
         position[_WINGS] -= besides.position
         rate[_WINGS] -= besides.rate
@@ -140,12 +140,12 @@ class MujocoFlight:
             for site, load in zip(self._sites[side], force * [1.0, sign, 1.0], strict=True):
                 at, body = data.site_xpos[site], model.site_bodyid[site]
                 engine.mj_applyFT(model, data, load, np.zeros(3), at, body, on_joints)
-        # Body drag, tail, and what of the strips' loads acts off the quarter chord.
+        # Body drag, tail, and the part of the strips' loads that does not act at the quarter chord.
         rest = np.asarray(found.generalised) - self._moved.T @ on_joints
         return on_joints + self._spread @ rest, np.asarray(found.added_mass)
 
     def fly(self, beats: int = 1) -> MujocoStates:
-        """Fly from where `data` stands, by MuJoCo's own steps, and return the states before and after each step.
+        """Fly from the state in `data` with MuJoCo's own steps, and return the states before and after each step.
 
         Parameters
         ----------

@@ -1,9 +1,9 @@
 """The parts of a wing in MuJoCo and their joints: each joint's position is a sum of the wingbeat's laws.
 
-A wing whose span, fold and twist stand still is one rigid part that turns about flap, sweep and pitch hinges. Any
-other wing has a part for each strip, which turns and slides by itself, and a hand if the hand folds. Parts are
-those of the left wing; the right one is its mirror image. In a part's axes, x is along the chord to the leading
-edge, y along the span to the left and z along the normal; its origin is on the line of the quarter chords.
+A wing whose span, fold and twist are constant is one rigid part that turns about flap, sweep and pitch hinges. Any
+other wing has a part for each strip, which turns and slides by itself, and a hand if the hand folds. The parts
+here are parts of the left wing; the right wing is its mirror image. In a part's axes, x is along the chord to the
+leading edge, y along the span to the left and z along the normal; its origin is on the line of the quarter chords.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from wingbeat.vehicle import Wing
 
 SIDES = {"left": 1.0, "right": -1.0}
 BODY_JOINTS = ("x", "z", "body_pitch")
-# MuJoCo refuses a part without mass or inertia, so nothing is written as this [kg, kg m2]; it changes nothing.
+# MuJoCo refuses a part without mass or inertia, so a zero is written as this [kg, kg m2], too small to matter.
 NOTHING = 1e-14
 
 _AT_ZERO = np.array([float(name == "span_ratio") for name in LAW_NAMES])
@@ -36,7 +36,7 @@ class Joint(NamedTuple):
     Attributes
     ----------
     name : without the side.
-    slides : whether it slides along its axis rather than turn about it.
+    slides : True if the joint slides along its axis, False if it turns about it.
     axis : in the axes of its part.
     laws : its position as a sum of laws: factors [1, or m for a slide] by the laws' names.
     """
@@ -63,7 +63,7 @@ class Part:
     Attributes
     ----------
     name : without the side; empty for the part at the shoulder.
-    station : distance of its origin from that of the part that holds it, along the span [m].
+    station : distance of its origin from the origin of the part that holds it, along the span [m].
     joints : in MuJoCo's order: each turns or slides those after it.
     strips : the strips that belong to it.
     parts : the parts that it holds.
@@ -81,7 +81,7 @@ class Part:
 
 
 def is_rigid(wingbeat: Wingbeat) -> bool:
-    """Return whether the wing is one rigid part: its span, fold and twist stand still."""
+    """Return whether the wing is one rigid part, because its span, fold and twist are constant."""
     twists = wingbeat.twist_ratio != 1.0 or wingbeat.twist_mean or wingbeat.twist_harmonics
     return not (_spans(wingbeat) or wingbeat.fold_amplitude or twists)
 
@@ -146,7 +146,7 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
 
 
 class JointMotion(NamedTuple):
-    """Positions of all joints with their first and second time derivatives, shape (..., joints) each."""
+    """Three arrays of shape (..., joints): positions of all joints, and their first and second time derivatives."""
 
     position: np.ndarray
     rate: np.ndarray

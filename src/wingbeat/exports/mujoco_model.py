@@ -131,7 +131,7 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
     body = Xml.SubElement(holder, "body", {"name": name} | place)
     for joint in part.joints:
         x, y, z = joint.axis
-        # In a mirror a direction keeps its components in the plane, the axis of a turn that across it.
+        # A mirror keeps a direction's components in its plane, and the component of a turn's axis across it.
         axis = (x, sign * y, z) if joint.slides else (sign * x, y, sign * z)
         kind = "slide" if joint.slides else "hinge"
         Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=_numbers(*axis))

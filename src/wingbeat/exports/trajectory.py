@@ -20,8 +20,8 @@ def _about(gait: Gait) -> str:
 def gait_csv(gait: Gait) -> bytes:
     """Return a CSV table: a header of comment lines with units, then one row for each equal phase of the beat.
 
-    The table repeats: the row after the last one is the first, one time step later. The end of the beat is
-    therefore left out.
+    The beat repeats: one time step after the last row, the first row follows again. The table therefore leaves out
+    the end of the beat.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def _bracket(unit: str) -> str:
 def gait_mat(gait: Gait) -> bytes:
     """Return a MATLAB file, version 5, with a structure with time for each series of the gait.
 
-    Simulink's block From Workspace takes such structures: `time`, and `signals` with `values` and `dimensions`. The
-    last value is that of the next top of the stroke, so that interpolation covers the whole beat.
+    Simulink's block From Workspace takes such structures: `time`, and `signals` with `values` and `dimensions`.
+    The last value belongs to the next top of the stroke, so that interpolation covers the whole beat.
 
     Parameters
     ----------

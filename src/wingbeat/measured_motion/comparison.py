@@ -35,7 +35,8 @@ class ValidationRow:
     ----------
     aero : the air loads, without the lag of the wake.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
-    recommended : whether the rule of `wingbeat.measured_motion.choice` recommends this row; it recommends one row.
+    recommended : whether the rule of `wingbeat.measured_motion.choice` recommends this row; the rule recommends
+        exactly one of all rows.
     fx, fz : how close the computed forward and upward forces are to the measured ones.
     aerodynamic_power : mean power that the wings give to the air [W].
     loads : the loads through time.
@@ -84,7 +85,7 @@ class Validation:
 
     @property
     def recommended(self) -> ValidationRow:
-        """The row that the rule prefers; it never sees the measured force."""
+        """The row that the rule prefers; the rule never sees the measured force."""
         return next(row for row in self.rows if row.recommended)
 
     @property
@@ -123,9 +124,9 @@ def validate(
     """Evaluate the air loads of coefficient models and terms on a measured motion, and compare the forces.
 
     Each model has a row for each choice of terms. The unsteady terms are none, those of a thin aerofoil, or those
-    of a thin aerofoil with the lag of the wake; each choice has a row with momentum inflow and one without. Inflow
-    and lag need a model with an aspect ratio. For other models, rows with inflow or lag are left out; if you give
-    both such a model and such a term, they are refused.
+    of a thin aerofoil with the lag of the wake; each choice has a row with momentum inflow and a row without.
+    Inflow and lag need a model with an aspect ratio. For other models, rows with inflow or lag are left out. If
+    you ask for such a model with such a term, the call is refused.
 
     A rule recommends exactly one row (`wingbeat.measured_motion.choice`). It uses Reynolds number, reduced
     frequency, kind of wing and speed, and never sees the measured force. If no row has the loads that the rule
@@ -147,8 +148,8 @@ def validate(
     Raises
     ------
     FileError : a file is missing or cannot be read.
-    InvalidInputError : inputs that `read_strip_case` and `BladeElement` refuse; a given model without an aspect
-        ratio if inflow or the lag of the wake is given too.
+    InvalidInputError : inputs that `read_strip_case` and `BladeElement` refuse; a model without an aspect ratio
+        that is given together with inflow or the lag of the wake.
 
     >>> from wingbeat.measured_motion import shipped_cases
     >>> found = validate(shipped_cases()[0], aero=["dickinson"])

@@ -14,7 +14,7 @@ from wingbeat.measured_motion.strip_table import LISTED, check_columns
 Array = NDArray[np.float64]
 
 _FORCES = {"fx_n": "fx", "fz_n": "fz"}
-# "optionally `_se` columns": every way in which they may be named.
+# Every name that a column of standard errors may have.
 _ERRORS = {f"{axis}{ending}": axis for axis in ("fx", "fz") for ending in ("_n_se", "_se_n", "_se")}
 # Share of a step by which the times of forces and strips may differ.
 _SAME_TIME = 0.1

@@ -11,7 +11,7 @@ from wingbeat.aero.choosing import load_coefficients
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 THIN_AEROFOIL_WAKE = "thin-aerofoil-wake"
-# Flight has no lag: its two states a strip are no part of the equations of motion.
+# A flight has no lag of the wake: the two states of each strip are not in the equations of motion.
 UNSTEADY_STEPS = (*UNSTEADY, THIN_AEROFOIL_WAKE)
 
 

@@ -29,11 +29,14 @@ class Score:
     Attributes
     ----------
     mean_ratio : computed mean over the measured mean.
-    peak_ratio : largest computed force over largest measured force, both in the direction of the latter.
+    peak_ratio : largest computed force over largest measured force, both in the direction of the largest measured
+        force.
     rms : root mean square of the difference over the weight.
     correlation : Pearson's correlation coefficient.
-    lag : delay of the computed force behind the measured one, as a share of a beat; without it they agree best.
-    rms_about_mean : root mean square of the difference over that of the measured force, each force about its mean.
+    lag : delay of the computed force behind the measured one, as a share of a beat: the shift that makes them
+        agree best.
+    rms_about_mean : root mean square of the difference over the root mean square of the measured force, each force
+        about its mean.
     """
 
     mean_ratio: float | None = None
@@ -142,7 +145,7 @@ def _finite(value: float) -> float | None:
 
 
 def _lag(case: StripCase, measured: Array, force: Array) -> float | None:
-    """Return the delay of the computed force in beats; without it, the two forces would agree best."""
+    """Return the delay of the computed force in beats: the shift by which the two forces agree best."""
     step, here = 1.0 / (case.frequency * _STEPS), case.inside
     first, last = case.times[here][0], case.times[here][-1]
     repeats = case.period if case.period is not None and here.all() else None

@@ -1,12 +1,12 @@
 """Rates of change of measured series: a cubic smoothing spline whose stiffness cross-validation chooses.
 
-Measured frames contain noise, and a difference of two frames divides it by the short time between them. The natural
-cubic spline f minimises ``sum (y - f)^2 + stiffness * integral f''^2``; its slopes are the rates. Generalised
-cross-validation (Craven and Wahba 1979, doi 10.1007/BF01404567) picks the stiffness that predicts a left-out frame
-best. All series of a call have one stiffness, so that all strips are treated alike. Exact series keep their values;
-noisy ones lose their noise. The first four harmonics of the beat are never smoothed away. If a motion repeats, the
-series is continued on both sides; otherwise the slopes of the first and last frames are less certain than others,
-since nothing is known beyond them.
+Measured frames contain noise, and a difference of two frames divides this noise by the short time between them.
+The natural cubic spline f minimises ``sum (y - f)^2 + stiffness * integral f''^2``; its slopes are the rates.
+Generalised cross-validation (Craven and Wahba 1979, doi 10.1007/BF01404567) picks the stiffness that predicts a
+left-out frame best. All series of a call have one stiffness, so that all strips are treated alike. Series without
+noise keep their values; noisy series lose their noise. The first four harmonics of the beat are never smoothed
+away. If a motion repeats, the series is continued on both sides. Otherwise the slopes at the first and last frames
+are less certain than at other frames, because no frames beyond them are known.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ Array = NDArray[np.float64]
 
 # Harmonics of the beat that no smoothing may take off.
 _KEPT = 4.0
-# Angle per frame beyond which the stiffest and the softest spline smooth: the softest passes through all frames.
+# Angle per frame beyond which the stiffest and the softest spline smooth; the softest passes through all frames.
 _SOFTEST = 30.0
 _STIFFNESSES = 30
-# Frames of the continuation on either side: what happens at its ends has faded to 0.27^40 by then.
+# Frames of the continuation on either side: over 40 frames, the effect of its ends fades to 0.27^40.
 _MARGIN = 40
 
 
@@ -55,7 +55,7 @@ def smoothed_slopes(times: Array, values: Array, frequency: float, period: float
 def _continued(times: Array, flat: Array, period: float) -> tuple[Array, Array, int]:
     """Return the series with frames of the beats before and after, and the number of frames before."""
     close = 1e-3 * float(np.diff(times).min())
-    # A frame that repeats the first one, a period later, is not taken twice.
+    # If the last frame repeats the first one a period later, it is not taken twice.
     once = times < times[0] + period - close
     beat, held = times[once], flat[once]
     count = min(_MARGIN, len(beat))

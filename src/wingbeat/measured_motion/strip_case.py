@@ -53,8 +53,8 @@ class StripCase:
     area : of each strip [m2], shape (n, strips).
     velocity : of the wing's material at the quarter chord through still air [m/s], shape (n, strips, 3); if None,
         it is computed from the positions.
-    rear_velocity : the same at the three-quarter chord [m/s]; if None, the turning of the chord is computed from
-        `chord`.
+    rear_velocity : the same at the three-quarter chord [m/s]; if None, the chord's rate of turning is computed
+        from `chord`.
     forces : any of "fx" (forward) and "fz" (up), of the whole animal [N], shape (n,); NaN where not measured.
     errors : the standard errors of `forces` [N], shape (n,).
     mean_force : mean forward and upward force [N], in place of `forces`.

@@ -86,7 +86,7 @@ def strip_loads(
 
 
 def _in_wake(case: StripCase, moving: StripMotion, kernel: Kernel) -> StripMotion:
-    """Return the motion through air that the shed wake of each strip moves down across its chord."""
+    """Return the motion through air that the shed wake of each strip moves down, across the strip's chord."""
     speed = np.hypot(moving.chord_speed, moving.normal_speed) / (0.5 * moving.chord)
     following, steps = np.roll(speed, -1, axis=0), np.diff(case.times)
     if case.period is not None:

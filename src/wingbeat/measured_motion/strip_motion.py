@@ -51,7 +51,7 @@ class StripMotion:
     notes: tuple[str, ...]
 
     def in_moving_air(self, case: StripCase, air: tuple[float, float]) -> StripMotion:
-        """Return the motion through air that moves forward and up at a constant velocity [m/s]."""
+        """Return the motion of the strips through air whose velocity, forward and up, is constant [m/s]."""
         wind = np.array([air[0], 0.0, air[1]])
         # The wind is constant; its component along the wing's normal changes as the normal turns.
         change = smoothed_slopes(case.times, self.normal @ wind, case.frequency, case.period)[1]
@@ -72,9 +72,10 @@ class _Sections(NamedTuple):
 def strip_motion(case: StripCase) -> StripMotion:
     """Return how the strips of a case move through still air.
 
-    If the case gives no velocities of the quarter chord, they are the rates of change of its positions. If these
-    positions do not advance with the animal, as in a wind tunnel, the speed is added. If the case gives no
-    velocities of the three-quarter chord, the chord's turning is the rate of change of its direction.
+    If the case gives no velocities of the quarter chord, they are computed as the rates of change of its
+    positions. If these positions do not advance with the animal, as in a wind tunnel, the flight speed is added.
+    If the case gives no velocities of the three-quarter chord, the chord's turning is the rate of change of its
+    direction.
 
     Parameters
     ----------
@@ -127,7 +128,8 @@ def semi_span(case: StripCase) -> float:
 def moves_down(case: StripCase, motion: StripMotion) -> NDArray[np.bool_]:
     """Return at which times the wings are in the downstroke, shape (n,); for a level stroke, in the forward stroke.
 
-    It is the half of the stroke in which the farthest strip moves down along the line of its largest motion.
+    The downstroke is the half of the beat in which the farthest strip moves down along the line of its largest
+    motion.
 
     Parameters
     ----------
@@ -160,7 +162,7 @@ def _velocity(case: StripCase) -> tuple[Array, tuple[str, ...]]:
     forward = case.position[..., 0] @ _shares(case)
     advance = float(span @ (forward - forward.mean()) / (span @ span))
     moves = abs(advance - case.speed) < abs(advance)
-    # Positions that advance do not repeat. Without the advance they do, so that the beat can be continued.
+    # Positions that advance do not repeat. Without the advance they repeat, so that the beat can be continued.
     drift = np.zeros(3) if not moves else np.array([case.speed, 0.0, 0.0])
     at_rest = case.position - times[..., None] * drift
     rates = smoothed_slopes(case.times, at_rest, case.frequency, case.period)[1]
@@ -196,7 +198,7 @@ def _sections(case: StripCase, chord: Array, width: Array) -> _Sections:
     lost = size < _SHORT * width
     outward = np.where(lost[..., None], aside, outward)
     size = np.sqrt(_dot(outward, outward))
-    # A chord straight to the side has no span by this rule, and no load either.
+    # A chord that points straight to the side has no span by this rule, and no load.
     outward = outward / np.where(size > 0, size, 1.0)[..., None]
     return _Sections(ahead, outward, np.cross(ahead, outward))
 
@@ -215,7 +217,7 @@ def wing_ranges(case: StripCase, ahead: Array, width: Array) -> list[tuple[int, 
     other_side = (left[1:] != left[:-1]) & (not case.mirrored)
     starts = [0]
     for i in range(len(apart)):
-        # The first step within a wing has no earlier step to turn back from.
+        # The first step within a wing has no earlier step whose direction it could reverse.
         if apart[i] > _APART or other_side[i] or (back[i] and i != starts[-1]):
             starts.append(i + 1)
     return list(zip(starts, [*starts[1:], case.area.shape[1]], strict=True))

@@ -24,7 +24,7 @@ _COLUMNS = {
 _OPTIONAL = ("velocity", "rear_velocity")
 # Faults of one kind that are listed one by one.
 LISTED = 5
-# Most cells of the table of times and strips for each row of the file; a table without gaps has one.
+# Most cells in the table of times and strips for each row of the file; a table without gaps has one cell a row.
 _MOST_CELLS = 100
 
 

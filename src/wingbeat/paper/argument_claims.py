@@ -76,7 +76,8 @@ def higher_drag_penalty(evidence: Evidence) -> TestResult:
 def gains_at_speed(evidence: Evidence) -> TestResult:
     """Return how much more Su-Fan improves the frequency at 10 m/s and above than below 10 m/s.
 
-    The improvement is Dickinson's mean relative error minus Su-Fan's. The smallest over all references counts.
+    The improvement is Dickinson's mean relative error minus Su-Fan's. The result is the smallest of its values for
+    all references.
     """
     more = []
     for animal, measured in (*(("pigeon", pigeon_reference(n)) for n in PIGEON_REFERENCES), ("bat", BAT_MEASURED)):

@@ -28,7 +28,7 @@ _STARTS = {"downstroke": (0.0, (8, 2, 0), 8.0), "upstroke": (0.5, "o", 4.5)}
 
 
 def portrait_series(orbit: Orbit) -> dict[str, np.ndarray]:
-    """Return the body's path and velocities over one wingbeat in the units of the drawing, shape (K,) each."""
+    """Return the path and velocities of the body over one wingbeat in the units of the drawing, shapes (K,)."""
     data = orbit.dataset
     return {
         "phase": data["phase"].values,

@@ -155,7 +155,7 @@ def draw_side(axes: Axes, at: Posture) -> None:
 
 
 def draw_front(axes: Axes, postures: Sequence[Posture], animal: str) -> None:
-    """Draw the vehicle from ahead at the first posture, the quarter chord at the others, and flap angles."""
+    """Draw the vehicle from ahead at the first posture, only its quarter chord at the others, and flap angles."""
     first, *others = postures
     _to_scale(axes, "y [m]", "z [m]", f"{animal}, from ahead")
     _strips(axes, _plane(first, (1, 2)))

@@ -83,7 +83,7 @@ def least_frequency(evidence: Evidence) -> TestResult:
 def bat_slow_alike(evidence: Evidence) -> TestResult:
     """Return the bat's frequency with Dickinson divided by that with Su-Fan, up to 5 m/s.
 
-    The result is the ratio that differs most from 1, among the ratios at these speeds.
+    The result is the ratio at the speed where the ratio differs most from 1.
     """
     speeds = evidence.speeds("bat", "su-fan", "dickinson", below=5.0)
     ratios = evidence.frequencies("bat", "dickinson", speeds) / evidence.frequencies("bat", "su-fan", speeds)

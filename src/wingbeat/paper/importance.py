@@ -28,7 +28,7 @@ class Importance:
 
 
 def fewest_outcomes() -> int:
-    """Return the number of outcomes that a surface of all assumptions needs at least."""
+    """Return the least number of outcomes that a surface of all assumptions needs."""
     one = [np.zeros((1, max(len(a.choices) - 1, 1))) for a in ASSUMPTIONS]
     return _PER_TERM * _surface(one).shape[1]
 

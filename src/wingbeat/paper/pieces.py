@@ -108,7 +108,7 @@ class Pieces:
         stop: Stop,
         progress: Progress | None = None,
     ) -> Iterator[int]:
-        """Solve and judge the unfinished ones of these pieces, and yield the number of each once it is saved.
+        """Solve and judge those pieces that are unfinished, and yield the number of each piece once it is saved.
 
         Parameters
         ----------

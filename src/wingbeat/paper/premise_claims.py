@@ -9,8 +9,8 @@ from wingbeat.paper.claim import Claim, tested, untestable
 from wingbeat.paper.experiment_claims import CHORD, REYNOLDS_FITTED, SPAN
 from wingbeat.paper.printed import fitted_slope, printed_centre, printed_drag, printed_lift
 
-# "In line with" means: at the angle of the other peak, the lift is below its own maximum by at most this share. The
-# paper says "conforms very well" of 1.95 and a formula that reaches 2.04: a gap of 4.6 %.
+# "In line with" means: at the angle where the other lift peaks, a lift is below its own maximum by at most this
+# share. The paper says "conforms very well" of 1.95 and a formula that reaches 2.04: a gap of 4.6 %.
 IN_LINE = 0.05
 # Seconds left out at the start of a record, and the kinematic viscosity of water [m2/s].
 _LEFT_OUT, _WATER = 10.0, 1.0e-6

@@ -32,9 +32,9 @@ class Score:
     predicted : lowest and highest prediction at these speeds; None if none is certified.
     ratio : lowest and highest ratio of prediction to the middle of the measured values; None without a prediction,
         or for the speed of minimum power.
-    agrees : whether every prediction is within the measured range or outside it by at most the factor in `AGREES`;
-        no factor applies to a range that begins at 0, because its upper end is a limit. The speed of minimum power
-        may be outside by 3 m/s. None if no flight is certified.
+    agrees : whether every prediction is within the measured range or differs from the nearer end of this range by
+        at most the factor in `AGREES`; no factor applies to a range that begins at 0, because its upper end is a
+        limit. The speed of minimum power may be outside by 3 m/s. None if no flight is certified.
     at_edge : whether the speed of minimum power is the first or the last that was flown.
     """
 

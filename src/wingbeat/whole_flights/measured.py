@@ -20,7 +20,7 @@ COMPARED = (
     "muscle_efficiency",
     "minimum_power_speed",
 )
-# How a number was found: in the animal, with a model of the air or of the body, or by a law of other animals.
+# How a number was found: measured on the animal, with a model of air or body, or by a law of other animals.
 BASES = ("measured", "estimated", "law")
 _OF_CURVE = "minimum_power_speed"
 _KEYS = ("quantity", "basis", "values", "what", "source")
@@ -34,7 +34,8 @@ class Measurement:
     Attributes
     ----------
     quantity : one of `COMPARED`.
-    basis : ``"measured"``, ``"estimated"`` with a model, or ``"law"``: from a law fitted to other animals.
+    basis : ``"measured"`` on the animal, ``"estimated"`` with a model, or ``"law"``, from a law fitted to other
+        animals.
     speeds : lowest and highest flight speed to which it applies [m/s]; None for the speed of minimum power.
     values : lowest and highest value, in the unit of the nomenclature; if a mean was published, the mean minus and
         plus one standard deviation.

@@ -44,7 +44,7 @@ class Flown:
     peak_activation : largest share of the muscle's fibres that the beat uses; None without muscle.
     active_bounds : free parameters that are at a bound.
     low, high : the band of each quantity: 10th and 90th percentile of the certified draws; empty without draws.
-    drawn, certified : number of draws of the animal's numbers, and of those that fly.
+    drawn, certified : number of draws of the animal's numbers, and number of draws that fly.
     due_to : for each quantity, the numbers of the animal that are most correlated with it over the draws, each with
         the square of the rank correlation; empty with fewer than 100 certified draws.
     """
@@ -80,7 +80,7 @@ class Prediction:
     flown: tuple[Flown, ...]
 
     def series(self, quantity: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return speeds [m/s], values and the two ends of the band, shape (K,); not-a-number where there is none.
+        """Return four arrays of shape (K,): speeds [m/s], values, low and high end of the band; NaN if missing.
 
         Parameters
         ----------
@@ -127,9 +127,10 @@ def predict_flights(
 ) -> Prediction:
     """Fly an animal at the speeds of its measured flights.
 
-    No number is fitted to the measurements: they only say at which speeds to fly. For the band, each draw takes
-    random values, within their ranges, for all numbers of the species file and of the laws. Draws stay in the
-    orbit's family: a draw counts as not certified if the solver, started from the orbit, finds no flight for it.
+    No number is fitted to the measurements. The measurements only say at which speeds to fly. For the band, each
+    draw takes random values, within their ranges, for all numbers of the species file and of the laws. Draws stay
+    in the orbit's family: a draw counts as not certified if the solver, started from the orbit, finds no flight
+    for it.
 
     Parameters
     ----------

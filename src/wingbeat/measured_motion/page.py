@@ -48,8 +48,8 @@ docstring of `wb.read_strip_case` describe its files.
    must therefore be met:
    - the polar was measured in straight flow and states an aspect ratio;
    - the speed is at least twice the induced speed of hover;
-   - the flow is attached for at least 90 % of beat and wing area. Flow counts as attached if the angle of attack,
-     computed from the motion alone, is below the angle of the polar's largest lift.
+   - the flow is attached for at least 90 % of the beat, averaged over the wing area. Flow counts as attached if
+     the angle of attack, computed from the motion alone, is below the angle of the polar's largest lift.
 6. In slow flight the induced flow in the polar of a finite wing is not the right one. If the model states its
    aspect ratio, the rule then adds momentum inflow.
 

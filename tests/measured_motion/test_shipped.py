@@ -90,7 +90,7 @@ def test_the_screen_marks_one_row_and_says_why(capsys):
     assert main(["validate", str(YEO), "--aero", "su-fan", "--inflow", "none"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:3] for line in lines if line.startswith("* su")] == [["*", "su-fan", "wake"]]
-    assert any(line.startswith("* recommended: rigid wing") for line in lines)
+    assert any(line.startswith("* marks the recommended row. The wing is rigid") for line in lines)
     assert max(map(len, lines)) <= 80
 
 

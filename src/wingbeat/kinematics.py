@@ -41,7 +41,7 @@ class Wingbeat:
     flap_mean, flap_amplitude : flap angle, wing up positive [rad].
     pitch_mean, pitch_amplitude : wing pitch at the root, leading edge up positive [rad].
     span_retraction : share of the span retracted at mid-upstroke, 0 to below 1.
-    twist_ratio : wing pitch at the tip over that at the root; 1 is no twist.
+    twist_ratio : wing pitch at the tip divided by wing pitch at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
     pitch_phase : phase lead of pitch over flap, beyond a quarter of a wingbeat [rad].
@@ -51,13 +51,13 @@ class Wingbeat:
     stroke_plane_tilt : added to the wing's stroke-plane angle [rad].
     tail_tilt : added to the tail's incidence [rad]; without a tail it has no effect.
     flap_harmonics, pitch_harmonics : cosine and sine of order 2, of order 3 and so on, up to 8 [rad].
-    span_harmonics : cosine and sine of order 1, 2 and so on, of the span over the full span.
+    span_harmonics : cosine and sine of order 1, 2 and so on, of the span divided by the full span.
     chord_retraction : share of the chord lost at mid-upstroke, 0 to below 1. Only the chord that meets the air
         shrinks; the wing's mass stays distributed over the full chord, and the quarter-chord line does not move.
     twist_mean : angle that is added to the pitch at the tip; elsewhere, this angle times the span fraction is added
         [rad].
     sweep_harmonics : cosine and sine of order 2, of order 3 and so on [rad].
-    chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord over the full chord.
+    chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord divided by the full chord.
     twist_harmonics : cosine and sine of order 1, 2 and so on, of the angle whose mean is `twist_mean` [rad].
 
     Raises
@@ -181,8 +181,8 @@ def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return the phase of a wingbeat with equal down- and upstroke: 0 at the top, 1/2 at the bottom.
 
     If phases are angles from mid-downstroke, an angle alpha becomes theta with ``tan(theta/2) = cot(pi d/2)
-    tan(alpha/2)``, d the downstroke fraction. Phase d becomes 1/2, and 1 stays 1. This Moebius map of the circle is
-    smooth and increasing for every d.
+    tan(alpha/2)``, where d is the downstroke fraction. Phase d becomes 1/2, and 1 stays 1. This Moebius map of the
+    circle is smooth and increasing for every d.
     """
     if at_default(wingbeat, "downstroke_fraction"):
         return phase
@@ -230,7 +230,7 @@ def pitch_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
 
 def span_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the span over the full span."""
+    """Return the span divided by the full span."""
     at = stroke_phase(wingbeat, phase)
     base = 1.0 - wingbeat.span_retraction * recovery(at)
     return with_harmonics(base, wingbeat.span_harmonics, FIRST_ORDER["span"], at)
@@ -252,7 +252,7 @@ def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
 
 def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
-    """Return the chord that meets the air over the full chord, None if it is always the full chord."""
+    """Return the chord that meets the air divided by the full chord, None if it is always the full chord."""
     if at_default(wingbeat, "chord_retraction") and not wingbeat.chord_harmonics:
         return None
     at = stroke_phase(wingbeat, phase)

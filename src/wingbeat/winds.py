@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat.errors import FaultList
 
-# A wind takes times [s], shape (K,), and returns the velocity of the air, forward and up [m/s], each of shape (K,).
+# A wind takes times [s], shape (K,). It returns two arrays of this shape: the air's velocity forward and up [m/s].
 Wind = Callable[[np.ndarray], tuple[Any, Any]]
 
 _FOOT, _KNOT = 0.3048, 1852.0 / 3600.0
@@ -25,7 +25,9 @@ _WAVES = 256
 
 @dataclass(frozen=True)
 class CosineGust:
-    """A gust that rises and falls once: ``(1 - cos(2 pi t / duration)) / 2`` of its largest velocity.
+    """A gust that rises and falls once.
+
+    At a time t after its start, its velocity is ``(1 - cos(2 pi t / duration)) / 2`` times the largest velocity.
 
     Parameters
     ----------
@@ -71,7 +73,8 @@ class DrydenTurbulence:
     Parameters
     ----------
     airspeed : of the flight, which turns lengths into times [m/s].
-    level : ``light``, ``moderate`` or ``severe``: a mean wind of 15, 30 or 45 knots 20 feet above the ground.
+    level : strength, by the mean wind 20 feet above the ground: ``light`` (15 knots), ``moderate`` (30 knots) or
+        ``severe`` (45 knots).
     altitude : above the ground [m].
     seed : of the random phases.
 
@@ -135,12 +138,12 @@ class DrydenTurbulence:
 
 
 def _below_upward(number: np.ndarray) -> np.ndarray:
-    """Return the share of the upward component's variance below a wave number, in units of 1/L_w."""
+    """Return the share of the upward component's variance at wave numbers below `number` [1/L_w]."""
     return (2.0 * np.arctan(number) - number / (1.0 + number**2)) / math.pi
 
 
 def _inverse(function: Callable[[np.ndarray], np.ndarray], values: np.ndarray) -> np.ndarray:
-    """Return where an increasing function takes values, by bisection of the logarithm."""
+    """Return the arguments at which an increasing function has these values, by bisection of the logarithm."""
     low, high = np.full(values.shape, -20.0), np.full(values.shape, 20.0)
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -283,7 +283,7 @@ def test_bounds_of_the_wingbeat_are_limits_too():
         wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="frequency=6")
     with pytest.raises(wb.InvalidInputError, match=r"wingbeat\.frequency = -6"):
         wb.OrbitProblem(PIGEON, speed=SPEED, minimise="power", subject_to="frequency=-6")
-    with pytest.raises(wb.InvalidInputError, match="leaves nothing free"):
+    with pytest.raises(wb.InvalidInputError, match="leaves no parameter free"):
         wb.OrbitProblem(PIGEON, SPEED, minimise="power", free=("flap_mean",), subject_to="flap_mean=0")
     with pytest.raises(wb.InvalidInputError, match="is not a Species"):
         wb.OrbitProblem("pigeon", SPEED, subject_to="flap_mean=0")

@@ -256,8 +256,8 @@ def exported(
 ) -> Any:
     """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
 
-    A `hot` function takes longer to compile and then runs faster. One that is not `kept` is traced in each process,
-    as a function must be that takes a user's function.
+    A `hot` function takes longer to compile and then runs faster. A function that is not `kept` is traced in each
+    process; functions that take a user's function as an argument need this.
 
     >>> @exported
     ... def double(values):

@@ -34,7 +34,8 @@ def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
 def _merge_calls(module: ir.Module) -> bool:
     """Merge calls of one function with the same arguments; return whether there were any.
 
-    The compiler pass does not merge calls. It is safe here: functions of a traced program have no side effects.
+    The compiler pass does not merge calls. Merging them is safe here: functions of a traced program have no side
+    effects.
     """
     return any([_merge_calls_of(block) for block in _blocks(module.operation)])
 

@@ -1,7 +1,7 @@
 """Air loads on the five coordinates, from the motion of the wing's points in the world.
 
-This module uses the same formulas for a strip as `body_dynamics`, but its own sums over the strips, so that each
-form checks the other.
+This module uses the same formulas for a strip as `body_dynamics`, but its own sums over the strips, so that the two
+modules check each other.
 """
 
 from __future__ import annotations
@@ -77,10 +77,10 @@ class AirForces(NamedTuple):
 class _AirResistance(NamedTuple):
     """The motions of each strip of the left wing that the air resists (thin aerofoil), and the air's inertia.
 
-    `mass` and `inertia` are the air's added mass and inertia for a strip. `lever` and `turn`, shape (N, 5), are the
-    derivatives with respect to q' of the mid-chord's normal speed and of the chord's turning rate. `normal_bias`
-    and `turning_bias` are the time derivatives of these speeds at ``q'' = 0``. `turning` is the chord's turning
-    rate [rad/s].
+    `mass` and `inertia` are the air's added mass and inertia for a strip. Each strip has a normal speed of its
+    mid-chord and a turning rate of its chord (`turning` [rad/s]). `lever`, shape (N, 5), is the derivative of the
+    normal speed with respect to q'; `normal_bias` is its time derivative at ``q'' = 0``. `turn` and `turning_bias`
+    are the same derivatives of the turning rate.
     """
 
     mass: PerStrip

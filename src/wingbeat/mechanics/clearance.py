@@ -59,7 +59,7 @@ def lateral_corner(
     Parameters
     ----------
     vehicle, wingbeat, count : as in `lateral_corners`.
-    strips : of the corners.
+    strips : the strips to which the corners belong.
     share : `LEADING` or `TRAILING`.
     side : -1 for an inner corner, 1 for an outer one.
     phase : phases.

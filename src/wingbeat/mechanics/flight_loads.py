@@ -37,7 +37,7 @@ class Loads(NamedTuple):
     ----------
     flap, flap_rate : of the arm, up positive [rad, rad/s].
     wing_pitch, wing_pitch_rate : at the root, leading edge up positive [rad, rad/s].
-    span_ratio : span over the full span.
+    span_ratio : span divided by the full span.
     fold, sweep : angle of the hand below the arm, and of the span ahead of the stroke plane [rad].
     acceleration : (x'', z'', psi'') of the body [m/s2, m/s2, rad/s2].
     strip_position, strip_velocity : of the quarter chords [m, m/s], shape (..., N, 3).

@@ -147,7 +147,7 @@ def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
 
     Parameters
     ----------
-    model : the flight model; one without inflow is returned as it is.
+    model : the flight model; a model without inflow is returned unchanged.
     velocity : forward and up [m/s].
     """
     if model.induced_factor is None:

@@ -137,7 +137,7 @@ def _fly_in_wind(
 def air_between(table: AirTable, place: Scalar) -> AirVelocity:
     """Return the air's velocity between the places of a table, by cubics (Catmull-Rom).
 
-    The slope of the cubic at a place is half the difference of its neighbours.
+    The slope of the cubics at a place is half the difference of the velocities at the two neighbouring places.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Frames: the world, body axes and stroke axes, vectors as tuples of components.
+"""Frames: the world, body axes and stroke axes. Vectors are tuples of components.
 
 World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive). Stroke axes:
 body axes turned further, until the third axis lies in the stroke plane, in which the wings flap and retract. Stroke

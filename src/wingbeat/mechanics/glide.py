@@ -65,8 +65,8 @@ class Glide(NamedTuple):
     glide_ratio : distance over height lost.
     body_pitch, wing_pitch, flap : [rad].
     tail_tilt : added to the tail's incidence [rad]; 0 without a tail.
-    tail_moment : moment that a tail would need to supply, in addition to that of an existing tail, nose-up positive
-        [N m]; 0 if the glide is trimmed.
+    tail_moment : moment that a tail would need to supply, in addition to the moment of an existing tail [N m];
+        nose-up positive, 0 if the glide is trimmed.
     flap_torque, pitch_torque : torques that hold the wings [N m].
     trimmed : whether the pitching moment vanishes.
     """

@@ -168,8 +168,8 @@ def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, T
 class UnsteadyLoad(NamedTuple):
     """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
 
-    Without damping it is ``-(A . a + B . xi + C + psi' (D . xi + E))``. Here ``xi = (V_x, V_z, psi')`` is the
-    body's motion through the air in stroke axes, and a its acceleration with the pitch acceleration.
+    Without damping, the load is ``-(A . a + B . xi + C + psi' (D . xi + E))``. Here ``xi = (V_x, V_z, psi')`` is
+    the body's motion through the air in stroke axes, and a its acceleration with the pitch acceleration.
 
     Attributes
     ----------

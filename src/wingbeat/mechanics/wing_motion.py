@@ -52,7 +52,7 @@ class WingMotion(NamedTuple):
     acceleration_moment : sum of mass times (position turned by a right angle) . acceleration [N m].
     unpitched : components in the plane of symmetry of the unit vector along the unpitched chord; None unless the
         wing sweeps.
-    sweeping_speed : speed along that chord [m/s]; None unless the wing sweeps.
+    sweeping_speed : speed along the unpitched chord [m/s]; None unless the wing sweeps.
     tilt : of the stroke plane [rad]; None if it is 0.
     span : components in the plane of symmetry of the unit vector along the span; None unless loads depend on the
         full airspeed.

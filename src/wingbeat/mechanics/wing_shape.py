@@ -28,8 +28,8 @@ class Strips(NamedTuple):
 class WingShape(NamedTuple):
     """Where the strips of the left wing are, in stroke axes, arrays of shape (N, ...).
 
-    Flap turns a strip about the first axis. Sweep then turns its span forward, in the plane of that axis and the
-    span. Pitch turns it about its own span, which runs along the quarter chords.
+    Flap turns a strip about the first axis. Sweep then turns the strip's span forward, in the plane of that
+    axis and the span. Pitch turns the strip about its own span, which runs along the quarter chords.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
 def first_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Search from the starts, from the optima without limits, and near the lowest peak; return where searches end.
+    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def search_from_optima(programme: Transcription, easier: Iterable[Candidate], th
 def easier_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Search as `first_searches` does, for the problem whose optima a search for stability starts from."""
+    """Search as `first_searches` does, for the easier problem that comes before a search for stability."""
     free = Transcription(easier(programme.problem), programme.options)
     return first_searches(free, starts, seed, threads, progress)
 
@@ -84,9 +84,10 @@ def easier_searches(
 def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:
     """Search for stable orbits from the optima without limits of stability; return where the searches end.
 
-    No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
-    derivatives of the stroke map takes five times as long. If stability is dear, its limits are also tightened step
-    by step from the best of these optima, because a search may otherwise end in another family.
+    No search starts from elsewhere, for two reasons. Stable orbits are next to some of these optima. A flight with
+    the derivatives of the stroke map takes five times as long as one without. If a stable orbit costs too much
+    (`SearchOptions.dear_stability`) or none is found, one more search starts from the best of these optima. It
+    tightens the limits step by step, because a direct search may end in another family.
     """
     best, map_is_minimised = optimal(free), minimises_map(programme.problem)
     if best and not map_is_minimised:
@@ -118,8 +119,9 @@ def search_from_starts(
 ) -> Iterator[Candidate]:
     """Search from these starts in parallel threads, and yield in order where each local search ends.
 
-    Every start but the first, the stock wingbeat, is brought close to closure before the objective is minimised. A
-    local search from far away diverges. If no orbit exists, a search then ends after 30 flights, not 100.
+    The first start is the stock wingbeat. Every other start is brought close to closure before the objective is
+    minimised, because a local search from far away diverges. If no orbit exists, such a search ends after 30
+    flights rather than 100.
     """
 
     def one(index: int) -> Candidate:

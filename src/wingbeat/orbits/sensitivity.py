@@ -196,7 +196,10 @@ class OptimumSlopes:
         direction: np.ndarray,
         parameter: Parameter | None = None,
     ) -> np.ndarray:
-        """Return a function's derivative along a direction of the unknowns, while a parameter moves by its size."""
+        """Return a function's derivative along a direction of the unknowns.
+
+        If a parameter is given, it changes at the same time, by its size.
+        """
         step = self._options.sensitivity.step / max(1.0, float(np.abs(direction).max()))
         nodes = self._nodes(parameter, step)
         values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]

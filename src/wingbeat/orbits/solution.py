@@ -55,7 +55,7 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
 
 @dataclass(frozen=True)
 class Solution:
-    """What the solver found: wingbeat and initial state of the best orbit, and how far it can be trusted.
+    """What the solver found: wingbeat and initial state of the best orbit, and how far the orbit can be trusted.
 
     `optima` holds the best uncorrected optimum of each family. If there is no orbit, wingbeat and initial state are
     those of the closest wingbeat; `deficits` are the deficits of the balances that fail, the largest first; and
@@ -119,7 +119,7 @@ class Solution:
 
     @property
     def price_of_stability(self) -> float | None:
-        """How much more the orbit costs than without limits of stability, as a share of that objective."""
+        """The excess of the objective over `free_objective`, as a share of `free_objective`; None if not known."""
         if self.free_objective is None or self.status is not Status.CONVERGED:
             return None
         return (self.objective - self.free_objective) / abs(self.free_objective)

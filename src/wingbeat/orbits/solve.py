@@ -201,18 +201,18 @@ def correct_guess(
     like: ReducedHessian | None = None,
     options: SolverOptions = DEFAULTS,
 ) -> Solution | None:
-    """Correct unknowns that are assumed to be next to an orbit, without a local search.
+    """Find the certified orbit next to a guess of the unknowns, by correction without a local search.
 
     Parameters
     ----------
     problem : the orbit problem.
-    guess : unknowns.
+    guess : the guessed unknowns.
     like : curvature at the optimum of a similar problem.
     options : of the solvers.
 
     Returns
     -------
-    The certified orbit, or None.
+    The certified orbit; None if the guess is too far from an orbit, or if its correction fails.
     """
     begun = time.perf_counter()
     programme = Transcription(problem, options)

@@ -1,4 +1,4 @@
-"""Jobs of several sessions on a few worker processes: a fair queue with limits that survives a dead process."""
+"""Jobs of several sessions on a few worker processes: a fair queue with limits, which survives a dead process."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from wingbeat.errors import first_line
 from wingbeat.workers.main import Message
 from wingbeat.workers.process import WorkerProcess
 
-# After this many processes in a row that end before they are ready, no more are started for the same job.
+# If this many processes in a row end before they are ready, no more are started for the same job.
 _FALSE_STARTS = 3
 # A job that is no longer wanted may end by itself within this time [s]; then its process is ended.
 _GRACE = 20.0

@@ -53,7 +53,7 @@ def in_processes(
 
 @contextmanager
 def process_map(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
-    """Yield a `map` that uses `processes` processes, at most one per item; for 1 it is Python's own `map`."""
+    """Yield a `map` that uses `processes` processes, at most one per item; with 1, it is Python's own `map`."""
     if processes == 1:
         yield map
         return

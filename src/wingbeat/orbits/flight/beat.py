@@ -102,7 +102,7 @@ class Beat(NamedTuple):
     drive: Drive = Drive()
 
     def only(self, fields: Collection[str]) -> Beat:
-        """Return the beat with these fields and its drive; the others are None.
+        """Return the beat with only these fields and its drive; all other fields are None.
 
         Parameters
         ----------
@@ -147,12 +147,12 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
 NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
 # Those with a column for each strip. All others are series.
 BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
-# Fields that take longer than the others, by what takes it: columns of strips, and a third motion of the wing.
+# Fields that take longer than the others, grouped by the cause: columns of strips, and a third motion of the wing.
 _DEAR = (frozenset(BY_STRIP), frozenset({"actuator_power"}))
 
 
 def _with_cheap(fields: Collection[str]) -> tuple[str, ...]:
-    """Return the fields with all that cost little, so that few programs serve all objectives and limits."""
+    """Add all fields that cost little to these fields, so that few programs serve all objectives and limits."""
     dear = [group for group in _DEAR if group.isdisjoint(fields)]
     return tuple(name for name in Beat._fields if name != "drive" and not any(name in group for group in dear))
 
@@ -240,13 +240,13 @@ def _part(
     free: tuple[str, ...],
     fields: tuple[str, ...],
 ) -> tuple[Beat, Beat]:
-    """Return fields of the beat between two phases, and their derivatives; their first axis is the unknowns."""
+    """Return fields of the beat between two phases, and their derivatives, whose first axis is the unknowns."""
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     # The barrier keeps each direction from computing the tables again.
     tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(jnp.eye(len(free)))))
-    # A direction changes either the tables or the state. Taking them apart saves the zeros of the other.
+    # A direction changes either the tables or the state. Separate derivatives save the zeros of the unchanged part.
 
     def series(tables: _Tables, path: Any) -> Beat:
         return _series(model, tables, path, mean_velocity).only(fields)
@@ -259,7 +259,7 @@ def _part(
 
 
 def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
-    """Return a field's derivatives: its own by the free parameters, and those through the path.
+    """Return the derivatives of a field: `own`, at a fixed path, plus those through the path.
 
     A sample depends on the path at its own phase alone, so its derivatives by the four states are a linear map.
     """
@@ -280,7 +280,7 @@ def beat_reader(
     """Return a function that computes a flight's beat and its derivatives by the unknowns (first axis).
 
     The function takes the values of the parameters named in `free`, and the flight that `flier` computed from them.
-    Of fields that take long, only those that are named are computed; the others are None.
+    Fields that take long are computed only if they are named; otherwise they are None.
     """
     part = _part.bind(model, wingbeat, free=free, fields=_with_cheap(fields))
     velocity = np.array(mean_velocity)

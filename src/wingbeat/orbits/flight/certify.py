@@ -15,7 +15,7 @@ from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 
 SAMPLES = 256
-# Samples of a flight that only corrects.
+# Number of samples of a flight that serves only the correction.
 _ROUGH_SAMPLES = 32
 
 

@@ -1,7 +1,7 @@
 """How disturbances of an orbit grow or decay: Floquet multipliers, from flights beside the certified path.
 
-Differences suffice: no optimiser uses these derivatives, they are accurate to about 1e-6, and they compile in half
-the time of tangents.
+Finite differences suffice, because no optimiser uses these derivatives. The differences are accurate to about 1e-6,
+and they compile in half the time that tangents take.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _STEPS = 2
 # Distances from the path at which the flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s].
 _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
-# Stretches of the path that are flown at once, as lanes: few enough for the processor's first cache.
+# Number of stretches of the path that are flown at once, as lanes: few enough for the processor's first cache.
 _LANES = 64
 
 
@@ -79,7 +79,10 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
 
 
 def multipliers_of(matrix: np.ndarray) -> np.ndarray:
-    """Return the eigenvalues of a monodromy matrix, largest modulus first, not-a-number if it is, shape (4,)."""
+    """Return the eigenvalues of a monodromy matrix, largest modulus first, shape (4,).
+
+    They are not-a-number if the matrix is.
+    """
     if not np.isfinite(matrix).all():
         return np.full(4, np.nan + 0j)
     found = np.linalg.eigvals(matrix)
@@ -107,7 +110,7 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
 
 
 def _chained(maps: np.ndarray) -> np.ndarray:
-    """Return the product of linear maps, shape (K, 4, 4), the first applied first, by pairwise multiplication."""
+    """Return the product of linear maps, shape (K, 4, 4), by pairwise multiplication; the first map acts first."""
     while len(maps) > 1:
         last = maps[len(maps) // 2 * 2 :]
         maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])

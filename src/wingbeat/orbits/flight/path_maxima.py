@@ -1,7 +1,7 @@
 """The peaks of a series along a beat: its largest value in each quarter.
 
-A path seldom has two peaks in one quarter. With only the largest peak of the whole beat, an optimiser would
-alternate between peaks of equal height.
+A path seldom has two peaks in one quarter. If an optimiser knew only the largest peak of the whole
+beat, it would alternate between peaks of equal height.
 """
 
 from __future__ import annotations
@@ -92,10 +92,10 @@ class WeightedSamples:
         self.peaks = self.of(series)
 
     def of(self, series: np.ndarray) -> np.ndarray:
-        """Return the weighted sums of the samples of a series of this shape, or of several along further last axes.
+        """Return the weighted sums of the samples of a series; several series may lie along further last axes.
 
-        For a change of the path, the result is the change of its peaks, because a shift of a peak's phase has no
-        first-order effect.
+        If the series is a change of the path, the result is the change of the path's peaks, because a shift of a
+        peak's phase has no first-order effect.
         """
         around, weights = self._around, self._weights
         if more := tuple(range(weights.ndim, series.ndim + 1)):

@@ -1,7 +1,8 @@
 """The classical Runge-Kutta method of order 4 as a table, so that its stages are one loop, compiled once.
 
-A stage starts from the state at the step's start, plus `ALONG` of the step times the rate of the stage before. The
-rate of the whole step is the mean of the stages' rates, weighted by `WEIGHTS`.
+Each stage starts from the state at the start of the step. To this state it adds the share `ALONG` of the step,
+times the rate of the stage before. The rate of the whole step is the mean of the stages' rates, weighted by
+`WEIGHTS`.
 """
 
 from __future__ import annotations

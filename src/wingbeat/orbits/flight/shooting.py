@@ -1,8 +1,8 @@
 """One period flown with fixed steps, and the exact derivative of its end.
 
-First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes, each
-from the state at the start of its step. Last, the step maps are multiplied. The position (x, z) does not affect
-the flight: it is a sum over the steps.
+First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes; the
+tangents of each step start from the state at its start. Last, the step maps are multiplied. The position (x, z)
+does not affect the flight: it is a sum over the steps.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     )
 
 
-# One compiled march has this many steps; finer flights chain several.
+# One compiled march has this many steps; finer flights chain several marches.
 STEPS = 32
 
 
@@ -255,9 +255,9 @@ def flier(
 ) -> Callable[..., Flown]:
     """Return a function that flies one period, given free parameters, pitch state at x = z = 0, and `blocks`.
 
-    It flies `blocks` times `STEPS` steps and differentiates them. The path is that of body pitch. With
-    `whole_path`, it is that of the whole pitch state, whose derivatives take a tenth of a batch's time. With
-    `stroke`, the function also returns the distances of the stroke from its limits.
+    The function flies `blocks` times `STEPS` steps and differentiates them. `Flown.path` holds the body pitch
+    alone, or with `whole_path` the whole pitch state; the derivatives of the whole pitch state take a tenth of a
+    batch's time. With `stroke`, the function also returns the distances of the stroke from its limits.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 

@@ -1,4 +1,4 @@
-"""How close a stroke comes to its limits: for each wing the plane of symmetry, and the range of the shoulder.
+"""How close a stroke comes to its limits: the plane of symmetry, and the range of the shoulder.
 
 The distances depend on the wingbeat alone. A flight returns them as rows: each row is the least distance from a
 limit. The strips' leading and trailing corners have a row for each quarter of the beat; the flap angles of arm and

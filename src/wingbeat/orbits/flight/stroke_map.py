@@ -64,15 +64,15 @@ def map_and_changes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the stroke map of (body_pitch, u, w, pitch_rate), shape (4, 4), and its derivatives by the unknowns.
 
-    The derivatives have the shape (unknowns, 4, 4). Second derivatives of the flight do not depend on the order of
-    differentiation, so those of the map by all unknowns are changes of the exact first derivatives by the four
-    states alone: four flights, however many parameters are free.
+    The derivatives have the shape (unknowns, 4, 4). They are second derivatives of the flight, which do not depend
+    on the order of differentiation. So we shift each of the four states in turn, and take the change of the exact
+    first derivatives by all unknowns. This takes four flights, however many parameters are free.
 
     Parameters
     ----------
     fly : as `flier` returns it.
-    values, start, blocks : its arguments.
-    flown : the flight from there.
+    values, start, blocks : the arguments of `fly`.
+    flown : the flight with these arguments.
     """
     here = np.asarray(flown.end_jacobian)[2:]
     beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]

@@ -31,8 +31,8 @@ class Deficit:
     Parameters
     ----------
     law : ``lift`` (upward force), ``thrust`` (forward force minus drag) or ``pitching moment`` (nose up).
-    share : of the weight, or of weight times mean chord.
-    amount : [N] or [N m].
+    share : the deficit as a share of the weight, or of weight times mean chord.
+    amount : the deficit [N] or [N m].
     """
 
     law: str
@@ -141,12 +141,12 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes, or else the closest beat, in which one balance fails if possible.
+        """Return a beat that closes. If none is found, return the closest beat.
 
-        All balances may fail only if no beat with a single failing balance was found. If each of several balances
-        can be the only one that fails, the balance with the smallest deficit is reported. An excess of force is
-        reported only if no deficit explains the failure, because excess force can mostly be removed at the expense
-        of another balance.
+        In the closest beat, only one balance fails if possible. All balances may fail only if no beat with a single
+        failing balance was found. If each of several balances can be the only one that fails, the balance with the
+        smallest deficit is reported. An excess of force is reported only if no deficit explains the failure,
+        because excess force can mostly be removed at the expense of another balance.
         """
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []

@@ -129,8 +129,8 @@ def _without_term(programme: Transcription, name: str, near: np.ndarray) -> Rela
     starts = [near, *(start_point(problem, i, 0, options.search) for i in range(options.diagnosis.term_starts))]
     trace = with_trace_of(problem, name, options.diagnosis.term_trace)
     if trace is not None:
-        # As elsewhere, the stock wingbeat is not changed before the search; other starts are first brought close to
-        # closure.
+        # The stock wingbeat is not changed before the search; other starts are first brought close to closure, as
+        # in `search_from_starts`.
         almost = Transcription(trace, options)
         ends = (search(almost.uncorrected(), start, restore=i != 1) for i, start in enumerate(starts))
         starts = [almost.physical(end.scaled) for end in islice((end for end in ends if end.closed), 1)]

@@ -1,4 +1,4 @@
-"""Problems whose least frequency is at its own lower bound, as in a descent that is nearly a glide.
+"""Problems whose least frequency is at the lower bound of frequency, as in a descent that is nearly a glide.
 
 Where the wings hardly need to beat, orbits exist down to any frequency, and the optimum is at the bound. Local
 searches often do not reach it, because the closure of a beat of half a second or more is far from linear. For a

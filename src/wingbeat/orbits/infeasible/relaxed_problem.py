@@ -19,7 +19,7 @@ _REMEMBERED = 8
 
 
 class RelaxedProgramme:
-    """A programme that minimises the change of one number; this change, over its scale, is an additional unknown.
+    """A programme that minimises the change of one number; the change divided by its scale is one more unknown.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> Re
 def least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
 ) -> tuple[float, np.ndarray] | None:
-    """Return the least change of a number with which a beat closes, over its scale, and this beat; or None.
+    """Return the least change with which a beat closes, divided by its scale, and this beat; or None.
 
     The search moves the number far, until a beat closes, and then back as far as possible.
 

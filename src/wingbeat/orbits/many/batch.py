@@ -46,11 +46,12 @@ def find_orbits(
     advise: bool = False,
     options: SolverOptions = DEFAULTS,
 ) -> Iterator[Solution]:
-    """Yield the solution of each problem, in their order; a failure is a result, as in `find_orbit`.
+    """Yield the solution of each problem, in the order of `problems`; a failure is a result, as in `find_orbit`.
 
-    Among problems that differ in numbers only, the first are solved as in `find_orbit`. For each later problem, the
-    first start is predicted from their solutions; this start counts only if it leads to a certified orbit. In a
-    large group, some problems go first and predict the others, which are distributed over the processes.
+    Problems that differ in numbers only form a group. The first problems of a group are solved as in `find_orbit`.
+    For each later problem of the group, their solutions predict a first start, which counts only if it leads to a
+    certified orbit. A large group is split: some of its problems are solved first, and the processes then share the
+    others in parts.
 
     Parameters
     ----------
@@ -107,7 +108,7 @@ def _by_groups(
     problems: Sequence[OrbitProblem],
     groups: Sequence[Group],
 ) -> Iterator[tuple[int, Solution]]:
-    """Yield index and solution of each problem: first the problems that go first in a group, then the parts."""
+    """Yield index and solution of each problem: first the problems that each group solves first, then the parts."""
     known: list[list[Known]] = [[] for _ in groups]
     first = [Part([problems[i] for i in group.first], []) for group in groups]
     for group, learned, answers in zip(groups, known, solve(first), strict=True):
@@ -129,7 +130,7 @@ def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
 def _solve_part(
     part: Part, starts: int | None, seed: int, most_starts: int | None, advise: bool, options: SolverOptions
 ) -> Iterator[Answer]:
-    """Solve the problems of a part in sequence, each with the help of the solutions before."""
+    """Solve the problems of a part in sequence; earlier solutions help to solve the later problems."""
     numbers = [numbers_of(problem) for problem in part.problems]
     answers = Answers(part.known, numbers, options.continuation)
     for i, problem in enumerate(part.problems):
@@ -163,7 +164,7 @@ def find_with_known(
     explain: bool = True,
     options: SolverOptions = DEFAULTS,
 ) -> Solution:
-    """Return the better of a known certified orbit, if any, and the best that the other starts find.
+    """Return the known certified orbit, if there is one, or a better solution that the other starts find.
 
     Parameters
     ----------

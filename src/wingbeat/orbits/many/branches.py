@@ -1,4 +1,4 @@
-"""Branches of orbits along a number: each optimum is continued both ways. A jump to another one ends a branch."""
+"""Branches of orbits along a number. Each optimum is continued up and down; a jump to another one ends a branch."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def trace(
     problem : the problem; its own speed has no effect.
     speeds : increasing [m/s].
     starts, seed : number of starts at the first and the last speed, and the seed of all starts. Speeds between get
-        fewer starts. If nothing is certified at a speed, it then gets twice as many starts as the first speed.
+        fewer starts. A speed without a certified orbit then gets twice as many starts as the first speed.
     progress : called with (tasks done, tasks known).
     threads : number of tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.
@@ -202,7 +202,7 @@ class _BranchTracer:
         ]
 
     def _between_best(self) -> list[tuple[int, int, int]]:
-        """Return the untried tasks between the best optima of neighbouring speeds that are not linked."""
+        """Return the tasks, not yet tried, that could link the best optima of neighbouring speeds."""
         tasks = []
         for place in range(len(self._met) - 1):
             if not self._met[place] or not self._met[place + 1]:
@@ -229,7 +229,7 @@ class _BranchTracer:
 
 
 def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:
-    """Continue an optimum to another problem, in steps so short that each lands within `max_step` of the last.
+    """Continue an optimum to another problem, in steps so short that each ends within `max_step` of the last.
 
     Parameters
     ----------

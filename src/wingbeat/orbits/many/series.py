@@ -42,7 +42,7 @@ def find_series(
 
     Returns
     -------
-    The solutions; `starts` of each includes those from its neighbours.
+    The solutions. Their numbers of `starts` include the starts from neighbours.
 
     Raises
     ------
@@ -77,7 +77,10 @@ def find_series(
 
 
 def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return a problem's own solution, or a better one from a neighbour's, and whether there is a better one."""
+    """Return the better of two solutions, and whether it is the second.
+
+    The first is the problem's own solution; the second is found from the solution of a neighbour.
+    """
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - own.options.continuation.improvement * abs(own.objective)

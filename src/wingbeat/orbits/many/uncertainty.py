@@ -56,8 +56,8 @@ def uniform_spread(parameter: Parameter, share: float = 1.0) -> ParameterSpread:
 class ErrorBar(NamedTuple):
     """A quantity with its standard deviation, to first order, and the part that is due to each spread.
 
-    To first order, the quantity is a straight line through the optimum. Only samples show whether that is accurate
-    over whole ranges. Without samples, rely only on `ranking`, which says which spreads matter most.
+    To first order, the quantity is a straight line through the optimum. Only samples show whether this line is
+    accurate in the whole range. Without samples, rely only on `ranking`, which says which spreads matter most.
 
     Attributes
     ----------
@@ -142,8 +142,9 @@ def sample_orbits(
 ) -> Samples:
     """Solve a problem for random draws of its parameters.
 
-    Each draw is corrected from the optimum that the derivatives predict, so its orbit belongs to the same family.
-    If the correction leads to no orbit, a local search from the prediction follows, and then one from starts.
+    For each draw, the derivatives predict an optimum, and a correction of the prediction gives the orbit. So the
+    orbit belongs to the same family. If the correction fails, a local search from the prediction follows. If that
+    fails too, a search from `starts` follows.
 
     Parameters
     ----------

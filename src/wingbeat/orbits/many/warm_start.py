@@ -15,7 +15,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 class Group(NamedTuple):
-    """Indices of problems that differ in numbers only: those to solve first, and the parts that these help."""
+    """Indices of problems that differ in numbers only: those to solve first, and the others, split into parts."""
 
     first: list[int]
     parts: list[list[int]]
@@ -24,11 +24,13 @@ class Group(NamedTuple):
 def group_similar(
     problems: Sequence[OrbitProblem], options: ContinuationOptions = DEFAULTS.continuation
 ) -> list[Group]:
-    """Return groups of problems that differ in numbers only, each in an order that favours predictions.
+    """Return groups of problems that differ in numbers only, in an order that favours predictions.
 
-    The problems of a group share a species and a coefficient model, by name. The problems of a part have similar
-    numbers. In each list, the next problem is the farthest from all before it. Groups depend on the problems alone,
-    not on the number of processes.
+    The problems of a group share a species and a coefficient model, by name. In a large group, a sample of problems
+    is to be solved first. All others are split into parts, each of which contains problems with similar numbers.
+    The sample and each part are ordered in the same way: first comes the problem whose numbers are nearest to the
+    mean, and each next problem is the one farthest from all problems already in the list. Groups depend on the
+    problems alone, not on the number of processes.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
@@ -65,8 +67,8 @@ def kind(problem: OrbitProblem) -> Hashable:
 def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
     """Return coordinates of problems of one kind about their mean, shape (problems, directions).
 
-    There are as many directions as the problems differ in. Distances are those between the numbers that describe
-    the problems, each number divided by its largest magnitude.
+    The directions are those in which the problems differ. The distance of two problems is the distance of the
+    numbers that describe them, each number divided by its largest magnitude.
     """
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
@@ -84,7 +86,7 @@ def numbers_of(problem: OrbitProblem) -> np.ndarray:
 
 
 def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarray]:
-    """Halve along the direction with the largest range until the parts are small enough."""
+    """Halve along the direction with the largest range, and halve the parts again until all are small enough."""
     if members.size <= most:
         return [members]
     here = places[members]
@@ -94,7 +96,7 @@ def _parts(places: np.ndarray, members: np.ndarray, most: int) -> list[np.ndarra
 
 
 def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` members: the one nearest to the middle, then each time the farthest from those returned."""
+    """Return `count` members: first the one nearest to the mean, then always the farthest from those chosen."""
     here = places[members] - places[members].mean(axis=0)
     order, away = [], np.full(members.size, np.inf)
     nearest = np.linalg.norm(here, axis=1).argmin()

@@ -151,7 +151,7 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
 
 @dataclass(frozen=True)
 class Patience:
-    """The rule for divergence: after `flights` flights, the least violation still exceeds `closure`."""
+    """A search counts as diverged if, after `flights` flights, its least violation still exceeds `closure`."""
 
     flights: int
     closure: float

@@ -100,8 +100,8 @@ class NewtonKKT:
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
         """Return a point from which the next step is shorter than `near`; None if none is within the bounds.
 
-        The next step is not taken. If the search starts from a prediction by certified optima, that step would lead
-        to the optimum of the coarse flight, which is farther from the certified optimum.
+        The next step is not taken. If certified optima predicted the first point, that step would lead to the
+        optimum of the coarse flight, which is farther from the certified optimum than this point.
         """
         steps = self._steps(programme, scaled)
         return next((here for here, step in steps if np.abs(step).max() <= near), None)

@@ -28,7 +28,7 @@ class Outputs:
 
     Attributes
     ----------
-    count : values of objective and constraints together.
+    count : number of values of objective and constraints together.
     of_objective : number of the objective's values, which come first.
     minimises_peaks : whether the objective has several values.
     limits : upper limits of the constraints' values, shape (count - of_objective,).
@@ -53,7 +53,7 @@ class Outputs:
         return np.full(self.count, np.nan), np.zeros((self.count, 4 + len(self._problem.free)))
 
     def of(self, unknowns: np.ndarray, flown: Flown, blocks: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the values for a flight of so many blocks, and their derivatives by the unknowns."""
+        """Return the values for a flight of `blocks` blocks, and their derivatives by the unknowns."""
         values, start, wants, nothing = unknowns[4:], unknowns[:4], self._functions, (None, None)
         beat = self._reader(values, flown) if wants.of_beat else nothing
         stroke_map = map_and_changes(self._fly, values, start, blocks, flown) if wants.of_map else nothing
@@ -73,7 +73,7 @@ class Outputs:
         return range(sum(counts[:index]), sum(counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
-        """Return indices of constraints with an active value; `active` flags those after the path limits."""
+        """Return the indices of constraints with an active value; `active` flags the values of all constraints."""
         return [i for i in range(len(self._problem.subject_to)) if active[self.values_of(i)].any()]
 
     def active_constraints(self, active: np.ndarray) -> list[str]:

@@ -13,14 +13,15 @@ from wingbeat.orbits.problem.map_quantities import MapQuantity
 
 
 def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
-    """Return unknowns near a local optimum, from those of an orbit that exceeds limits of the stroke map.
+    """Return unknowns near a local optimum; start from an orbit that exceeds limits of the stroke map.
 
-    Each limit moves in equal ratios from its value at the start to the limit asked for, with a short search each.
+    Each limit moves in steps of equal ratio. Its first value is that of the limited quantity at the start, its last
+    is the limit asked for. A short search follows each step.
 
     Parameters
     ----------
     programme : of the problem with its limits.
-    start : unknowns of an orbit of the problem without them.
+    start : unknowns of an orbit of the problem without these limits.
     """
     problem, options = programme.problem, programme.options
     stroke_map = np.asarray(programme.fly(start[4:], start[:4]).end_jacobian)[2:, :4]
@@ -35,7 +36,7 @@ def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
 
 
 def _between(constraint: Constraint, stroke_map: np.ndarray, share: float) -> Constraint:
-    """Return a limit between the value at the start and the one asked for; other constraints as they are."""
+    """Return a limit between the quantity's value at the start and the limit asked for; leave other constraints."""
     quantity, limit = constraint.quantity, constraint.limit
     if not (isinstance(quantity, MapQuantity) and constraint.at_most):
         return constraint

@@ -30,7 +30,8 @@ class ContinuationOptions:
     improvement : a neighbour's result must be better by this share to replace a problem's own.
     batch_size : largest number of problems that are solved in sequence, each with the help of the solutions before.
         It is small enough to spread a batch over processes.
-    batch_first : in a larger group of similar problems, this many problems are solved first and help all others.
+    batch_first : in a group of more than `batch_size` similar problems, this many are solved first; they
+        help all others.
     near_share : solutions have about equal weight in a prediction if their distances from the predicted problem are
         below this share of the largest of these distances.
     rounding : relative differences between numbers that come from rounding.

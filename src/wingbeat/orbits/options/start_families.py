@@ -33,7 +33,7 @@ class StartFamily(NamedTuple):
 _QUIET, _PITCHING, _STEEP = math.radians(3.0), math.radians(15.0), math.radians(30.0)
 # Up to 108 starts were tried for each family, on 110 vehicles varied by +-40 %; these are the best. A wide and slow
 # beat leads in 68 % of the cases to wings that hardly pitch and beat below the body; a fast beat leads to
-# them in 55 %. For some bats, wide beats above a body whose nose is down are 30 % slower than any other.
+# such wings in 55 %. For some bats, wide beats above a body whose nose is down are 30 % slower than any other.
 START_FAMILIES = (
     StartFamily(),
     StartFamily(-0.8, 0.0, _QUIET, flap_amplitude=1.3, frequency=1.0, nose_up=0.35),

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 STABLE_RADIUS = 0.995
 # Disturbances of (body_pitch, u, w, pitch_rate) that count as equally large [rad, m/s, m/s, rad/s].
 _EQUAL = (0.1, 1.0, 1.0, 2.0)
-# Gusts excite an orbit without end at a spectral radius of 1. Up to this radius, the response is exact.
+# The response to gusts is infinite at a spectral radius of 1. Up to the radius given here, it is exact.
 _STEADY = 0.999
-# A limit of the spectral radius is inside the asked one by this share of it. Where two multipliers meet at the
-# limit, they exceed it by the square root of what the solver's tolerances leave.
+# The solver's limit of the spectral radius is lower than the user's by this share. Where two multipliers meet at a
+# limit, they exceed it by the square root of the residual that the solver's tolerances allow.
 _INSET = 1e-3
 # Weights of the conditions of stability; the first is the product of four distances from 1, which are small.
 _WEIGHTS = (100.0, 1.0, 1.0, 1.0, 1.0)
-# How fast the value rises beyond it: steep, so that a search turns back.
+# Slope of the response above the radius `_STEADY`: steep, so that a search turns back.
 _BEYOND = 1e3
 
 
@@ -37,10 +37,10 @@ class MapQuantity(Quantity):
     name, unit, parameter, in_hover, needs : as of a `Quantity`.
     scale : a difference that matters, so that the optimiser sees numbers near one.
     of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
-        (4, 4), in JAX-compatible Python; returns a number, or several that count by the largest.
-    excess : for a quantity that is proportional to the stroke map: function of the stroke map over an upper limit,
-        which returns numbers that are all at most 0 if the quantity keeps to the limit. In a search, it replaces
-        `of` where that has kinks.
+        (4, 4), in JAX-compatible Python; returns a number, or several, of which the largest counts.
+    excess : a smooth function, for a quantity that is proportional to the stroke map. It takes the stroke map
+        divided by an upper limit, and returns numbers that are all at most 0 if the quantity keeps to the limit. In
+        a search, it replaces an `of` that has kinks.
 
     Raises
     ------
@@ -71,12 +71,13 @@ def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
 
 
 def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
-    """Return five numbers that are all at most 0 only if no multiplier is larger than 1.
+    """Return five numbers that are all at most 0 only if no multiplier has a modulus above 1.
 
-    With ``z = (1 + s) / (1 - s)``, the circle becomes the left half-plane. All roots s of ``b4 s^4 + ... + b0``
-    lie there if b0, b2, b3, b4 and Hurwitz's third determinant are positive (Lienard and Chipart). These are smooth
-    where two multipliers meet. Each multiplier by itself has an infinite derivative there. b1 is then positive too;
-    a row of its own would leave the conditions dependent where two multipliers meet at 1.
+    The map ``z = (1 + s) / (1 - s)`` takes the left half-plane of s to the unit disc of multipliers z. All roots s
+    of ``b4 s^4 + ... + b0`` lie in the left half-plane if b0, b2, b3, b4 and Hurwitz's third determinant are
+    positive (Lienard and Chipart). These five numbers are smooth where two multipliers meet; each multiplier by
+    itself has an infinite derivative there. If the five are positive, b1 is positive too. It has no row of its own,
+    because the conditions would then be dependent where two multipliers meet at 1.
     """
     a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
     b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
@@ -89,7 +90,8 @@ def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
 def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
     """Return the root mean square of the disturbance under gusts of 1 m/s that change at random every beat.
 
-    The covariance P of the disturbances is that of ``P = A P A' + G G'``, ``G = (I - A)[:, (u, w)]``.
+    The covariance P of the disturbances solves ``P = A P A' + G G'`` with ``G = (I - A)[:, (u, w)]``. A is the
+    stroke map.
     """
     radius = jax.lax.stop_gradient(_moduli(stroke_map)[-1])
     steady = stroke_map * jnp.minimum(1.0, _STEADY / radius)

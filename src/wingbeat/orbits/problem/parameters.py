@@ -71,9 +71,13 @@ def with_number(record: Any, place: Place, value: float) -> Any:
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
-    The list omits the wrist, which has no effect until it crosses a strip; parameters of motions that are off; and
-    the numbers of coefficient models that are not formulas. The terms of a cambered wing have names such as
-    ``aero.wing.lift_slope``.
+    The list omits:
+
+    - the wrist, which has no effect until it crosses the centre of a strip;
+    - parameters of motions that are off;
+    - the numbers of coefficient models that are not formulas.
+
+    The terms of a cambered wing have names such as ``aero.wing.lift_slope``.
 
     >>> from wingbeat.species import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))

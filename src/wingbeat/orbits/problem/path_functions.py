@@ -77,7 +77,7 @@ class _Lacking:
 
 
 class Read(NamedTuple):
-    """What quantities read of a flight, or its changes along directions (first axis); None if no quantity reads it.
+    """The parts of a flight that quantities read, or their changes along directions (first axis); None if not read.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class Read(NamedTuple):
 
 
 class _OfBeat:
-    """A function of the beat; a series counts by its peaks. `fields` are those of the beat that it reads."""
+    """A function of the beat; a series counts by its peaks. `fields` are the fields that the function reads."""
 
     def __init__(self, function: Callable[[Any], Any], strips: int, drive: Drive) -> None:
         self.function = function
@@ -122,7 +122,10 @@ class _OfBeat:
 
 
 class _OfMap:
-    """A function of the stroke map over a number; `smooth_for` is the upper limit whose smooth excess it is."""
+    """A function of the stroke map divided by a number.
+
+    If the function is the smooth excess over an upper limit, `smooth_for` is this limit.
+    """
 
     fields = ()
 
@@ -136,7 +139,7 @@ class _OfMap:
         return np.asarray(_value(self.function, read.stroke_map / self._over))
 
     def exactly(self, read: Read) -> np.ndarray:
-        """Return the value, or the excess of the quantity itself, as often as it has smooth numbers."""
+        """Return the value; in place of each number of a smooth excess, the excess of the quantity itself."""
         value, limit = self.value(read), self._smooth_for
         if limit is None:
             return value
@@ -156,7 +159,8 @@ class OutputFunctions:
     counts, constraint_counts : number of values of each quantity, and of each constraint.
     limits : upper limits of the constraints' values.
     fields : names of the fields of a beat that the quantities read.
-    of_beat, of_map : whether any quantity is one of the beat, and of the stroke map.
+    of_beat : whether any quantity reads the beat.
+    of_map : whether any quantity reads the stroke map.
     """
 
     def __init__(

@@ -29,7 +29,7 @@ PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is tha
 PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])  # residuals that matter, in the units of CLOSURE
-# Free parameters that change when or how fast the wings move along the stroke, or turn the whole of it.
+# Free parameters that change when or how fast the wings move along the stroke, or turn the whole stroke.
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt", "tail_tilt")
 FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
 SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
@@ -60,7 +60,7 @@ class OrbitProblem:
         wingbeat parameter fixes it (``"frequency=6"``) or tightens its bounds (``"flap_amplitude<=50 deg"``).
     origin : the model with which the problem was made, see `wingbeat.models`; it has no effect on the solution.
     wings_may_cross : whether a wing may cross the plane of symmetry, and flap angles may leave their range. A
-        stroke whose parameters are all fixed may do so anyway, with a warning.
+        stroke whose parameters are all fixed may do both in any case, with a warning.
 
     Raises
     ------
@@ -139,7 +139,7 @@ class OrbitProblem:
             except InvalidInputError as error:
                 faults.faults.extend(error.faults)
             if limit.sign == "=" and not self.free:
-                faults.add("subject_to", text, "leaves nothing free", "fix fewer parameters of the wingbeat")
+                faults.add("subject_to", text, "leaves no parameter free", "fix fewer parameters of the wingbeat")
         if faults.faults:
             return
         if not isinstance(minimise, Quantity):

@@ -20,7 +20,7 @@ class Quantity:
     of : function of a `Beat`, in JAX-compatible Python; returns a number, or an array (K,) or
         (K, m) of K phases.
     unit : of the value.
-    scale : a difference that matters, so that the optimiser sees numbers near one.
+    scale : a difference that matters. The optimiser divides the value by it, so that its numbers are near one.
     parameter : name of the wingbeat parameter that equals the quantity, if any. As an objective, the quantity then
         needs no flight.
     in_hover : advice, in words, on what to use instead in hover, if the quantity is undefined at speed 0.

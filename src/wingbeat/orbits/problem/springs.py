@@ -1,7 +1,7 @@
 """Springs at the flap hinges: the power that they leave to the actuators, and the best springs for a given beat.
 
-A linear spring between body and arm gives the torque ``-k (flap - rest)``, both wings together. Its net work over a
-closed beat is zero, so it moves power from phases with too much power to phases with too little.
+A linear spring between body and arm gives the torque ``-k (flap - rest)``, for both wings together. The spring's
+net work over a closed beat is zero, so it moves power from phases with too much power to phases with too little.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Problems that ask for stability, and the easier problems whose optima their searches start from."""
+"""Problems that ask for stability, and the easier problems that are solved before them."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ def asks_for_stability(problem: OrbitProblem) -> bool:
 
 
 def easier(problem: OrbitProblem) -> OrbitProblem:
-    """Return the problem whose optima a search for stability starts from.
+    """Return the easier problem that is solved first; a search for stability starts from its optima.
 
-    It has no limits of the stroke map. If a quantity of the stroke map is minimised, it is the problem of the
-    stable orbit of least frequency instead, or of least power if the frequency is fixed.
+    If the objective is a quantity of the stroke map, the easier problem asks for the stable orbit of least
+    frequency, or of least power if the frequency is fixed. Otherwise, the easier problem is the same problem
+    without limits of the stroke map.
     """
     if minimises_map(problem):
         objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]

@@ -1,4 +1,4 @@
-"""What a quantity's function reads of a beat and returns, found by tracing it."""
+"""What a quantity's function reads of a beat, and what it returns; both are found by tracing the function."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def given_by(function: Callable[[Any], Any], strips: int, drive: Any, of_map: bo
 
 @functools.lru_cache(256)
 def fields_read(function: Callable[[Beat], Any], strips: int, drive: Any) -> tuple[str, ...]:
-    """Return the names of the fields of a beat that a function of it needs; parameters as of `given_by`."""
+    """Return the names of the fields of a beat that a function needs; for the parameters see `given_by`."""
     beat = _any_beat(strips, drive)
     places = jax.tree.leaves(beat._replace(**{name: name for name in Beat._fields if name != "drive"}))
     traced = jax.make_jaxpr(function)(beat).jaxpr

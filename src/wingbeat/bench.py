@@ -68,7 +68,10 @@ def jacobian() -> float:
 
 
 def orbits(animal: str) -> list[Solution]:
-    """Return the orbits of an animal at 20 shuffled speeds, one start each; a first orbit is not returned."""
+    """Return the orbits of an animal at 20 shuffled speeds, one start each.
+
+    An orbit that is solved before them compiles the programs, and is not returned.
+    """
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
@@ -76,9 +79,9 @@ def orbits(animal: str) -> list[Solution]:
 
 
 def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
-    """Yield random problems, each of one of two animals, with one of two coefficient models, at 4 to 16 m/s.
+    """Yield random problems.
 
-    Masses and the wing's length are within 10 percent of the animal's.
+    Each has one of two animals, one of two coefficient models, and a speed from 4 to 16 m/s. Masses and the wing's length are within 10 percent of the animal's.
     """
     random = np.random.default_rng(seed)
     species = {name: load_species(name) for name in ANIMALS}

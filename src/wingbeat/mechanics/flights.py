@@ -121,7 +121,7 @@ def _fly(model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Sam
 def _fly_in_wind(
     model: FlightModel, wingbeat: Wingbeat, start: StateVector, phases: Samples, rtol: Scalar, air: AirTable
 ) -> Integrated:
-    """Fly through air whose velocity is tabulated from one place before the beat to one behind it."""
+    """Fly through air whose velocity is tabulated from one place before the beat to one place after it."""
 
     def rates(phase: Scalar, state: StateVector, args: tuple[FlightModel, Wingbeat, AirTable]) -> Any:
         flown, beat, table = args
@@ -141,7 +141,7 @@ def air_between(table: AirTable, place: Scalar) -> AirVelocity:
 
     Parameters
     ----------
-    table : velocity at equal steps, from one step before place 0 to one behind the last place [m/s].
+    table : velocity at equal steps, from one step before place 0 to one step after the last place [m/s].
     place : steps from place 0; the first and last cubics go on beyond the ends.
     """
     first = jnp.clip(jnp.floor(place), 0, table.shape[0] - 4)
@@ -183,7 +183,7 @@ def fly_through(
 
 
 def air_phases() -> np.ndarray:
-    """Return the phases at which a flight needs the velocity of the air, from before the beat to behind it."""
+    """Return the phases at which a flight needs the velocity of the air, from before the beat to after it."""
     return np.arange(-1, _AIR_SAMPLES + 2) / _AIR_SAMPLES
 
 

@@ -46,7 +46,7 @@ class Feedback:
     cost : matrix P of the cost to go ``x' P x``, shape (5 + delay * inputs, 5 + delay * inputs) [1].
     lower, upper : largest changes of the inputs, shape (inputs,) [Hz, rad or shares].
     controllability : what the inputs do to each mode, the fastest growing first.
-    sufficient : inputs each of which alone reaches all modes that do not decay by themselves.
+    sufficient : every input that alone reaches all modes that do not decay without feedback.
     """
 
     flight: LinearFlight
@@ -74,7 +74,7 @@ class Feedback:
         return float(np.abs(self.multipliers[0]))
 
     def multipliers_if_late(self, late: int) -> np.ndarray:
-        """Return the multipliers if inputs act even later than the feedback was computed for, the largest first.
+        """Return the multipliers with more delay than the feedback was computed for, the largest first.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Feedback:
         ----------
         noise : standard deviations of what is measured of the state, by name [m, rad, m/s, rad/s].
         seed : of the noise.
-        late : beats by which inputs act even later than the feedback was computed for.
+        late : beats of delay in addition to the delay for which the feedback was computed.
 
         Raises
         ------
@@ -183,9 +183,10 @@ def feedback(
     ----------
     orbit : a certified orbit.
     inputs : names of parameters of the wingbeat that may change from beat to beat. Default: those free parameters
-        of its problem whose jumps harmonics can undo. Of frequency, flap and pitch and all their second harmonics,
-        the five stock parameters with compensation are all smooth changes that there are; `flap_cos_2` and the
-        like as inputs of their own are compensated by harmonics of order 3.
+        of its problem whose jumps harmonics can undo. The five stock parameters are the frequency, and the means
+        and amplitudes of flap and pitch. With second harmonics as compensation, they make every smooth change that
+        these parameters and the second harmonics of flap and pitch allow. If a second harmonic such as `flap_cos_2` is itself an input,
+        harmonics of order 3 compensate it.
     delay : beats between the measurement and the beat that it changes, 0 to 4.
     weights : factors on the costs of states and inputs by name [-]; 1 if not given.
     limits : largest changes of inputs by name [Hz, rad or shares]; else `FeedbackOptions.reach` units, or as far
@@ -215,7 +216,8 @@ def feedback(
     flight = linearise(orbit, inputs, height=True, options=options.linear)
     names = flight.inputs
     if not names:
-        faults.add("inputs", inputs, "leaves no input", "name a parameter of the wingbeat such as pitch_mean")
+        rule = "no free parameter of the problem can change without a jump of the wing"
+        faults.add("inputs", inputs, rule, "name a parameter of the wingbeat such as pitch_mean")
     factors = weights_of(faults, weights, (*flight.state, *names))
     lower, upper = command_limits(faults, orbit.wingbeat, names, limits, options)
     faults.raise_if_any()

@@ -22,7 +22,7 @@ class FeedbackController:
     Attributes
     ----------
     feedback : the feedback that it flies.
-    late : beats by which inputs act even later than the feedback was computed for.
+    late : beats of delay in addition to the delay for which the feedback was computed.
     noise : standard deviations of what is measured of the state, shape (5,) [m, rad, m/s, m/s, rad/s].
     seed : of the noise.
     commands : inputs of each beat so far, as they act, each of shape (inputs,) [Hz, rad or shares].

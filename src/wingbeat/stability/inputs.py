@@ -142,7 +142,7 @@ def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     Raises
     ------
     InvalidInputError : inputs that move the hand or the stroke plane at phase 0, which no harmonic can undo; inputs
-        that leave no order of harmonics.
+        that contain the harmonics of all orders.
     """
     if not inputs:
         return Compensation((), np.zeros((0, 0)))
@@ -175,6 +175,6 @@ def _harmonics(faults: FaultList, law: str, inputs: Sequence[str]) -> list[str]:
         pair = [f"{law}_cos_{order}", f"{law}_sin_{order}"]
         if not set(pair) & set(inputs):
             return pair
-    rule = f"leaves no order of the {law} harmonics that can keep the wing from jumping"
+    rule = f"contain all orders of the {law} harmonics, and one must be left to keep the wing from jumping"
     faults.add("inputs", list(inputs), rule, f"leave out one order up to {HIGHEST_ORDER}")
     return []

@@ -244,8 +244,8 @@ def averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np
 def _scales(problem: OrbitProblem, wingbeat: Wingbeat) -> np.ndarray:
     """Return disturbances of (body_pitch, u, w, pitch_rate) that count as equally large, shape (4,).
 
-    They are a radian, the root sum square of flight speed and mean flapping speed of the wing tips, and a radian in
-    a beat.
+    They are a radian for the pitch, and a radian in a beat for the pitch rate. For both velocities, they are the
+    root sum square of flight speed and mean flapping speed of the wing tips.
     """
     flap = np.asarray(flap_angle(wingbeat, np.linspace(0.0, 1.0, 65)))
     tips = float(np.abs(np.diff(flap)).sum()) * wingbeat.frequency * problem.vehicle.wing.semi_span

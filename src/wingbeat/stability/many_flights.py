@@ -66,7 +66,7 @@ def simulate_many(
     winds : velocity of the air of each flight, as in `simulate`.
     beats : number of wingbeats.
     feedback : of this orbit; None to fly the orbit's wingbeat throughout.
-    late : beats by which inputs act even later than the feedback was computed for.
+    late : beats of delay in addition to the delay for which the feedback was computed.
     noise : standard deviations of what the feedback measures of the state, by name [m, rad, m/s, rad/s].
     seed : of the noise.
     options : steps, and when a flight is lost.
@@ -76,9 +76,9 @@ def simulate_many(
     InvalidInputError : an orbit that is not certified, no winds, winds that are not finite, beats or lateness that
         are no whole numbers, feedback of another orbit, noise of an unknown state or that is negative.
 
-    With 64 steps of the classical Runge-Kutta method in a beat, a pigeon's states at the tops of the stroke, in 30
-    beats with feedback through a gust of 3 m/s, differ from those of the adaptive `simulate` by less than 3e-3 in
-    SI units. An unstable orbit without feedback enlarges the difference as it does any other.
+    One flight was compared with the adaptive `simulate`: a pigeon with feedback, 30 beats through a gust of 3 m/s.
+    With 64 steps of the classical Runge-Kutta method in a beat, the states at the tops of the stroke differ by less
+    than 3e-3 in SI units. Without feedback, an unstable orbit enlarges this difference like any other disturbance.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)

@@ -74,7 +74,7 @@ def check_reach(faults: FaultList, modes: tuple[Reach, ...], inputs: tuple[str, 
 
 
 def sufficient(modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) -> tuple[str, ...]:
-    """Return the inputs each of which alone reaches all modes that do not decay."""
+    """Return every input that alone reaches all modes that do not decay."""
     lasting = [mode.effects for mode in modes if mode.persists]
     return tuple(name for name in inputs if all(effects[name] > least for effects in lasting))
 
@@ -102,9 +102,10 @@ def delayed(A: np.ndarray, B: np.ndarray, delay: int) -> tuple[np.ndarray, np.nd
 def linear_quadratic(
     A: np.ndarray, B: np.ndarray, state_cost: np.ndarray, input_cost: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return gains K and the matrix P of the cost to go, for ``y = -K x`` that minimises the sum over all beats.
+    """Return the gains K with which ``y = -K x`` has the least cost over all beats, and the matrix P.
 
-    The cost of a beat is ``x' Q x + y' R y``; P solves the discrete algebraic Riccati equation.
+    P gives the cost to go, ``x' P x``. The cost of a beat is ``x' Q x + y' R y``; P solves the discrete algebraic
+    Riccati equation.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ def core_count() -> int:
 def cores_of(processes: int) -> list[int | None]:
     """Return the core to which to pin each process; all None unless there is one process for every core.
 
-    Otherwise two programs that each use a few cores could be pinned to the same ones.
+    With fewer processes, two programs that each use a few cores could be pinned to the same cores.
 
     >>> cores_of(1_000_000)[0] is None
     True

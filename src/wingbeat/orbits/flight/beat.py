@@ -152,7 +152,7 @@ _DEAR = (frozenset(BY_STRIP), frozenset({"actuator_power"}))
 
 
 def _with_cheap(fields: Collection[str]) -> tuple[str, ...]:
-    """Add all fields that cost little to these fields, so that few programs serve all objectives and limits."""
+    """Return these fields and all others that cost little, so that few programs serve all objectives and limits."""
     dear = [group for group in _DEAR if group.isdisjoint(fields)]
     return tuple(name for name in Beat._fields if name != "drive" and not any(name in group for group in dear))
 

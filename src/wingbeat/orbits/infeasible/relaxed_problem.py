@@ -176,9 +176,10 @@ def relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> Re
 def least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
 ) -> tuple[float, np.ndarray] | None:
-    """Return the least change with which a beat closes, divided by its scale, and this beat; or None.
+    """Return the least change with which a beat closes, and this beat; None if there is no such change.
 
-    The search moves the number far, until a beat closes, and then back as far as possible.
+    The change is divided by its scale. The search moves the number far, until a beat closes, and then back as far
+    as possible.
 
     Parameters
     ----------

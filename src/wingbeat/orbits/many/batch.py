@@ -48,10 +48,10 @@ def find_orbits(
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in the order of `problems`; a failure is a result, as in `find_orbit`.
 
-    Problems that differ in numbers only form a group. The first problems of a group are solved as in `find_orbit`.
-    For each later problem of the group, their solutions predict a first start, which counts only if it leads to a
-    certified orbit. A large group is split: some of its problems are solved first, and the processes then share the
-    others in parts.
+    Problems that differ in numbers only form a group. The first few problems of a group are solved as in
+    `find_orbit`. For each later problem, the solutions before it predict a first start, which counts only if it
+    leads to a certified orbit. A large group is split: some of its problems are solved first, and the processes
+    then share the others.
 
     Parameters
     ----------

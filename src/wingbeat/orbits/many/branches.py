@@ -229,7 +229,7 @@ class _BranchTracer:
 
 
 def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:
-    """Continue an optimum to another problem, in steps so short that each ends within `max_step` of the last.
+    """Continue an optimum to another problem, in steps so short that each moves the orbit by at most `max_step`.
 
     Parameters
     ----------

@@ -144,7 +144,7 @@ def sample_orbits(
 
     For each draw, the derivatives predict an optimum, and a correction of the prediction gives the orbit. So the
     orbit belongs to the same family. If the correction fails, a local search from the prediction follows. If that
-    fails too, a search from `starts` follows.
+    fails too, a last search from `starts` starts follows.
 
     Parameters
     ----------

@@ -174,7 +174,7 @@ class Answers:
 
 
 def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.ndarray:
-    """Fit a parabola to values, nearest first, or a line if there are too few; return its value at distance 0."""
+    """Fit a parabola to values, the nearest first, or a line if they are too few; return the fit at distance 0."""
     directions = away.shape[1]
     columns = np.hstack([np.ones((len(away), 1)), away])
     one, other = np.triu_indices(directions)

@@ -95,7 +95,7 @@ class Transcription:
         return Correction.none(self.lower.size, len(self.path_limits), outputs)
 
     def uncorrected(self) -> Transcription:
-        """Return the programme without its correction, for a parallel local search; it keeps cached flights."""
+        """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
         other = copy.copy(self)
         other._correction = self._no_correction
         other._points = dict(self._points)

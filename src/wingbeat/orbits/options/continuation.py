@@ -28,10 +28,10 @@ class ContinuationOptions:
     near_closure : unknowns with a smaller residual, in the optimiser's scale, count as close to an orbit.
     sweeps : largest number of passes along a series, up and down.
     improvement : a neighbour's result must be better by this share to replace a problem's own.
-    batch_size : largest number of problems that are solved in sequence, each with the help of the solutions before.
+    batch_size : largest number of problems that are solved in sequence, so that earlier solutions help later ones.
         It is small enough to spread a batch over processes.
-    batch_first : in a group of more than `batch_size` similar problems, this many are solved first; they
-        help all others.
+    batch_first : in a group of more than `batch_size` similar problems, this many are solved first; they help
+        all others.
     near_share : solutions have about equal weight in a prediction if their distances from the predicted problem are
         below this share of the largest of these distances.
     rounding : relative differences between numbers that come from rounding.

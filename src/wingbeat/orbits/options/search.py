@@ -52,10 +52,10 @@ class SearchOptions:
         not make it the better one. Correction changed nearly all of 200 frequencies by less than this.
     plane_clearance : strip corners stay away from the plane of symmetry by this share of the wing's length. The
         default is ten times the other tolerances; for a wing of 0.3 m it is 3 micrometres.
-    dear_stability : limits of stability are also tightened step by step if no stable orbit is found, or if its
-        objective exceeds that of the best orbit without these limits by more than this share. Direct searches
-        exceeded this share at 4 of 15 speeds of the pigeon. Their objectives were up to 12 % above those from
-        tightened limits.
+    dear_stability : limits of stability are also tightened step by step if no stable orbit is found, or if the
+        objective of the best stable orbit exceeds that of the best orbit without these limits by more than this
+        share. Direct searches exceeded this share at 4 of 15 speeds of the pigeon. Their objectives were up to 12 %
+        above those from tightened limits.
     tightening_steps, tightening_iterations : steps in which limits of stability are tightened, and the largest
         number of iterations of SLSQP in each. Of 6 searches that succeeded with 8 steps, 2 failed with 4 steps.
     largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line

@@ -122,7 +122,7 @@ class _OfBeat:
 
 
 class _OfMap:
-    """A function of the stroke map divided by a number.
+    """A function of a scaled stroke map: of the map divided by the number `over`.
 
     If the function is the smooth excess over an upper limit, `smooth_for` is this limit.
     """

@@ -81,7 +81,8 @@ def orbits(animal: str) -> list[Solution]:
 def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
     """Yield random problems.
 
-    Each has one of two animals, one of two coefficient models, and a speed from 4 to 16 m/s. Masses and the wing's length are within 10 percent of the animal's.
+    Each has one of two animals, one of two coefficient models, and a speed from 4 to 16 m/s. Masses and the
+    wing's length are within 10 percent of the animal's.
     """
     random = np.random.default_rng(seed)
     species = {name: load_species(name) for name in ANIMALS}

@@ -185,8 +185,8 @@ def feedback(
     inputs : names of parameters of the wingbeat that may change from beat to beat. Default: those free parameters
         of its problem whose jumps harmonics can undo. The five stock parameters are the frequency, and the means
         and amplitudes of flap and pitch. With second harmonics as compensation, they make every smooth change that
-        these parameters and the second harmonics of flap and pitch allow. If a second harmonic such as `flap_cos_2` is itself an input,
-        harmonics of order 3 compensate it.
+        these parameters and the second harmonics of flap and pitch allow. If a second harmonic such
+        as `flap_cos_2` is itself an input, harmonics of order 3 compensate it.
     delay : beats between the measurement and the beat that it changes, 0 to 4.
     weights : factors on the costs of states and inputs by name [-]; 1 if not given.
     limits : largest changes of inputs by name [Hz, rad or shares]; else `FeedbackOptions.reach` units, or as far

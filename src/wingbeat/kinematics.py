@@ -154,7 +154,7 @@ class Wingbeat:
                 continue
             least = float((1.0 - retraction * 0.5 * (1.0 - np.sin(turn)) + self._waves(law, turn)).min())
             if least <= 0:
-                rule = f"makes the {law} vanish: its minimum is {least:.2g} of the full {law}"
+                rule = f"makes the {law} vanish, with a minimum of {least:.2g} of the full {law}"
                 faults.add(f"wingbeat.{law}_harmonics", harmonics, rule, "make the harmonics smaller")
         if self.sweep_harmonics:
             swing = self.sweep_amplitude * np.sin(turn + self.sweep_phase) + self._waves("sweep", turn)

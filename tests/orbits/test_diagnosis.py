@@ -152,7 +152,7 @@ def test_least_frequency_at_its_own_bound_is_final():
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=6.0, climb=-2.8, bounds={"frequency": (3.0, 30.0)})
     record = wb.solve_orbit(problem, starts=2).record()
     assert record["wingbeat"]["frequency"] == pytest.approx(3.0, abs=1e-4)
-    assert "frequency is at its lower bound, 3 Hz: more starts cannot improve it" in record["message"]
+    assert "frequency is at its lower bound of 3 Hz, so more starts cannot improve it" in record["message"]
     (told,) = [line for line in record["warnings"] if "more starts cannot improve it" in line]
     assert "`wingbeat glide`" in told
     assert not any("a better one may exist" in line or "other optima" in line for line in record["warnings"])

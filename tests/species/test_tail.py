@@ -89,7 +89,7 @@ def test_a_file_without_its_arm_and_with_a_wrong_unit_is_refused(tmp_path):
 def test_a_tilt_without_a_tail_is_refused_or_warned_of():
     asked = {"free": ("frequency", "tail_tilt"), "bounds": {"tail_tilt": (-0.5, 0.5)}}
     (line,) = faults_of(lambda: wb.OrbitProblem(PIGEON, speed=10.0, **asked)).values()
-    assert "changes nothing: there is no tail" in line
+    assert "changes nothing, because there is no tail" in line
     tilted = PIGEON.with_values({"wingbeat.tail_tilt": 0.1})
     assert any("tail_tilt has no effect" in line for line in tilted.warnings)
     assert not any("no effect" in line for line in tilted.with_tail().warnings)

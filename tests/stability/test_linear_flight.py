@@ -232,7 +232,7 @@ def test_faults_are_named(pigeon_orbit):
         (["lift"], "is not a parameter of the wingbeat; give a parameter"),
         (5, "must be a list"),
         ([["frequency"]], "must be a list"),
-        (["tail_tilt"], "changes nothing: there is no tail"),
+        (["tail_tilt"], "changes nothing, because there is no tail"),
         ("frequency", "must be a list"),
         ([], "must be a list"),
         (["frequency", "frequency"], "has a name twice"),

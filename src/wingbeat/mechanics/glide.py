@@ -42,7 +42,7 @@ class Posture(NamedTuple):
     glide_angle : of the path below the horizontal [rad].
     body_above_path : angle of the body above the path [rad].
     flap : flap angle [rad].
-    angle_of_attack : that of the root chord, without flap [rad].
+    angle_of_attack : angle of attack of the root chord at zero flap angle [rad].
     tail_tilt : added to the tail's incidence [rad].
     """
 
@@ -59,7 +59,7 @@ class Glide(NamedTuple):
 
     Attributes
     ----------
-    angle_of_attack : that of the root chord, without flap [rad].
+    angle_of_attack : angle of attack of the root chord at zero flap angle [rad].
     speed, sink : along the path, and downwards [m/s].
     glide_angle : of the path below the horizontal [rad].
     glide_ratio : distance over height lost.

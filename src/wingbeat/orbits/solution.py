@@ -57,11 +57,13 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
 class Solution:
     """What the solver found: wingbeat and initial state of the best orbit, and how far the orbit can be trusted.
 
-    `optima` holds the best uncorrected optimum of each family. If there is no orbit, wingbeat and initial state are
-    those of the closest wingbeat; `deficits` are the deficits of the balances that fail, the largest first; and
-    `relaxations` are the single changes with which an orbit exists, the smallest first. `reduced_hessian` helps to
-    solve similar problems; `options` are the options of the solvers. `free_objective` is the objective without
-    limits of stability, if the problem has such limits.
+    `optima` holds the best uncorrected optimum of each family. `reduced_hessian` helps to solve similar problems.
+    `options` are the options of the solvers. `free_objective` is the objective without limits of stability, if the
+    problem has such limits.
+
+    If there is no orbit, wingbeat and initial state are those of the closest wingbeat. `deficits` are then the
+    deficits of the balances that fail, the largest first. `relaxations` are the single changes with which an orbit
+    exists, the smallest first.
     """
 
     problem: OrbitProblem

@@ -325,5 +325,5 @@ def _certified_words(best: Corrected) -> str:
     problem, tolerance = best.programme.problem, best.programme.options.search.bound_tolerance
     if is_at_lower_bound(problem, best.programme.physical(best.scaled), tolerance):
         low = problem.bounds["frequency"][0]
-        words += f"; the frequency is at its lower bound, {low:g} Hz: more starts cannot improve it"
+        words += f"; the frequency is at its lower bound of {low:g} Hz, so more starts cannot improve it"
     return words

@@ -67,7 +67,9 @@ def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None)
     if len(set(inputs)) < len(inputs):
         faults.add("inputs", list(inputs), "has a name twice", "give each input once")
     if vehicle is not None and vehicle.tail is None and "tail_tilt" in inputs:
-        faults.add("inputs", "tail_tilt", "changes nothing: there is no tail", "leave it out, or give a tail")
+        faults.add(
+            "inputs", "tail_tilt", "changes nothing, because there is no tail", "leave it out, or give a tail"
+        )
 
 
 def laws_at(wingbeat: Wingbeat, phase: Phases) -> Phases:

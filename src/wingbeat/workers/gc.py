@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import gc
 
-# New containers after which Python looks for garbage. With Python's default of 700, it would look some thousand
-# times while a program is traced, and each time go through all that JAX holds.
+# Number of new containers after which Python looks for garbage. With Python's default of 700, it would look some
+# thousand times while a program is traced, and each time go through all that JAX holds.
 _SELDOM = 50_000
 
 

@@ -84,7 +84,7 @@ class _Callers:
 
     def __init__(self, count: int) -> None:
         self.count = count
-        # What a new process needs to import this one's main module; it refuses to start more from within that.
+        # What a new process needs to import the main module of this one. During this import, it starts none.
         self._main = spawn.get_preparation_data("worker")
         del self._main["authkey"]  # cannot be pickled
         self._all = [_Caller(core) for core in cores_of(count)]
@@ -133,7 +133,7 @@ class _Callers:
 
 
 def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) -> Any:
-    """Call a function with an item in a worker process; the request contains both pickled, and a core."""
+    """Call a function with an item in a worker process; the request holds both, pickled, and the core to use."""
     main, pickled, core = request
     work, item = _Unpickler(main, pickled).load()
     # Pin after the imports: a BLAS that sees only one core has one thread, and adds in another order than in the

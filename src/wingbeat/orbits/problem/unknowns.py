@@ -38,9 +38,9 @@ def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> N
     """
     ahead, _, above = vehicle.wing.shoulder
     if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
-        rule = "changes only the body's pitch: the shoulder is at the body's centre of mass, and there is no tail"
+        rule = "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"
         faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
     if "tail_tilt" in free and vehicle.tail is None:
-        rule = "changes nothing: there is no tail"
+        rule = "changes nothing, because there is no tail"
         fix = "set tail.area, tail.arm and tail.lift_slope, or leave tail_tilt fixed"
         faults.add("free", "tail_tilt", rule, fix)

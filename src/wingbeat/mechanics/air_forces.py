@@ -37,7 +37,7 @@ class AirPower(NamedTuple):
     Attributes
     ----------
     profile : power against the lift and drag of the strips, at their velocity relative to the air at the wings. If
-        the polar was measured on a finite wing, it contains that wing's induced drag.
+        the polar was measured on a finite wing, this power includes the induced drag of that wing.
     induced : power spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow.
     parasite : power against the loads of body and tail.
     unsteady : power against rotation, added mass and couples; the air stores and returns the part due to

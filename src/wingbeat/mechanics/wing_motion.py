@@ -50,11 +50,11 @@ class WingMotion(NamedTuple):
     first_moment_rate, first_moment_acceleration : its time derivatives [kg m/s, kg m/s2].
     inertia, inertia_rate : sum of mass times position squared [kg m2], and its time derivative [kg m2/s].
     acceleration_moment : sum of mass times (position turned by a right angle) . acceleration [N m].
-    unpitched : components in the plane of symmetry of the unit vector along the unpitched chord; None unless the
+    unpitched : unit vector along the unpitched chord, as its components in the plane of symmetry; None unless the
         wing sweeps.
     sweeping_speed : speed along the unpitched chord [m/s]; None unless the wing sweeps.
     tilt : of the stroke plane [rad]; None if it is 0.
-    span : components in the plane of symmetry of the unit vector along the span; None unless loads depend on the
+    span : unit vector along the span, as its components in the plane of symmetry; None unless loads depend on the
         full airspeed.
     spanwise_speed : speed along the span [m/s]; None unless loads depend on the full airspeed.
     unsteady : unsteady loads on the body, forward, up and nose-up; None without unsteady terms.

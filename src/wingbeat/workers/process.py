@@ -33,8 +33,8 @@ class WorkerProcess:
         `main.Context`.
     hear : called with each `Message`, in a thread of its own; finally with None when the process has ended.
     core : the core to which the process is pinned; None for any.
-    silence : the process ends itself if, while it works on a request, it sends no message for this many seconds;
-        None for no limit.
+    silence : the process ends itself if it works on a request and sends no message for this many seconds; None for
+        no limit.
     memory : resident memory [bytes] beyond which the process ends after a request, because compiled programs
         accumulate; None for any.
     environment : environment variables that differ from those of this process.

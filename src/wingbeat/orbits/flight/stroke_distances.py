@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 # Name of the corners' limit among the active bounds.
 SYMMETRY = "plane_of_symmetry"
 # Number of sampled phases, and of steps of Newton's method from the least sample to the minimum. The eighth and
-# highest harmonic has eight samples in each period. One step leaves an error of 7e-5 in the derivative, two 1e-8.
+# highest harmonic has eight samples in each period. One step leaves an error of 7e-5 in the derivative,
+# two steps leave 1e-8.
 _SAMPLES, _NEWTON = 64, 2
 # Name and sign of each row's limit.
 ROWS = (*[(SYMMETRY, ">=")] * 2 * PARTS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)

@@ -26,7 +26,7 @@ R = TypeVar("R")
 
 
 class BranchLink(NamedTuple):
-    """Optimum `lower` of one problem and `upper` of the next belong to one branch, `steps` steps apart."""
+    """Optimum `lower` of a problem and optimum `upper` of the next one are of one branch, `steps` steps apart."""
 
     interval: int
     lower: int

@@ -51,10 +51,10 @@ def marks_of(branches: Branches) -> list[Mark]:
 
 
 def families(branches: Branches) -> list[list[int]]:
-    """Return the family number of each optimum of each problem; families are in the order of their best rank.
+    """Return the family number of each optimum of each problem.
 
-    A family contains at most one optimum of each problem. If two families lead to the same optimum, the family with
-    fewer steps continues.
+    Families are sorted by the best rank of their optima. A family contains at most one optimum of each problem. If
+    two families lead to the same optimum, the family with fewer steps continues.
     """
     labels = [[-1] * len(optima) for optima in branches.optima]
     count = 0

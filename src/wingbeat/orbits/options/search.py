@@ -23,9 +23,8 @@ class SearchOptions:
         have more optima. For the bat at 10 m/s within a power limit, 6 starts gave 1.5 times the lowest frequency;
         12 starts found the lowest frequency.
     starts_of_many_optima : number of starts if the user sets bounds, or if a peak is minimised. With the flap
-        amplitude limited to 50 deg, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %; 24 starts did not
-        miss it. 12 starts missed the bat's lowest peak pitch torque at 14 m/s by half; of 30 random starts, 4 led
-        to it.
+        amplitude limited to 50 deg, 12 starts missed the bat's lowest frequency at 10 m/s by 3 %; 24 starts found
+        it. 12 starts missed the bat's lowest peak pitch torque at 14 m/s by half; of 30 random starts, 4 led to it.
     most_starts : while no start leads to a certified orbit, more starts follow, up to this many.
     start_families : the first starts, one in each family of wingbeats.
     random_margin : distance of random starts from the bounds, as a share of the range.
@@ -47,9 +46,10 @@ class SearchOptions:
     restored_closure : a start is abandoned if its residual is then larger than this, in the optimiser's scale.
     same_optimum : optima closer to one another than this, in the optimiser's scale, count as one. Some wingbeats
         can change a little while the objective hardly changes. It is then chance where a local search stops.
-    uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. An optimum
-        whose objective exceeds that of a certified one by more than this is not certified, because correction would
-        not make it the better one. Correction changed nearly all of 200 frequencies by less than this.
+    uncorrected_error : error of the objective of an uncorrected optimum, as a share of the objective. An
+        uncorrected optimum is left out if its objective exceeds that of a certified optimum by more than this,
+        because correction would not make it the better one. Correction changed nearly all of 200 frequencies by
+        less than this.
     plane_clearance : strip corners stay away from the plane of symmetry by this share of the wing's length. The
         default is ten times the other tolerances; for a wing of 0.3 m it is 3 micrometres.
     dear_stability : limits of stability are also tightened step by step if no stable orbit is found, or if the

@@ -16,6 +16,7 @@ import numpy as np
 
 from wingbeat.errors import Fault, InvalidInputError
 from wingbeat.kinematics import unpack
+from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription
@@ -174,21 +175,27 @@ class OptimumSlopes:
         if not quantities:
             return np.zeros(0)
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
-        of_map = [isinstance(q, MapQuantity) for q in quantities]
-        beat = stroke_map = None
-        if not all(of_map):
-            # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
-            # derivatives.
-            wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
-            flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
-            beat = certified_beat(problem, wingbeat, flown)
-        if any(of_map):
-            # Not the certifier's: its map is a difference of flights, whose error of 1e-6 is 1 % of a derivative.
-            flight = programme.fly(unknowns[4:], unknowns[:4], self._options.sensitivity.fine_blocks)
-            stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
-        return np.array(
-            [float(np.max(q.of(stroke_map if on else beat))) for q, on in zip(quantities, of_map, strict=True)]
-        )
+        stroke_map, beat = None, None
+        found = []
+        for quantity in quantities:
+            if isinstance(quantity, MapQuantity):
+                if stroke_map is None:
+                    # Not the certifier's: its map is a difference of flights, and that error of 1e-6 is 1 % of a
+                    # derivative.
+                    flight = programme.fly(unknowns[4:], unknowns[:4], self._options.sensitivity.fine_blocks)
+                    stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
+                found.append(np.max(quantity.of(stroke_map)))
+            else:
+                beat = beat or self._certified_beat(problem, unknowns)
+                found.append(np.max(quantity.of(beat)))
+        return np.array(found, dtype=float)
+
+    def _certified_beat(self, problem: OrbitProblem, unknowns: np.ndarray) -> Beat:
+        # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
+        # derivatives.
+        wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
+        flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
+        return certified_beat(problem, wingbeat, flown)
 
     def _along(
         self,

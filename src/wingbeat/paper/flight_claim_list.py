@@ -117,9 +117,9 @@ def flight_claim_list() -> list[FlightClaim]:
         FlightClaim(
             "hand-alpha",
             _DISCUSSION,
-            "With both models the hand has the larger angle of attack. Tested: for the bat at 10 m/s, the mean "
-            "absolute angle is larger at 3/4 span than at 1/4 span. Ours: the difference of these means, for the "
-            "model with the smaller difference.",
+            "With both models the hand has a larger angle of attack than the arm. Tested: for the bat at 10 m/s, "
+            "the mean absolute angle is larger at 3/4 span than at 1/4 span. Ours: the difference of these means, "
+            "for the model with the smaller difference.",
             "> 0",
             "deg",
             flight.hand_alpha_larger,

@@ -264,8 +264,8 @@ def uncertainty_by_samples(
     Parameters
     ----------
     found : the sensitivities of the orbit.
-    quantities : names of quantities that were differentiated; with ``spectral_radius`` among them, stable orbits are
-        counted.
+    quantities : names of quantities that were differentiated; with ``spectral_radius`` among them, stable
+        orbits are counted.
     samples : number of random samples.
     seed : of the samples.
     fit, share : as in `Sensitivities.spreads`.

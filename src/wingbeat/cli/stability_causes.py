@@ -37,7 +37,7 @@ def print_causes(found: StabilitySensitivities, console: Console) -> None:
             f"{factor * parameter.value:.4g}{unit}",
             f"{slope.quantities[_RADIUS] / factor:+.3g}{per}",
             plausible,
-            f"{low:+.2g}, {high:+.2g}",
+            f"{low + 0.0:+.2g}, {high + 0.0:+.2g}",
         )
     console.print(table)
     console.print(Text("  the changes are extrapolated linearly: for ranking only"))

@@ -81,3 +81,17 @@ def test_a_seed_gives_the_same_air_again(turbulence):
 def test_faults_are_named(make, said):
     with pytest.raises(wb.InvalidInputError, match=said):
         make()
+
+
+@pytest.mark.parametrize("start", [-0.001, 0.0, 7.3])
+def test_waves_at_equal_steps_of_time_are_those_at_any_times(start):
+    air = wb.winds.DrydenTurbulence(airspeed=12.0, level="moderate", seed=3)
+    times = start + np.arange(3001) / 612.7
+    together = np.stack(air(times))
+    one_by_one = np.concatenate([np.stack(air(times[i : i + 100])) for i in range(0, 3001, 100)], axis=1)
+    assert together.shape == (2, 3001)
+    assert np.abs(together - one_by_one).max() < 1e-9
+    uneven = times.copy()
+    uneven[1500] += 1e-6
+    assert np.abs(np.stack(air(uneven)) - together).max() < 1e-4
+    assert air(uneven)[1][1500] == pytest.approx(air(uneven[1500:1501])[1][0], abs=1e-12)

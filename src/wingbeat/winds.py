@@ -121,9 +121,7 @@ class DrydenTurbulence:
     def __call__(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the velocity of the air at these times [s], forward and up [m/s]."""
         series = [
-            intensity
-            * math.sqrt(2.0 / _WAVES)
-            * np.cos(np.multiply.outer(np.asarray(times), rates) + phases).sum(-1)
+            intensity * math.sqrt(2.0 / _WAVES) * _sum_of_waves(np.asarray(times, dtype=float), rates, phases)
             for intensity, rates, phases in zip(self.intensities, *self._waves, strict=True)
         ]
         return series[0], series[1]
@@ -135,6 +133,22 @@ class DrydenTurbulence:
         numbers = np.stack([np.tan(0.5 * math.pi * below), _inverse(_below_upward, below)])
         rates = numbers * self.airspeed / np.array(self.scales)[:, None]
         return rates, 2 * math.pi * np.random.default_rng(self.seed).random((2, _WAVES))
+
+
+def _sum_of_waves(times: np.ndarray, rates: np.ndarray, phases: np.ndarray) -> np.ndarray:
+    """Return the sum of cosines ``cos(rate t + phase)`` at times of any shape.
+
+    Equal steps of time are cut into rows of equal length. A product of two matrices of complex waves, one of the
+    rows' first times and one of the steps within a row, then takes a few of the cosines of all waves at all times.
+    """
+    if times.ndim == 1 and len(times) > _WAVES:
+        even = np.linspace(times[0], times[-1], len(times))
+        if np.abs(times - even).max() <= 8.0 * np.spacing(np.abs(times).max()):
+            length = math.isqrt(len(times) - 1) + 1
+            begins = np.exp(1j * (np.multiply.outer(times[::length], rates) + phases))
+            within = np.exp(1j * np.multiply.outer(rates, times[:length] - times[0]))
+            return np.real(begins @ within).ravel()[: len(times)]
+    return np.cos(np.multiply.outer(times, rates) + phases).sum(-1)
 
 
 def _below_upward(number: np.ndarray) -> np.ndarray:

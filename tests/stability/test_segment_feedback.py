@@ -104,3 +104,26 @@ def test_bad_flights_are_refused_in_words(bat):
     lost = wb.solve_orbit(wb.OrbitProblem(heavy, speed=3.0), starts=1)
     with pytest.raises(wb.InvalidInputError, match="is not certified"):
         wb.feedback_in_beat(lost)
+
+
+def test_many_flights_are_those_of_the_adaptive_integrator(bat):
+    gusts = [wb.winds.CosineGust(u=1.0, w=w, start=0.03, duration=0.2) for w in (2.0, -1.0)]
+    many = wb.simulate_many(bat.orbit, [*gusts, wb.winds.CosineGust()], 10, feedback=bat)
+    assert many.survived.all()
+    assert many.changes.shape == (3, 10 * SEGMENTS, 2)
+    assert np.abs(many.changes[2]).max() < 1e-4 < 1e-2 < np.abs(many.changes[:2]).max()
+    for i, gust in enumerate(gusts):
+        alone = bat.fly(gust, 10)
+        assert np.abs((many.states[i] - alone.states[::SEGMENTS])[:, 1:] / SCALES).max() < 5e-3
+        assert np.abs(many.changes[i] - alone.bumps).max() < 1e-3
+        # The ends of the segments are among the times at which the body pitch is judged.
+        assert many.largest_pitch[i] >= np.abs(alone.deviations[:, 1]).max() - 1e-3
+
+
+def test_feedback_within_a_beat_measures_with_noise_and_is_never_late(bat):
+    calm = [wb.winds.CosineGust()]
+    noisy = wb.simulate_many(bat.orbit, calm, 10, feedback=bat, noise={"body_pitch": 0.01}, seed=1)
+    assert noisy.survived.all()
+    assert 0.01 < noisy.largest_pitch[0] < 0.3
+    with pytest.raises(wb.InvalidInputError, match="late"):
+        wb.simulate_many(bat.orbit, calm, 10, feedback=bat, late=1)

@@ -14,6 +14,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback
 from wingbeat.stability.many_flights import simulate_many
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
+from wingbeat.stability.segment_feedback import SegmentFeedback
 from wingbeat.winds import CosineGust
 
 # Shortest and longest gust, and the time in which it may begin [beats].
@@ -99,7 +100,7 @@ def _record(edges: np.ndarray, shares: np.ndarray) -> dict[str, list[float | Non
 
 def survey_gusts(
     orbit: Orbit,
-    feedbacks: Mapping[str, Feedback | None] | None = None,
+    feedbacks: Mapping[str, Feedback | SegmentFeedback | None] | None = None,
     flights: int = 1000,
     *,
     size: float = 5.0,

@@ -1,22 +1,29 @@
-"""Many flights through moving air at once, with or without feedback from beat to beat: `simulate_many`."""
+"""Many flights through moving air at once, with or without feedback: `simulate_many`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.kinematics import parameter
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
+from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback_checks import MOST_DELAY, noise_of
 from wingbeat.stability.held_beats import Course, Hold, fly_held_beats
+from wingbeat.stability.held_segments import SegmentHold, fly_held_segments
 from wingbeat.stability.inputs import Compensation
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
+from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 from wingbeat.stability.smooth_commands import smoother
 from wingbeat.winds import Wind
 
@@ -32,7 +39,8 @@ class ManyFlights:
     states : (x, z, body_pitch, u, w, pitch_rate) at all tops of the stroke, shape (flights, beats + 1, 6)
         [m, m, rad, m/s, m/s, rad/s]; may be huge or not a number after a flight is lost.
     time : of these tops [s], shape (flights, beats + 1).
-    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares].
+    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares]; or bumps of flap
+        and pitch in each segment, shape (flights, beats * segments, 2) [rad].
     largest_pitch : largest deviation of the body pitch from the orbit's at the same phase [rad], shape (flights,).
     lowest : least height above the orbit's path at a top of the stroke [m], shape (flights,).
     survived : whether all numbers are finite, `largest_pitch` is at most `ManyOptions.tilt`, and `lowest` is not
@@ -52,7 +60,7 @@ def simulate_many(
     winds: Sequence[Wind | tuple[float, float]],
     beats: int = 30,
     *,
-    feedback: Feedback | None = None,
+    feedback: Feedback | SegmentFeedback | None = None,
     late: int = 0,
     noise: Mapping[str, float] | None = None,
     seed: int = 0,
@@ -65,8 +73,8 @@ def simulate_many(
     orbit : a certified orbit; each flight starts on it at the top of the stroke.
     winds : velocity of the air of each flight, as in `simulate`.
     beats : number of wingbeats.
-    feedback : of this orbit; None to fly the orbit's wingbeat throughout.
-    late : beats of delay in addition to the delay for which the feedback was computed.
+    feedback : of this orbit, from `feedback` or `feedback_in_beat`; None to fly the orbit's wingbeat throughout.
+    late : beats of delay in addition to the delay for which the feedback was computed; 0 with `feedback_in_beat`.
     noise : standard deviations of what the feedback measures of the state, by name [m, rad, m/s, rad/s].
     seed : of the noise.
     options : steps, and when a flight is lost.
@@ -74,7 +82,8 @@ def simulate_many(
     Raises
     ------
     InvalidInputError : an orbit that is not certified, no winds, winds that are not finite, beats or lateness that
-        are no whole numbers, feedback of another orbit, noise of an unknown state or that is negative.
+        are no whole numbers, feedback of another orbit, lateness of feedback within a beat, noise of an unknown
+        state or that is negative.
 
     One flight was compared with the adaptive `simulate`: a pigeon with feedback, 30 beats through a gust of 3 m/s.
     With 64 steps of the classical Runge-Kutta method in a beat, the states at the tops of the stroke differ by less
@@ -96,29 +105,27 @@ def simulate_many(
     else:
         for wind in winds:
             check_wind(faults, wind)
-    if feedback is not None and not _is_of(feedback, orbit):
-        faults.add("feedback", feedback.flight.orbit.inputs["speed"], "is that of another orbit", "compute its own")
+    if feedback is not None and not _is_of(_own(feedback), orbit):
+        faults.add("feedback", _own(feedback).inputs["speed"], "is that of another orbit", "compute its own")
+    if isinstance(feedback, SegmentFeedback) and late:
+        faults.add("late", late, "is not known to feedback within a beat", "give 0, or feedback from beat to beat")
     faults.raise_if_any()
     deviations = noise_of(noise, _STATE, seed)
-    hold, inputs, harmonics = _hold(orbit, feedback)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
-    fly = fly_held_beats.bind(
-        orbit.problem.model,
-        orbit.wingbeat,
-        hold,
-        _course(orbit, options.steps),
-        inputs=inputs,
-        harmonics=harmonics,
-        delay=0 if feedback is None else feedback.delay,
-        late=late,
-    )
+    if isinstance(feedback, SegmentFeedback):
+        fly, slower, measurements = _within_beats(feedback, options.steps), 0.0, (beats, len(feedback.gains))
+    else:
+        fly, slower = _from_beat_to_beat(orbit, feedback, late, options.steps)
+        measurements = (beats,)
     random, found = np.random.default_rng(seed), []
-    for air in _tables(orbit, winds, beats, hold, lanes, options.air_samples):
-        measured = deviations[:, None] * random.standard_normal((beats, len(_STATE), lanes))
+    for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
+        measured = deviations[:, None] * random.standard_normal((*measurements, len(_STATE), lanes))
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))
     states, time, changes, pitch = (
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
     )
+    if changes.ndim > 3:
+        changes = changes.reshape(len(changes), -1, changes.shape[-1])
     states = np.concatenate([np.broadcast_to(orbit.initial_state, (len(winds), 1, 6)), states], axis=1)
     time = np.concatenate([np.zeros((len(winds), 1)), time], axis=1)
     return _judged(orbit, states, time, changes, pitch, options)
@@ -139,9 +146,51 @@ def _judged(
     return ManyFlights(states, time, changes, pitch, lowest, survived)
 
 
-def _is_of(feedback: Feedback, orbit: Orbit) -> bool:
-    own = feedback.flight.orbit
+def _own(feedback: Feedback | SegmentFeedback) -> Orbit:
+    return feedback.orbit if isinstance(feedback, SegmentFeedback) else feedback.flight.orbit
+
+
+def _is_of(own: Orbit, orbit: Orbit) -> bool:
     return own is orbit or (own.wingbeat == orbit.wingbeat and own.initial_state == orbit.initial_state)
+
+
+def _from_beat_to_beat(
+    orbit: Orbit, feedback: Feedback | None, late: int, steps: int
+) -> tuple[Callable[..., Any], float]:
+    """Return the program that flies so, and the least change of an input."""
+    hold, inputs, harmonics = _hold(orbit, feedback)
+    fly = fly_held_beats.bind(
+        orbit.problem.model,
+        orbit.wingbeat,
+        hold,
+        _course(orbit, steps),
+        inputs=inputs,
+        harmonics=harmonics,
+        delay=0 if feedback is None else feedback.delay,
+        late=late,
+    )
+    return fly, min([0.0, *hold.lower.tolist()])
+
+
+def _within_beats(feedback: SegmentFeedback, steps: int) -> Callable[..., Any]:
+    """Return the program that flies with feedback within the beat, in steps no longer than those of a beat."""
+    orbit, ends = feedback.orbit, feedback.phases
+    names, shares = bump_parameters(len(feedback.gains))
+    own = math.ceil(steps * np.diff(ends).max() - 1e-6)
+    phases = np.concatenate([np.linspace(*pair, own + 1)[:-1] for pair in itertools.pairwise(ends)] + [ends[-1:]])
+    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
+    pitch = np.stack([flown[j * own : (j + 1) * own + 1, 2] for j in range(len(feedback.gains))])
+    hold = SegmentHold(
+        feedback.gains,
+        np.array(feedback.limit),
+        np.array([float(parameter(orbit.wingbeat, name)) for name in names]),
+        shares,
+        ends,
+        feedback.path,
+        pitch,
+    )
+    course = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
+    return fly_held_segments.bind(orbit.problem.model, orbit.wingbeat, hold, *course, names=names)
 
 
 def _hold(orbit: Orbit, feedback: Feedback | None) -> tuple[Hold, tuple[str, ...], tuple[str, ...]]:
@@ -161,11 +210,11 @@ def _course(orbit: Orbit, steps: int) -> Course:
 
 
 def _tables(
-    orbit: Orbit, winds: Sequence[Wind | tuple[float, float]], beats: int, hold: Hold, lanes: int, samples: int
+    orbit: Orbit, winds: Sequence[Wind | tuple[float, float]], beats: int, slower: float, lanes: int, samples: int
 ) -> Iterator[np.ndarray]:
     """Yield tables of the air's velocity of so many flights at a time, shape (lanes, places, 2)."""
     frequency = orbit.wingbeat.frequency
-    slowest = frequency + min([0.0, *hold.lower.tolist()])  # of all inputs: more than is needed if none is it
+    slowest = frequency + slower  # of all inputs: more than is needed if none is it
     longest = frequency / max(slowest, 0.5 * frequency)
     times = np.arange(-1, int(beats * samples * longest) + 3) / (samples * frequency)
     for first in range(0, len(winds), lanes):

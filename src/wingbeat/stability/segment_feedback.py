@@ -88,11 +88,10 @@ class SegmentFeedback:
         ----------
         bumps : of flap and pitch [rad], shape (2,).
         """
-        changes: dict[str, float] = {}
-        for law, bump in zip(_LAWS, bumps.tolist(), strict=True):
-            for name, share in _shares(law, len(self.gains)):
-                changes[name] = float(parameter(self.orbit.wingbeat, name)) + share * bump
-        return with_parameters(self.orbit.wingbeat, changes)
+        names, shares = bump_parameters(len(self.gains))
+        numbers = [float(parameter(self.orbit.wingbeat, name)) for name in names]
+        changed = (numbers + shares @ bumps).tolist()
+        return with_parameters(self.orbit.wingbeat, dict(zip(names, changed, strict=True)))
 
     def fly(self, wind: Wind | tuple[float, float], beats: int = 30) -> SegmentFlight:
         """Fly the orbit through a wind with this feedback, the whole equations of motion.
@@ -162,9 +161,15 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, options.reach * options.angle)
 
 
-def _shares(law: str, segments: int) -> tuple[tuple[str, float], ...]:
-    """Return the parameters that make a bump of a law, and the change of each per unit of the bump."""
-    return (f"{law}_mean", 0.5), (f"{law}_cos_{segments}", -0.5)
+def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
+    """Return names of the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
+
+    Parameters
+    ----------
+    segments : of a beat.
+    """
+    names = tuple(name for law in _LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
+    return names, np.kron(np.eye(len(_LAWS)), [[0.5], [-0.5]])
 
 
 def _segment_maps(
@@ -175,15 +180,11 @@ def _segment_maps(
     from scipy.interpolate import CubicSpline
 
     beat, start = orbit.wingbeat, np.array(orbit.initial_state, dtype=float)[2:]
-    names = tuple(name for law in _LAWS for name, _ in _shares(law, segments))
+    names, shares = bump_parameters(segments)
     fly = flier(orbit.problem.model, beat, names, whole_path=True)
     flown = fly(np.array([float(parameter(beat, name)) for name in names]), start, blocks)
     path, by = np.asarray(flown.path), np.asarray(flown.path_jacobian)  # (K, 4), (K, 4, 4 + names)
     phase = np.linspace(0.0, 1.0, len(path))
-    shares = np.zeros((len(names), len(_LAWS)))
-    for column, law in enumerate(_LAWS):
-        for row, (_, share) in enumerate(_shares(law, segments)):
-            shares[2 * column + row, column] = share
     by = np.concatenate([by[..., :4], by[..., 4:] @ shares], axis=-1)
 
     def with_height(rates: np.ndarray) -> np.ndarray:

@@ -1,10 +1,10 @@
 """Fly thousands of random gusts, and turbulence, with and without feedback, and write a page on what survives.
 
-    python validation/gust_survival.py [--page]
+    python validation/gust_survival.py [--page | --again]
 
 A pigeon and a bat fly by the models `paper` and `animal`: through 1000 gusts, and through 30 s of light and of
-moderate turbulence on 32 seeds. The results go to ``data/gust_survival.csv``, and the page is written from them;
-with ``--page`` nothing is flown.
+moderate turbulence on 32 seeds. The results go to ``data/gust_survival.csv``, and the page is written from them.
+Orbits that are in the table already are not flown, unless with ``--again``; with ``--page`` nothing is flown.
 """
 
 from __future__ import annotations
@@ -102,9 +102,12 @@ def main() -> None:
     """Fly, write table and page, and print the totals."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--page", action="store_true", help="write the page from the table, without flying")
-    if not parser.parse_args().page:
-        rows: list[dict[str, Any]] = []
-        for one in FLIGHTS:
+    parser.add_argument("--again", action="store_true", help="fly orbits that are in the table, too")
+    asked = parser.parse_args()
+    rows = pd.read_csv(TABLE).to_dict("records") if TABLE.exists() and not asked.again else []
+    done = {(row["model"], row["animal"], row["speed"]) for row in rows}
+    for one in FLIGHTS if not asked.page else ():
+        if one not in done:
             rows += flown_rows(*one)
             print(f"flown: {' '.join(map(str, one))}", flush=True)
             write_atomically(TABLE, pd.DataFrame(rows).to_csv(index=False, float_format="%.6g"))

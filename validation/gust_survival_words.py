@@ -49,12 +49,12 @@ TEXT = """# Which gusts are survived?
 [`paper` and `animal`](models.md), through random gusts and through turbulence. They fly in open loop, and with the
 feedback of the page on [control](control.md).
 
-- **Gusts.** {gusts} gusts for each line of the table, the same for all controls of an orbit. Their size is uniform up to
-  5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.
-- **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward component
-  has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate).
-- **Control.** *LQR* changes the inputs of the next beat, *one beat late* those of the beat after it, with gains
-  that know of the delay. *{segments} segments* raises flap and pitch by a bump in each quarter of the stroke
+- **Gusts.** {gusts} gusts for each line of the table, the same for all controls of an orbit. Their size is uniform
+  up to 5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.
+- **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward
+  component has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate).
+- **Control.** *LQR* changes the inputs of the next beat, *one beat late* those of the beat after it, with gains that
+  know of the delay. *{segments} segments* raises flap and pitch by a bump in each quarter of the stroke
   (`feedback_in_beat`). All measure without noise.
 - **Survived.** The body pitch stays within 60 degrees of the orbit's, and the vehicle does not sink 5 m below the
   orbit's path.
@@ -68,9 +68,9 @@ model `paper`, (c) pigeon and (d) bat by the model `animal`.*
 
 {findings}
 
-All flights take fixed steps of a 64th of a beat or less, with `simulate_many`. Shares in bins of the gusts' size and direction
-are in `data/gust_survival.csv`. Of a share near one half, one standard error is {gust_error:.1f} percent in {gusts} gusts and
-{seed_error:.0f} percent in {seeds} seeds.
+All flights take fixed steps of a 64th of a beat or less, with `simulate_many`. Shares in bins of the gusts' size and
+direction are in `data/gust_survival.csv`. One standard error of a share near one half is {gust_error:.1f} percent in
+{gusts} gusts and {seed_error:.0f} percent in {seeds} seeds.
 """
 
 

@@ -69,8 +69,8 @@ model `paper`, (c) pigeon and (d) bat by the model `animal`.*
 {findings}
 
 All flights take fixed steps of a 64th of a beat or less, with `simulate_many`. Shares in bins of the gusts' size and
-direction are in `data/gust_survival.csv`. One standard error of a share near one half is {gust_error:.1f} percent in
-{gusts} gusts and {seed_error:.0f} percent in {seeds} seeds.
+direction are in `data/gust_survival.csv`. A share near one half has a standard error of {gust_error:.1f} percent in
+{gusts} gusts, and of {seed_error:.0f} percent in {seeds} seeds.
 """
 
 
@@ -120,8 +120,9 @@ def _rows(table: pd.DataFrame) -> Iterator[str]:
 def draw(table: pd.DataFrame, path: Path) -> None:
     """Draw the share survived against the size of the gusts, a panel for each orbit."""
     figure = new_figure(PAGE, 62.0)
-    panels = figure.subplots(1, len(FLIGHTS), sharey=True)
-    for panel, (model, animal, speed) in zip(panels, FLIGHTS, strict=True):
+    orbits = table[["model", "animal", "speed"]].drop_duplicates()
+    panels = figure.subplots(1, len(orbits), sharey=True, squeeze=False)[0]
+    for panel, (model, animal, speed) in zip(panels, orbits.itertuples(index=False), strict=True):
         rows = table[(table["model"] == model) & (table["animal"] == animal) & (table["by"] == "size")]
         _draw_shares(panel, rows)
         panel.set_title(f"{animal}, {speed:g} m/s, model {model}", fontsize="medium")

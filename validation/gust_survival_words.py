@@ -53,8 +53,8 @@ feedback of the page on [control](control.md).
   up to 5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.
 - **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward
   component has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate).
-- **Control.** *LQR* changes the inputs of the next beat, *one beat late* those of the beat after it, with gains that
-  know of the delay. *{segments} segments* raises flap and pitch by a bump in each quarter of the stroke
+- **Control.** *LQR* changes the inputs of the next beat, *one beat late* those of the beat after it, with gains
+  that know of the delay. *{segments} segments* raises flap and pitch by a bump in each quarter of the stroke
   (`feedback_in_beat`). All measure without noise.
 - **Survived.** The body pitch stays within 60 degrees of the orbit's, and the vehicle does not sink 5 m below the
   orbit's path.
@@ -68,9 +68,16 @@ model `paper`, (c) pigeon and (d) bat by the model `animal`.*
 
 {findings}
 
-All flights take fixed steps of a 64th of a beat or less, with `simulate_many`. Shares in bins of the gusts' size and
-direction are in `data/gust_survival.csv`. A share near one half has a standard error of {gust_error:.1f} percent in
-{gusts} gusts, and of {seed_error:.0f} percent in {seeds} seeds.
+All flights take fixed steps of a 64th of a beat or less, with `simulate_many`. `data/gust_survival.csv` has the
+shares in bins of the size and of the direction of the gusts. A share near one half has a standard error of
+{gust_error:.1f} percent in {gusts} gusts, and of {seed_error:.0f} percent in {seeds} seeds.
+"""
+
+FINDINGS = """- **Open loop.** Survived of the gusts: {open}. Survived of 30 s of light turbulence: {open_light}.
+- **One beat of delay costs.** Gusts without delay: {prompt}. Gusts with one beat of delay: {late}. Light turbulence
+  with one beat of delay: {late_light}.
+- **Feedback within the beat.** Gusts: {within}. Light turbulence: {within_light}. Moderate turbulence:
+  {within_moderate}.
 """
 
 
@@ -144,4 +151,20 @@ def _draw_shares(panel: Axes, rows: pd.DataFrame) -> None:
 
 def findings(table: pd.DataFrame) -> str:
     """Return what the table says, in sentences."""
-    return ""
+
+    def listed(control: str, by: str = "size") -> str:
+        keys = table[["animal", "model"]].drop_duplicates().itertuples(index=False)
+        found = [(animal, model, share(table, model, animal, control, by)) for animal, model in keys]
+        return ", ".join(f"{value:.3g} % ({animal}, `{model}`)" for animal, model, value in found)
+
+    light, moderate = (f"{one} turbulence" for one in LEVELS)
+    return FINDINGS.format(
+        open=listed(OPEN),
+        open_light=listed(OPEN, light),
+        prompt=listed(AT_ONCE),
+        late=listed(LATE),
+        late_light=listed(LATE, light),
+        within=listed(WITHIN),
+        within_light=listed(WITHIN, light),
+        within_moderate=listed(WITHIN, moderate),
+    )

@@ -27,8 +27,9 @@ def test_the_page_is_that_of_the_table(words, table, tmp_path):
 
 def test_every_flight_is_counted_once_by_size_and_once_by_direction(words, table):
     assert (table["survived"] <= table["flown"]).all()
-    for keys in words.FLIGHTS:
-        rows = table[(table["model"] == keys[0]) & (table["animal"] == keys[1]) & (table["speed"] == keys[2])]
+    orbits = table.groupby(["model", "animal", "speed"])
+    assert {keys for keys, _ in orbits} <= set(words.FLIGHTS)
+    for _, rows in orbits:
         for control in words.CONTROLS:
             own = rows[rows["control"] == control].groupby("by")[["flown", "survived"]].sum()
             assert own["flown"].to_dict() == {

@@ -73,8 +73,8 @@ def fly_held_segments(
 
     Returns
     -------
-    States at the end of each beat, shape (beats, 6, flights), and its time; bumps of flap and pitch in each segment,
-    shape (beats, segments, 2, flights); largest deviation of the body pitch from the orbit's.
+    States at the end of each beat, shape (beats, 6, flights), and its time; bumps of flap and pitch in each
+    segment, shape (beats, segments, 2, flights); largest deviation of the body pitch from the orbit's.
     """
     flights = air.shape[0]
 

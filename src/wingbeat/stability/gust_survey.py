@@ -115,8 +115,8 @@ def survey_gusts(
     Parameters
     ----------
     orbit : a certified orbit.
-    feedbacks : of this orbit, by names; None flies without feedback. Default: without feedback, with that of
-        `feedback`, and with that for one beat of delay.
+    feedbacks : of this orbit, by names, from `feedback` or `feedback_in_beat`; None flies without feedback.
+        Default: without feedback, with that of `feedback`, and with that for one beat of delay.
     flights : number of gusts.
     size : of the largest gust [m/s].
     beats : number of wingbeats of a flight.

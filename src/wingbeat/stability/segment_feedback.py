@@ -162,7 +162,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
 
 
 def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
-    """Return names of the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
+    """Return the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
 
     Parameters
     ----------

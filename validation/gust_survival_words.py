@@ -47,10 +47,11 @@ TEXT = """# Which gusts are survived?
 
 `python validation/gust_survival.py` writes this page. It flies a pigeon at 12 m/s and a bat at 8 m/s, by the models
 [`paper` and `animal`](models.md), through random gusts and through turbulence. They fly in open loop, and with the
-feedback of the page on [control](control.md).
+feedback of the page on [control](control.md).{missing}
 
 - **Gusts.** {gusts} gusts for each line of the table, the same for all controls of an orbit. Their size is uniform
   up to 5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.
+  So an orbit that beats slowly meets longer gusts.
 - **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward
   component has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate). It blows with
   full strength from the start.
@@ -98,6 +99,11 @@ def page(table: pd.DataFrame, figure: Path) -> str:
         moderate=moderate,
         segments=SEGMENTS,
         figure=figure.name,
+        missing="".join(
+            f" The {animal} by the model `{model}` is not flown yet."
+            for model, animal, _ in FLIGHTS
+            if (model, animal) not in _orbits(table)
+        ),
         panels=", ".join(
             f"({letter}) {animal} by the model `{model}`"
             for letter, (model, animal) in zip("abcd", _orbits(table), strict=False)

@@ -26,7 +26,8 @@ that other people measured. Their data are not part of this project:
 
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
-- Panel A shows lift against the angle from zero lift, because mount angles of twisted wings cannot be compared.
+- Panel A shows lift against the angle of attack, counted from that of zero lift: mount angles of twisted wings
+  cannot be compared.
 - Panel B shows drag against lift, and panel C the lift-to-drag ratio against lift. Neither depends on how the angle
   was measured.
 - Panel D shows the moment against normal force. The moment is about the shoulder for gulls and about the leading
@@ -159,8 +160,8 @@ def _forms(verdicts: list[Verdict]) -> list[str]:
         "## Which forms these data determine",
         "",
         "The table shows R-squared of lift and drag for each form of `wingbeat fit`. *No* means that the data do",
-        "not determine the form: an interval is wider than its own parameter, a parameter is at a bound of the",
-        "fit, or the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form of",
+        "not determine the form: an interval of a parameter is wider than its value, a parameter is at a bound of",
+        "the fit, or the fit is ill-conditioned. Do not use such a fit outside the measured range. Su-Fan's form of",
         "lift is the sum of a sine and an exponential that decays with angle of attack. At negative angles the",
         "exponential grows without bound, so lift and drag of this form are fitted only from 0 degrees up. The",
         "other three forms are fitted to all measurements. Among these three, the best by AICc (a corrected",

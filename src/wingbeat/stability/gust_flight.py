@@ -22,7 +22,7 @@ _STATE = ("body_pitch", "u", "w", "pitch_rate")
 
 @dataclass(frozen=True)
 class GustFlight:
-    """A flight through a wind, beside the orbit that it left.
+    """A flight through a wind, and the orbit on which it began.
 
     Attributes
     ----------

@@ -48,7 +48,7 @@ def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
 
 
 def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProblem | None:
-    """Return the problem with a share `trace` of one of its terms; None for the hand, which has no share.
+    """Return the problem with one of its terms scaled to the share `trace`; None if the term is the hand.
 
     The compiled programs of the full problem also run this problem. If the term is inflow, the coefficients remain
     those of wing sections.

@@ -36,7 +36,10 @@ from wingbeat.errors import ForkError
 _TRACING = threading.Lock()
 # XLA's older way to make loops of fused operations compiles in half the time of the newer one. Programs made the
 # older way are as fast, except for the flight of the search, which takes a tenth longer.
-_SOON_ON_CPU: dict[str, str | bool] = {"xla_cpu_use_fusion_emitters": False}
+# From JAX 0.12 on, XLA has the newer way only.
+_SOON_ON_CPU: dict[str, str | bool] = (
+    {"xla_cpu_use_fusion_emitters": False} if jax.__version_info__ < (0, 12) else {}
+)
 _NOTHING = np.zeros(0)
 
 # Whether this process had run JAX when it was last forked, and whether it is such a fork.

@@ -40,6 +40,12 @@ NOT_TUNING = {
     "_ANY_FLAP": "an angle beyond which there is no wingbeat",
     "_AMPLITUDE": "an angle beyond which there is no wingbeat",
     "_HARMONIC": "beyond which there is no wingbeat",
+    "_BESIDE": "steps of difference quotients of the stroke map",
+    "STABLE_RADIUS": "the limit that --stable stands for",
+    "_EQUAL": "units in the definition of the gust response",
+    "_STEADY": "where the gust response, which has no value beyond 1, goes over into a penalty",
+    "_BEYOND": "slope of that penalty",
+    "_WEIGHTS": "scales of the conditions of stability, as `scale` of other quantities",
     "_CENTRAL": "weights of a difference quotient",
     "_UPWARDS": "weights of a difference quotient",
 }

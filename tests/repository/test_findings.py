@@ -2,8 +2,7 @@
 
 Each function of `COUNTS` returns phrases with the numbers that the sets give. The page must hold all of them, and
 every number of the page must lie in one of them. After a new sample `python -m tests.repository.test_findings`
-prints the phrases as they are to stand in the page; what they say in words beside the numbers is asserted where it
-is counted.
+prints the phrases for the page; what they say in words beside the numbers is asserted where it is counted.
 """
 
 import re
@@ -339,8 +338,7 @@ def test_the_page_says_what_the_sets_do(counted, name):
 
 
 def test_no_number_of_the_page_is_left_uncounted(counted):
-    phrases = [phrase for part in counted.values() for phrase in part]
-    page = read_page()
+    phrases, page = [phrase for part in counted.values() for phrase in part], read_page()
     assert uncounted(page, phrases) == []
     assert uncounted(f"{page} It is so in 42 % of them.", phrases)
     assert uncounted(f"{page} It is so in three of them.", phrases)

@@ -185,7 +185,7 @@ def test_files_that_are_no_curves_are_refused(curve, tmp_path):
     with pytest.raises(FileError, match="is damaged"):
         wb.load_curve(path)
     curve.dataset.assign_attrs(wingbeat_kind="orbit").to_netcdf(path, engine="h5netcdf")
-    with pytest.raises(FileError, match="it is not one"):
+    with pytest.raises(FileError, match="it does not hold a curve"):
         wb.load_curve(path)
 
 

@@ -93,6 +93,7 @@ FieldTangents = Float[Any, "directions *rest"]
 SampledSeries = Float[Any, "samples *columns"]
 Quarters = Float[Any, "4 *columns"]
 SamplesOfPeaks = Int[Any, "4 4 *#columns"]
+Indices = Int[Any, "*indices"]
 Columns = Float[Any, "*columns"]
 
 # A flight in fixed steps: tables of the wing's motion in rows, all stages of all steps, and tangents.

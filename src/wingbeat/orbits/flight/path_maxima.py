@@ -14,7 +14,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Columns, Quarters, SampledSeries, SamplesOfPeaks
+    from wingbeat._jax.shapes import Columns, Indices, Quarters, SampledSeries, SamplesOfPeaks
 
 
 PARTS = 4
@@ -47,7 +47,7 @@ def _quarters_of(count: int) -> np.ndarray:
     return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
 
 
-def _at(series: SampledSeries, index: Any, xp: Any) -> Any:
+def _at(series: SampledSeries, index: Indices, xp: Any) -> Any:
     """Return the samples at indices along the first axis; all other axes are those of the series."""
     # Every flight of a search needs the peaks of one path, and `take_along_axis` takes ten times as long.
     return series[index] if xp is np and series.ndim == 1 else xp.take_along_axis(series, index, axis=0)

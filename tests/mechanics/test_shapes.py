@@ -22,6 +22,7 @@ from wingbeat._jax.exported import StoredFunction
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits import flight
+from wingbeat.orbits.problem.traced import ALL_FIELDS
 
 PIGEON = wb.load_species("pigeon")
 # What is no array, such as a user's function, or an array of any shape.
@@ -186,7 +187,7 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     traced("orbits.flight.shooting.fly_part", model, wingbeat, *step, free=free, components=1, stroke=True)
     path, tangents = np.zeros((4, 33)), np.zeros((6, 4, 33))
     part = np.zeros(2), path, tangents, np.zeros(2), np.zeros(2)
-    traced("orbits.flight.beat._part", model, wingbeat, *part, free=free, fields=("lift", "flap_torque"))
+    traced("orbits.flight.beat._part", model, wingbeat, *part, free=free, fields=ALL_FIELDS)
     traced("orbits.flight.beat.flown_beat", model, wingbeat, np.linspace(0, 1, 33), path.T, np.zeros(2))
     traced("orbits.flight.floquet._state_maps", model, wingbeat, np.zeros(64), np.ones(64), np.zeros((64, 4)))
     for kernel in ("highest", "peaks"):

@@ -41,7 +41,7 @@ class Wingbeat:
     flap_mean, flap_amplitude : flap angle, wing up positive [rad].
     pitch_mean, pitch_amplitude : wing pitch at the root, leading edge up positive [rad].
     span_retraction : share of the span retracted at mid-upstroke, 0 to below 1.
-    twist_ratio : wing pitch at the tip divided by wing pitch at the root; 1 is no twist.
+    twist_ratio : ratio of wing pitch at the tip to wing pitch at the root; 1 is no twist.
     fold_amplitude : angle by which the hand drops below the arm at mid-upstroke [rad].
     wrist : span fraction of the wrist.
     pitch_phase : phase lead of pitch over flap, beyond a quarter of a wingbeat [rad].

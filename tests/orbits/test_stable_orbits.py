@@ -157,7 +157,7 @@ def test_a_map_quantity_that_cannot_be_used_is_refused(problem, of, rule):
         dataclasses.replace(problem, subject_to=[wb.Constraint(wb.MapQuantity("own", of), 1.0)])
 
 
-def test_the_objective_is_no_output_of_the_beat_where_only_the_map_is_limited(problem):
+def test_a_limit_of_stability_has_five_numbers_without_kinks(problem):
     programme = Transcription(problem)
     values = programme.outputs.of_certified(
         programme.physical(programme.scaled(start_point(problem, 0, 0))),
@@ -185,3 +185,8 @@ def test_the_price_of_a_tighter_limit_is_that_of_a_new_search(problem):
     values = [orbit.record()["objective_value"] for orbit in orbits]
     assert price.objective == pytest.approx((values[1] - values[0]) / (0.99 - 0.995), rel=0.1)
     assert price.quantities["spectral_radius"] == pytest.approx(0.999, abs=0.01)  # the limit is 0.1 % inside
+
+
+def test_the_spectral_radius_itself_is_not_minimised(problem):
+    with pytest.raises(InvalidInputError, match=r"minimise = 'spectral_radius': can be limited but not minimised"):
+        dataclasses.replace(problem, minimise="spectral_radius")

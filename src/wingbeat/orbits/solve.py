@@ -27,6 +27,7 @@ from wingbeat.orbits.nlp.local_search import Candidate, active_bounds, refine, v
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.map_quantities import MapQuantity
 from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.problem.stable import asks_for_stability, minimises_map
 from wingbeat.orbits.solution import Optimum, Solution, better_of, families
@@ -187,7 +188,7 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
     """
     problem, options = programme.problem, programme.options
     for limit in problem.subject_to:
-        if limit.at_most:
+        if limit.at_most and not isinstance(limit.quantity, MapQuantity):
             # The frequency is minimised as an output of the beat, because a fixed frequency is no unknown.
             least = dataclasses.replace(limit.quantity, parameter=None)
             easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,9 +17,6 @@ from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search, find_orbit
 from wingbeat.orbits.starts import start_count
-
-if TYPE_CHECKING:
-    pass
 from wingbeat.results.orbit import Orbit
 
 

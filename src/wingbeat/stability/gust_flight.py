@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.mechanics.beat_by_beat import Controller
+from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback
@@ -17,7 +17,6 @@ from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.winds import Wind
 
 _SAMPLES = 64
-_STATE = ("body_pitch", "u", "w", "pitch_rate")
 
 
 @dataclass(frozen=True)
@@ -77,22 +76,20 @@ def fly_gust(
     wind, beats, feedback, late, noise, seed : as in `simulate_many`.
     options : say when a flight is lost.
     """
-    controller: Controller | None = None
-    if feedback is not None:
-        controller = feedback.controller(noise, seed, late=late)
+    controller = None if feedback is None else feedback.controller(noise, seed, late=late)
     model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
     flown = simulate(model, beat, start, beats, _SAMPLES, wind=wind, controller=controller)
     path = simulate(model, beat, start, 1, _SAMPLES).states[:-1, 2]
     pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
     tops = flown.states[::_SAMPLES]
     height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::_SAMPLES]
-    kept = bool(np.abs(pitch).max() <= options.tilt) and bool(height.min() >= -options.loss)
-    changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)  # type: ignore[attr-defined]
+    kept = bool(options.keeps(np.abs(pitch).max(), height.min()))
+    changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
     return GustFlight(flown, pitch, height, changes, flown.completed and kept, _settled(tops, orbit))
 
 
 def _settled(tops: np.ndarray, orbit: Orbit) -> int | None:
-    scales = np.array([SCALES.scale(name) for name in _STATE])
+    scales = np.array([SCALES.scale(name) for name in PITCH_STATE])
     away = np.abs((tops[:, 2:] - np.array(orbit.initial_state, dtype=float)[2:]) / scales).max(axis=1)
     unsettled = np.flatnonzero(~(away < 0.5))
     if not len(unsettled):

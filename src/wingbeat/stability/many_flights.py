@@ -14,6 +14,7 @@ from wingbeat.errors import FaultList
 from wingbeat.kinematics import parameter
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flights import fly_through
+from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import simulate
 from wingbeat.results.orbit import Orbit
@@ -27,7 +28,7 @@ from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 from wingbeat.stability.smooth_commands import smoother
 from wingbeat.winds import Wind
 
-_STATE = ("z", "body_pitch", "u", "w", "pitch_rate")
+_STATE = ("z", *PITCH_STATE)
 
 
 @dataclass(frozen=True)
@@ -141,8 +142,7 @@ def _judged(
 ) -> ManyFlights:
     height = states[:, :, 1] - float(orbit.initial_state.z) - float(orbit.inputs["climb"]) * time
     lowest = height.min(axis=1)
-    with np.errstate(invalid="ignore"):
-        survived = np.isfinite(states).all(axis=(1, 2)) & (pitch <= options.tilt) & (lowest >= -options.loss)
+    survived = np.isfinite(states).all(axis=(1, 2)) & options.keeps(pitch, lowest)
     return ManyFlights(states, time, changes, pitch, lowest, survived)
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from wingbeat.orbits.options.checks import check_options
 
@@ -29,6 +32,16 @@ class ManyOptions:
 
     def __post_init__(self) -> None:
         check_options(self)
+
+    def keeps(self, largest_pitch: float | np.ndarray, lowest: float | np.ndarray) -> Any:
+        """Return whether flights are not lost; False for numbers that are not finite.
+
+        Parameters
+        ----------
+        largest_pitch : largest deviations of the body pitch from the orbit's [rad].
+        lowest : least heights above the orbit's path [m].
+        """
+        return np.less_equal(largest_pitch, self.tilt) & np.greater_equal(lowest, -self.loss)
 
 
 DEFAULTS = ManyOptions()

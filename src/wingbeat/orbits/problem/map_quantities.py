@@ -93,12 +93,12 @@ def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
     The covariance P of the disturbances solves ``P = A P A' + G G'`` with ``G = (I - A)[:, (u, w)]``. A is the
     stroke map.
     """
-    radius = jax.lax.stop_gradient(_moduli(stroke_map)[-1])
-    steady = stroke_map * jnp.minimum(1.0, _STEADY / radius)
+    radius = _moduli(stroke_map)[-1]
+    steady = stroke_map * jnp.minimum(1.0, _STEADY / jax.lax.stop_gradient(radius))
     gust = (jnp.eye(4) - stroke_map)[:, 1:3]
     covariance = jnp.linalg.solve(jnp.eye(16) - jnp.kron(steady, steady), (gust @ gust.T).ravel()).reshape(4, 4)
     response = jnp.sqrt(jnp.diagonal(covariance) @ jnp.asarray(_EQUAL) ** -2)
-    return response + _BEYOND * jnp.maximum(_moduli(stroke_map)[-1] - _STEADY, 0.0)
+    return response + _BEYOND * jnp.maximum(radius - _STEADY, 0.0)
 
 
 MAP_QUANTITIES = {

@@ -233,9 +233,17 @@ def count_of(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: 
     return math.prod(shape) if of_map or not shape else PARTS * math.prod(shape[1:])
 
 
-def check_quantities(quantities: Sequence[Quantity], strips: int, drive: Drive) -> list[Fault]:
-    """Return the faults of quantities whose functions fail or return neither a number nor a series."""
+def check_quantities(
+    quantities: Sequence[Quantity], strips: int, drive: Drive, minimised: Quantity | None = None
+) -> list[Fault]:
+    """Return the faults of quantities whose functions fail, have the wrong shape, or cannot be minimised."""
     faults = []
+    if isinstance(minimised, MapQuantity) and minimised.excess is not None:
+        rule, fix = (
+            "can be limited but not minimised: its optima are at kinks",
+            "minimise gust_response, or limit it",
+        )
+        faults.append(Fault("minimise", minimised.name, rule, fix))
     for quantity in quantities:
         if quantity.needs is not None and getattr(drive, quantity.needs) is None:
             rule = f"needs a {quantity.needs}, and the vehicle has none"

@@ -103,7 +103,7 @@ class OrbitProblem:
             self._draw_in(faults)
         faults.raise_if_any()
         aero = blade_element_of(self.aero)
-        faults.faults.extend(check_quantities(self._quantities(), aero.strips, self.vehicle.drive))
+        faults.faults.extend(check_quantities(self._quantities(), aero.strips, self.vehicle.drive, self.minimise))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)

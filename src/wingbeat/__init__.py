@@ -79,6 +79,8 @@ if TYPE_CHECKING:
     from wingbeat.results.glide import glide_polar as glide_polar
     from wingbeat.results.orbit import Orbit as Orbit
     from wingbeat.results.orbit import load_orbit as load_orbit
+    from wingbeat.results.pareto import ParetoFront as ParetoFront
+    from wingbeat.results.pareto import pareto_front as pareto_front
     from wingbeat.results.power import power_account as power_account
     from wingbeat.results.sensitivities import Sensitivities as Sensitivities
     from wingbeat.results.sensitivities import sensitivities as sensitivities
@@ -151,12 +153,12 @@ _HOME = {
     "GustSurvey": "stability.gust_survey",
     "InvalidInputError": "errors",
     "LeastSquaresOptions": "orbits.options.least_squares",
-    "MapQuantity": "orbits.problem.map_quantities",
-    "MeasuredFlights": "whole_flights.measured",
     "LinearFlight": "stability.linear_flight",
     "LinearOptions": "stability.options",
     "ManyFlights": "stability.many_flights",
     "ManyOptions": "stability.many_options",
+    "MapQuantity": "orbits.problem.map_quantities",
+    "MeasuredFlights": "whole_flights.measured",
     "Mode": "stability.modes",
     "Motor": "actuators",
     "MujocoFlight": "exports.mujoco_flight",
@@ -164,6 +166,7 @@ _HOME = {
     "NewtonOptions": "orbits.options.certificate",
     "Orbit": "results.orbit",
     "OrbitProblem": "orbits.problem.problem",
+    "ParetoFront": "results.pareto",
     "Prediction": "whole_flights.prediction",
     "Quantity": "orbits.problem.quantity",
     "Reach": "stability.riccati",
@@ -214,6 +217,7 @@ _HOME = {
     "load_orbit": "results.orbit",
     "load_species": "species",
     "orbit_spread": "results.spread",
+    "pareto_front": "results.pareto",
     "plan_study": "studies.study",
     "power_account": "results.power",
     "predict_flights": "whole_flights.prediction",

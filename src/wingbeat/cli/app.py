@@ -30,6 +30,7 @@ COMMANDS = {
     "uncertainty": "Compute the uncertainty of an orbit's frequency, power and stability.",
     "glide": "Find the steady glides with the wings held still: sink, glide ratio, trim.",
     "curve": "Compute power and frequency against speed, and the characteristic speeds.",
+    "pareto": "Compute what a limit costs, such as power for stability: a Pareto front.",
     "terms": "Follow the best wingbeat while the share of a term of the air loads rises from 0 to 1.",
     "stability": "Find what grows and what decays when an orbit is disturbed.",
     "feedback": "Compute the feedback that holds an orbit, and fly it through a gust.",

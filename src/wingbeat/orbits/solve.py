@@ -148,6 +148,9 @@ def _searched(
         found += led
         if (best := first_certified(programme, led)) is not None:
             break
+    if asks_for_stability(programme.problem):
+        # Stable orbits are next to optima without limits of stability: few are found from other starts.
+        most = min(most, 3 * starts)
     more = range(starts, most if best is None else starts)
     for done, candidate in enumerate(search_from_starts(programme, more, seed, threads), starts + 1):
         found.append(candidate)

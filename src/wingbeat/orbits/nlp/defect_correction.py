@@ -70,17 +70,15 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
     if np.isfinite(rough.end).all():
         programme = programme.matched_to(scaled, rough)
         scaled = _optimum(programme, newton, scaled)
-    best: Corrected | None = None
-    updates, first = 0, np.inf
+    tries: list[Corrected] = []
+    updates = 0
     for tried in range(options.corrections):
         here = certified(programme, scaled)
         if here.is_orbit(options.aimed_closure):
             return dataclasses.replace(here, reduced_hessian=newton.reduced_hessian)
-        if best is None or size(here.residual) < size(best.residual):
-            best = here
-        if tried == 0:
-            first = size(here.residual)
-        hopeless = tried == options.trial_corrections and size(best.residual) > options.trial_reduction * first
+        tries.append(here)
+        least, first = min(size(one.residual) for one in tries), size(tries[0].residual)
+        hopeless = tried == options.trial_corrections and least > options.trial_reduction * first
         if hopeless or not np.isfinite(here.residual).all():
             break
         closes = size(here.residual) <= options.aimed_closure
@@ -93,7 +91,9 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
             newton = NewtonKKT(programme, scaled)
             updates += 1
         scaled = _optimum(programme, newton, scaled)
-    assert best is not None
+    tries.sort(key=lambda one: size(one.residual))
+    # Where two multipliers meet at their limit, corrections alternate between both sides of it.
+    best = next((one for one in tries if one.is_orbit()), tries[0])
     return dataclasses.replace(best, reduced_hessian=newton.reduced_hessian)
 
 

@@ -3,6 +3,8 @@
 Run from the root of a clone; it prints the numbers of docs/stability.md::
 
     uv run python benchmarks/stability.py along pigeon --speeds 4:20
+    uv run python benchmarks/stability.py along pigeon --speeds 6:18 --tail
+    uv run python benchmarks/stability.py along pigeon --speeds 6:18 --model animal
     uv run python benchmarks/stability.py random
 
 `along` flies an animal at each whole speed, without and with the limit ``spectral_radius<=0.995``. `random` does so
@@ -102,7 +104,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", choices=("along", "random"))
     parser.add_argument("species", nargs="?", default="pigeon")
-    parser.add_argument("--speeds", default="4:20", help="first and last speed [m/s]")
+    parser.add_argument("--speeds", default="4:20", help="first and last speed, and perhaps a step [m/s]")
+    parser.add_argument("--tail", action="store_true", help="add a tail by the laws of birds")
+    parser.add_argument("--minimise", help="quantity to minimise; default that of the model")
     parser.add_argument("--model", default="paper", choices=("paper", "animal"))
     parser.add_argument("--count", type=int, default=COUNT, help="number of random vehicles")
     asked = parser.parse_args()
@@ -110,9 +114,12 @@ def main() -> None:
         problems: Iterable[wb.OrbitProblem] = vehicles(asked.count)
     else:
         species = wb.load_species(asked.species)
-        low, high = (int(end) for end in asked.speeds.split(":"))
+        if asked.tail:
+            species = species.with_tail()
+        low, high, *step = (int(part) for part in asked.speeds.split(":"))
         model = wb.models.model_of(asked.model, species)
-        problems = (model.problem(species, float(speed)) for speed in range(low, high + 1))
+        changes = {} if asked.minimise is None else {"minimise": asked.minimise}
+        problems = (model.problem(species, float(u), **changes) for u in range(low, high + 1, *step))
     print(summary(list(pairs(problems))))
 
 

@@ -71,6 +71,43 @@ def test_a_disturbed_flight_is_ours(rigid_orbit):
     assert distance(flight.fly().states, wanted) < 2e-2
 
 
+@pytest.fixture(scope="module")
+def pushed(rigid_orbit):
+    """The start of a flight: on the orbit, but 0.5 m/s upward and 0.05 rad nose up."""
+    start = rigid_orbit.initial_state
+    return start._replace(w=start.w + 0.5, body_pitch=start.body_pitch + 0.05)
+
+
+def flown_from(start, orbit, beats, controller=None):
+    flight = wb.MujocoFlight(orbit, 64)
+    flight.data.qpos[:3], flight.data.qvel[:3] = start[:3], start[3:]
+    return flight.fly(beats, controller)
+
+
+def test_the_controller_holds_the_gait_and_the_flight_is_ours(rigid_orbit, pushed):
+    held = wb.feedback(rigid_orbit)
+    flown = flown_from(pushed, rigid_orbit, 10, held.controller())
+    model, beat = rigid_orbit.problem.model, rigid_orbit.wingbeat
+    wanted = wb.simulate(model, beat, pushed, 10, 64, controller=held.controller()).states
+    assert distance(flown.states, wanted) < 1.0
+    away = (flown.states[-1] - np.array(rigid_orbit.initial_state))[2:]
+    assert np.abs(away / [0.1, 1.0, 1.0, 2.0]).max() < 0.15
+    assert (np.diff(flown.time) > 0).all()
+    assert len(set(np.diff(flown.time).round(9))) > 1  # the frequency changes from beat to beat
+
+
+def test_without_the_controller_the_push_has_not_decayed(rigid_orbit, pushed):
+    flown = flown_from(pushed, rigid_orbit, 10)
+    away = (flown.states[-1] - np.array(rigid_orbit.initial_state))[2:]
+    assert np.abs(away / [0.1, 1.0, 1.0, 2.0]).max() > 0.4
+
+
+def test_a_controller_without_a_wingbeat_is_refused(rigid_orbit):
+    with pytest.raises(wb.InvalidInputError, match="controller = None: returned NoneType after 0 beats"):
+        wb.MujocoFlight(rigid_orbit, 16).fly(1, lambda beat, state: None)
+    assert mujoco.get_mjcb_control() is None
+
+
 def test_without_our_air_the_flight_is_another(rigid_orbit):
     flight = wb.MujocoFlight(rigid_orbit, 64)
     drive = flight.drive

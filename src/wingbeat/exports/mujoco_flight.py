@@ -10,7 +10,10 @@ from wingbeat.errors import FaultList, FileError, install_extra
 from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
 from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts
 from wingbeat.exports.mujoco_model import KEY, mujoco_xml
+from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.beat_by_beat import Controller, commanded
 from wingbeat.mechanics.equations_of_motion import air_forces
+from wingbeat.mechanics.flight_model import State
 from wingbeat.results.orbit import Orbit
 
 _BODY = slice(0, len(BODY_JOINTS))
@@ -66,12 +69,11 @@ class MujocoFlight:
         faults.whole("steps", steps, 16, 100_000, "time steps of a beat")
         faults.raise_if_any()
         engine = _mujoco()
-        problem, self._wingbeat, self._steps = orbit.problem, orbit.wingbeat, steps
+        problem, self._gait, self._steps = orbit.problem, orbit.wingbeat, steps
         self._flown = problem.model
         self.model: Any = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
-        self.model.opt.timestep = 1.0 / self._wingbeat.frequency / steps
         self.data: Any = engine.MjData(self.model)
-        self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._wingbeat, problem.model.strips))
+        self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._gait, problem.model.strips))
         self._besides = self._joints.without_hinge_angles
         # What the joints do when one of the five coordinates moves, and forces on the joints that do the work of
         # forces on the coordinates.
@@ -87,6 +89,12 @@ class MujocoFlight:
         """Go back to the top of the stroke."""
         engine = _mujoco()
         engine.mj_resetDataKeyframe(self.model, self.data, self.model.key(KEY).id)
+        self._beat(self._gait)
+
+    def _beat(self, wingbeat: Wingbeat) -> None:
+        """Begin to drive the wings by a wingbeat, from its top of the stroke."""
+        self._wingbeat, self._begun = wingbeat, float(self.data.time)
+        self.model.opt.timestep = 1.0 / wingbeat.frequency / self._steps
 
     def drive(self, model: Any, data: Any) -> None:
         """Set the air loads and the motors' torques of an instant, in the form of MuJoCo's control callback.
@@ -100,7 +108,7 @@ class MujocoFlight:
         """
         engine = _mujoco()
         wanted = np.zeros(model.nv)
-        laws = laws_at(self._wingbeat, np.array(data.time * self._wingbeat.frequency))
+        laws = laws_at(self._wingbeat, np.array((data.time - self._begun) * self._wingbeat.frequency))
         gait = self._joints.motion(laws)
         hold = _HOLD * 2 * np.pi * self._wingbeat.frequency
         wanted[_WINGS] = (
@@ -134,7 +142,7 @@ class MujocoFlight:
         position[_WINGS] -= besides.position
         rate[_WINGS] -= besides.rate
         q, q_dot = self._spread.T @ position, self._spread.T @ rate
-        found = air_forces(self._flown, self._wingbeat, q, q_dot, np.float64(data.time))
+        found = air_forces(self._flown, self._wingbeat, q, q_dot, np.float64(data.time - self._begun))
         on_joints, force = np.zeros(model.nv), np.asarray(found.strip_force)
         for side, sign in SIDES.items():
             for site, load in zip(self._sites[side], force * [1.0, sign, 1.0], strict=True):
@@ -144,25 +152,26 @@ class MujocoFlight:
         rest = np.asarray(found.generalised) - self._moved.T @ on_joints
         return on_joints + self._spread @ rest, np.asarray(found.added_mass)
 
-    def fly(self, beats: int = 1) -> MujocoStates:
+    def fly(self, beats: int = 1, controller: Controller | None = None) -> MujocoStates:
         """Fly from the state in `data` with MuJoCo's own steps, and return the states before and after each step.
 
         Parameters
         ----------
         beats : number of wingbeats.
+        controller : gives the wingbeat of each beat from the number of beats flown and the state, as in `simulate`;
+            None for the gait of the orbit.
 
         Raises
         ------
-        InvalidInputError : beats that are not a whole number of at least 1.
+        InvalidInputError : beats that are not a whole number of at least 1; a controller that returns no wingbeat.
         """
         faults = FaultList()
         faults.whole("beats", beats, 1, 10_000)
         faults.raise_if_any()
-        engine = _mujoco()
+        engine, data = _mujoco(), self.data
         found = []
 
         def note() -> None:
-            data = self.data
             engine.mj_forward(self.model, data)  # a step ends with the torques of its last stage
             state = np.concatenate([data.qpos[_BODY], data.qvel[_BODY]])
             found.append((data.time, state, data.ctrl.copy()))
@@ -171,9 +180,12 @@ class MujocoFlight:
         engine.set_mjcb_control(self.drive)
         try:
             note()
-            for _ in range(beats * self._steps):
-                engine.mj_step(self.model, self.data)
-                note()
+            for beat in range(beats):
+                if controller is not None:
+                    self._beat(commanded(controller, beat, State(*found[-1][1])))
+                for _ in range(self._steps):
+                    engine.mj_step(self.model, data)
+                    note()
         finally:
             engine.set_mjcb_control(before)
         return MujocoStates(*(np.array(column) for column in zip(*found, strict=True)))

@@ -72,7 +72,7 @@ def fly_beats(
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
     pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
     for beat in range(beats):
-        now = wingbeat if controller is None else _commanded(controller, beat, current)
+        now = wingbeat if controller is None else commanded(controller, beat, current)
         wingbeats.append(now)
         table = None
         if wind is not None:
@@ -86,8 +86,19 @@ def fly_beats(
     return FlownBeats(phase, np.concatenate(pieces), tuple(wingbeats), np.concatenate(airs) if airs else None)
 
 
-def _commanded(controller: Controller, beat: int, state: State) -> Wingbeat:
-    """Return the wingbeat that a controller asks for."""
+def commanded(controller: Controller, beat: int, state: State) -> Wingbeat:
+    """Return the wingbeat that a controller asks for.
+
+    Parameters
+    ----------
+    controller : gives the wingbeat of each beat.
+    beat : number of beats flown.
+    state : at the top of the stroke.
+
+    Raises
+    ------
+    InvalidInputError : the controller returns no wingbeat.
+    """
     wingbeat = controller(beat, state)
     if not isinstance(wingbeat, Wingbeat):
         rule = f"returned {type(wingbeat).__name__} after {beat} beats"

@@ -113,6 +113,7 @@ if TYPE_CHECKING:
     from wingbeat.stability.many_options import ManyOptions as ManyOptions
     from wingbeat.stability.modes import Mode as Mode
     from wingbeat.stability.options import LinearOptions as LinearOptions
+    from wingbeat.stability.pushes import fly_pushes as fly_pushes
     from wingbeat.stability.riccati import Reach as Reach
     from wingbeat.stability.segment_feedback import SegmentFeedback as SegmentFeedback
     from wingbeat.stability.segment_feedback import SegmentFlight as SegmentFlight
@@ -208,6 +209,7 @@ _HOME = {
     "feedback_in_beat": "stability.segment_feedback",
     "filmed_problem": "orbits.problem.filmed",
     "filmed_species": "orbits.problem.filmed",
+    "fly_pushes": "stability.pushes",
     "flight_loads": "mechanics.flight_loads",
     "floquet_multipliers": "orbits.flight.floquet",
     "generalised_torques": "mechanics.equations_of_motion",

@@ -154,7 +154,7 @@ export class Animal {
     flight.read(look.colour, place, buffers.tint);
     for (const [name, side] of Object.entries(SIDES)) this.showWing(this.wings[name], side, look.range);
     for (const [name, group] of Object.entries(this.arrows)) {
-      group.visible = look.arrows.has(name);
+      group.visible = look.arrows.has(name) && name in flight.arrays;
       if (group.visible) this.showArrows(group, flight.read(name, place, buffers.vectors), look);
     }
     this.trails.visible = look.trails;

@@ -4,6 +4,7 @@ import { ARROWS, gradient, round, written } from "./colours.js";
 import { make } from "./elements.js";
 import { Flight } from "./flight.js";
 import { Plots } from "./plots.js";
+import { Pushes } from "./pushes.js";
 import { CAMERAS, Stage } from "./stage.js";
 import styles from "./style.css";
 
@@ -42,8 +43,8 @@ export class Viewer {
     this.replace(scene);
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(this.picture);
-    const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (playing && !calm) this.play();
+    this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (playing && !this.calm) this.play();
   }
 
   // Page ----------------------------------------------------------------------------------------------------------
@@ -97,6 +98,7 @@ export class Viewer {
       this.scaleTint();
       this.set(this.phase);
     });
+    this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
     const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
     const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
     this.root.append(
@@ -107,6 +109,7 @@ export class Viewer {
         this.picture,
         make("div", { class: "wb-bar wb-player" }, this.playButton, this.scrubber, this.readout, this.rates),
         make("div", { class: "wb-bar" }, tint, forces, trails, this.pairing, this.theme),
+        this.pushes.element,
       ),
       this.side,
     );
@@ -141,6 +144,21 @@ export class Viewer {
 
   // Show another scene, and keep phase, camera and choices.
   replace(scene) {
+    this.pushes.offer(scene);
+    this.show(scene);
+  }
+
+  // Show the flight of a push once from its start, or the scene before it.
+  demonstrate(scene, once) {
+    const { playing } = this;
+    this.pause();
+    this.once = once;
+    this.show(scene);
+    this.set(0);
+    if (playing || (once && !this.calm)) this.play();
+  }
+
+  show(scene) {
     this.flights = scene.flights.map((raw) => new Flight(raw));
     this.last = Math.min(...this.flights.map((flight) => flight.last));
     this.scrubber.max = this.last;
@@ -226,11 +244,14 @@ export class Viewer {
 
   play() {
     if (this.playing) return;
+    if (this.once && this.phase >= this.last) this.set(0);
     let before = performance.now();
     const tick = (now) => {
       const beats = (now - before) * 0.001 * this.rate * this.flights[0].frequency;
       before = now;
-      this.set((this.phase + Math.max(beats, 0)) % this.last);
+      const next = this.phase + Math.max(beats, 0);
+      this.set(this.once ? next : next % this.last);
+      if (this.once && this.phase >= this.last) return this.pause();
       this.clock = requestAnimationFrame(tick);
     };
     this.clock = requestAnimationFrame(tick);

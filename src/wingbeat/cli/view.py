@@ -8,11 +8,12 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat.cli.options import check_outputs
+from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import read_result
-from wingbeat.errors import FaultList
-from wingbeat.viewer import animate, write_page
+from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.results.orbit import load_orbit
+from wingbeat.viewer import Push, animate, write_page
 
 _SUFFIXES = (".html", ".gif")
 
@@ -27,13 +28,24 @@ def view(
             name=["--output", "-o"], help="The file to write: .html for a page, .gif for an animated picture."
         ),
     ],
+    push: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Let the reader push the animal: add flights through gusts, without and with feedback.",
+        ),
+    ] = False,
+    delay: Annotated[
+        Whole | None,
+        Parameter(help="With --push: beats by which feedback acts later; default 0."),
+    ] = None,
 ) -> None:
     """Show a saved flight in motion: wings, air loads and time series at every phase of the beat.
 
     The page holds all it needs: it opens from disk and makes no network request.
 
     Examples: wingbeat view pigeon.nc -o pigeon.html; wingbeat view sufan.nc dickinson.nc -o both.html;
-    wingbeat view bat.nc -o bat.gif
+    wingbeat view bat.nc -o bat.gif; wingbeat view pigeon.nc --push -o pigeon.html
     """
     faults = FaultList()
     suffix = output.suffix.lower()
@@ -44,12 +56,33 @@ def view(
             "is neither a page nor an animated picture",
             f"end it in {' or '.join(_SUFFIXES)}",
         )
+    if push and (other is not None or suffix != ".html"):
+        rule = "flies one orbit, in a page"
+        faults.add("--push", True, rule, "give one orbit, and an output that ends in .html")
+    if delay is not None and not push:
+        faults.add("--delay", delay, "is that of the feedback of --push", "add --push")
+    faults.whole("--delay", delay or 0, 0, 4, "beats")
     faults.raise_if_any()
     check_outputs(output)
     flights = [(path.stem, read_result(path)) for path in (file, other) if path is not None]
     if suffix == ".html":
-        write_page(flights, output)
+        write_page(flights, output, _pushes(file, delay or 0) if push else ())
     else:
         with progress_bar("frames") as progress:
             animate(flights, output, progress)
     print(f"wrote {output}", file=sys.stderr)
+
+
+def _pushes(file: Path, delay: int) -> tuple[Push, ...]:
+    """Return the disturbed flights of a saved orbit; without feedback if no feedback holds the orbit."""
+    from wingbeat.stability.pushes import fly_pushes
+
+    orbit = load_orbit(file)
+    with unpacking(file):
+        _ = orbit.problem
+    try:
+        return fly_pushes(orbit, delay)
+    except InvalidInputError as error:
+        flown = fly_pushes(orbit, None)  # refuses an orbit that is not certified
+        print(f"flights with feedback are left out: {error}", file=sys.stderr)
+        return flown

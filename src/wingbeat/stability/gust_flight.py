@@ -16,7 +16,7 @@ from wingbeat.stability.feedback_options import DEFAULTS as SCALES
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.winds import Wind
 
-_SAMPLES = 64
+SAMPLES = 64  # in each beat
 
 
 @dataclass(frozen=True)
@@ -78,11 +78,11 @@ def fly_gust(
     """
     controller = None if feedback is None else feedback.controller(noise, seed, late=late)
     model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
-    flown = simulate(model, beat, start, beats, _SAMPLES, wind=wind, controller=controller)
-    path = simulate(model, beat, start, 1, _SAMPLES).states[:-1, 2]
+    flown = simulate(model, beat, start, beats, SAMPLES, wind=wind, controller=controller)
+    path = simulate(model, beat, start, 1, SAMPLES).states[:-1, 2]
     pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
-    tops = flown.states[::_SAMPLES]
-    height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::_SAMPLES]
+    tops = flown.states[::SAMPLES]
+    height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
     kept = bool(options.keeps(np.abs(pitch).max(), height.min()))
     changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
     return GustFlight(flown, pitch, height, changes, flown.completed and kept, _settled(tops, orbit))

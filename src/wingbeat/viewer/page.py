@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wingbeat.files import write_atomically
+from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.scene import scene
 
 if TYPE_CHECKING:
@@ -49,13 +50,16 @@ def bundle_path() -> Path:
     return Path(__file__).with_name("viewer.js")
 
 
-def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[str]) -> None:
+def write_page(
+    flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[str], pushes: Sequence[Push] = ()
+) -> None:
     """Write one flight, or two to compare, as a self-contained HTML file.
 
     Parameters
     ----------
     flights : a label and the dataset of an orbit or a simulated flight, for one flight or for two.
     path : of the file.
+    pushes : flights through gusts that the reader can choose, from `fly_pushes`.
 
     Raises
     ------
@@ -63,7 +67,7 @@ def write_page(flights: Sequence[tuple[str, xr.Dataset]], path: str | PathLike[s
     FileError : a dataset that contains no flight, or a file that cannot be written.
     """
     # Escaped, so that no text of a file can close the HTML element that contains it.
-    data = json.dumps(scene(flights), allow_nan=False).replace("<", "\\u003c")
+    data = json.dumps(scene(flights, pushes), allow_nan=False).replace("<", "\\u003c")
     title = " and ".join(label for label, _ in flights)
     page = _PAGE.format(
         title=html.escape(f"wingbeat: {title}"), scene=data, bundle=bundle_path().read_text("utf-8")

@@ -13,6 +13,8 @@ from wingbeat.datasets import KIND, at_station, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body, Tail
+from wingbeat.viewer.pushes import PANELS as PUSHED_PANELS
+from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.shape import body_axes, tail_corners
 
 if TYPE_CHECKING:
@@ -41,12 +43,13 @@ _PANELS: list[dict[str, Any]] = [
 ]
 
 
-def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
+def scene(flights: Sequence[tuple[str, xr.Dataset]], pushes: Sequence[Push] = ()) -> dict[str, Any]:
     """Return the viewer's data of one flight, or of two to compare.
 
     Parameters
     ----------
     flights : a label and the dataset of an orbit or a simulated flight, for one flight or for two.
+    pushes : disturbed flights of the first that the reader can choose, from `fly_pushes`.
 
     Raises
     ------
@@ -68,7 +71,24 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]]) -> dict[str, Any]:
             rule = f"samples are too many: the viewer shows at most {MOST_SAMPLES}"
             faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples per beat")
     faults.raise_if_any()
-    return {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
+    found = {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
+    return found | ({"pushes": [_push(one) for one in pushes]} if pushes else {})
+
+
+def _push(push: Push) -> dict[str, Any]:
+    flight = _flight(push.label, push.dataset)
+    for name in ("lift", "drag"):  # of the arrows, the resultants are enough
+        del flight["arrays"][name]
+    flight["arrays"]["pitch_away"] = _packed(np.degrees(push.pitch), "f4")
+    flight["arrays"]["height"] = _packed(push.height, "f4")
+    flight["summary"] = f"{push.label}: {push.outcome}"
+    return {
+        "direction": push.direction,
+        "size": push.size,
+        "feedback": push.feedback,
+        "outcome": push.outcome,
+        "scene": {"flights": [flight], "panels": [*PUSHED_PANELS, _PANELS[0], _PANELS[2]]},
+    }
 
 
 def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:

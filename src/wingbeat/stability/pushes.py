@@ -1,0 +1,86 @@
+"""Flights through gusts from four sides, with and without feedback, for the viewer: `fly_pushes`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from wingbeat.errors import FaultList
+from wingbeat.orbits.status import Status
+from wingbeat.results.orbit import Orbit
+from wingbeat.stability.feedback import Feedback, feedback
+from wingbeat.stability.gust_flight import SAMPLES, GustFlight, fly_gust
+from wingbeat.stability.many_options import DEFAULTS, ManyOptions
+from wingbeat.viewer.pushes import Push
+from wingbeat.winds import CosineGust
+
+# The air's velocity of each gust, forward and up, over the size of the gust.
+DIRECTIONS = {"upward": (0.0, 1.0), "downward": (0.0, -1.0), "head": (-1.0, 0.0), "tail": (1.0, 0.0)}
+SIZES = (1.0, 3.0)  # [m/s]
+_LASTS = 2  # beats that a gust lasts
+_EVERY = 4  # of the samples of a flight, the page gets each fourth one: 16 in a beat
+
+
+def fly_pushes(
+    orbit: Orbit, delay: int | None = 0, beats: int = 16, options: ManyOptions = DEFAULTS
+) -> tuple[Push, ...]:
+    """Fly an orbit through gusts of 1 and 3 m/s from four sides, without and with feedback.
+
+    Each gust rises and falls once in the first two beats (1-cosine). `write_page` puts the flights into a page.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    delay : of the feedback [beats], as in `feedback`; None for flights without feedback only.
+    beats : number of beats of a flight.
+    options : say when a flight is lost.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified; beats that are no whole number from 3 to 100; what
+        `feedback` refuses, such as a mode that no input reaches.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> pushes = wb.fly_pushes(orbit, delay=None)
+    >>> len(pushes), pushes[0].label
+    (8, 'upward gust of 1 m/s, without feedback')
+    """
+    faults = FaultList()
+    faults.whole("beats", beats, _LASTS + 1, 100, "beats of a flight")
+    if orbit.status is not Status.CONVERGED:
+        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
+    faults.raise_if_any()
+    held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
+    return tuple(
+        _push(orbit, name, size, one, beats, options) for name in DIRECTIONS for size in SIZES for one in held
+    )
+
+
+def _push(
+    orbit: Orbit, direction: str, size: float, held: Feedback | None, beats: int, options: ManyOptions
+) -> Push:
+    forward, up = (size * part for part in DIRECTIONS[direction])
+    gust = CosineGust(u=forward, w=up, duration=_LASTS / orbit.wingbeat.frequency)
+    flown = fly_gust(orbit, gust, beats, feedback=held, options=options)
+    path = float(orbit.initial_state.z) + float(orbit.inputs["climb"]) * flown.flight.time
+    height = flown.flight.states[:, 1] - path
+    kept = np.cumprod(options.keeps(np.abs(flown.pitch), height)).astype(bool)
+    shown = slice(0, max(int(kept.sum()), 2 * _EVERY), _EVERY)
+    return Push(
+        direction,
+        size,
+        held is not None,
+        _outcome(flown, int(kept.sum())),
+        flown.flight.dataset.isel(phase=shown),
+        flown.pitch[shown],
+        height[shown],
+    )
+
+
+def _outcome(flown: GustFlight, kept: int) -> str:
+    if not flown.survived:
+        return f"lost after {max(kept - 1, 0) / SAMPLES:.1f} beats: it tumbles"
+    largest = f"body pitch within {np.degrees(np.abs(flown.pitch).max()):.0f} deg of the orbit's"
+    beats = f"{flown.settled} beat{'' if flown.settled == 1 else 's'}"
+    ending = "not settled at the end" if flown.settled is None else f"settled after {beats}"
+    return f"{ending}, {largest}"

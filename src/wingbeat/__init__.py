@@ -108,6 +108,9 @@ if TYPE_CHECKING:
     from wingbeat.stability.gust_survey import survey_gusts as survey_gusts
     from wingbeat.stability.linear_flight import LinearFlight as LinearFlight
     from wingbeat.stability.linear_flight import linearise as linearise
+    from wingbeat.stability.manoeuvre import Manoeuvre as Manoeuvre
+    from wingbeat.stability.manoeuvre import manoeuvre as manoeuvre
+    from wingbeat.stability.manoeuvre_options import ManoeuvreOptions as ManoeuvreOptions
     from wingbeat.stability.many_flights import ManyFlights as ManyFlights
     from wingbeat.stability.many_flights import simulate_many as simulate_many
     from wingbeat.stability.many_options import ManyOptions as ManyOptions
@@ -156,6 +159,8 @@ _HOME = {
     "LeastSquaresOptions": "orbits.options.least_squares",
     "LinearFlight": "stability.linear_flight",
     "LinearOptions": "stability.options",
+    "Manoeuvre": "stability.manoeuvre",
+    "ManoeuvreOptions": "stability.manoeuvre_options",
     "ManyFlights": "stability.many_flights",
     "ManyOptions": "stability.many_options",
     "MapQuantity": "orbits.problem.map_quantities",
@@ -218,6 +223,7 @@ _HOME = {
     "load_curve": "results.curve",
     "load_orbit": "results.orbit",
     "load_species": "species",
+    "manoeuvre": "stability.manoeuvre",
     "orbit_spread": "results.spread",
     "pareto_front": "results.pareto",
     "plan_study": "studies.study",

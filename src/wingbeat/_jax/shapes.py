@@ -130,6 +130,10 @@ LawJumps = Float[Any, "laws 2 *free"]
 LawRates = Float[Any, "laws 2"]
 Commands = Float[Any, "inputs *flights"]
 Parameters = Float[Any, "parameters *flights"]
+# Changes of inputs and all parameters of one wingbeat, and the derivatives of these by those.
+InputChanges = Float[Any, "inputs"]
+AllParameters = Float[Any, "parameters"]
+ParameterSlopes = Float[Any, "parameters inputs"]
 # Many flights at once: one number of each, their states, velocities of the air, and what is measured.
 Flights = Float[Any, "flights"]
 FlightStates = Float[Any, "6 flights"]

@@ -34,6 +34,7 @@ COMMANDS = {
     "terms": "Follow the best wingbeat while the share of a term of the air loads rises from 0 to 1.",
     "stability": "Find what grows and what decays when an orbit is disturbed.",
     "feedback": "Compute the feedback that holds an orbit, and fly it through a gust.",
+    "manoeuvre": "Fly from one speed to another: the commands of each beat, and feedback on the way.",
     "study": "Solve a grid or sample of problems; an interrupted study resumes.",
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",

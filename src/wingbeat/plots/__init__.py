@@ -7,6 +7,7 @@ from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.flights_page import flights_page as flights_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.gust_page import gust_page as gust_page
+from wingbeat.plots.manoeuvre_page import manoeuvre_page as manoeuvre_page
 from wingbeat.plots.pareto_page import pareto_page as pareto_page
 from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
@@ -30,6 +31,7 @@ __all__ = [
     "flights_page",
     "glide_page",
     "gust_page",
+    "manoeuvre_page",
     "pareto_page",
     "power_page",
     "save_figure",

@@ -13,7 +13,7 @@ from wingbeat.kinematics import Wingbeat, parameter, with_parameters
 from wingbeat.stability.feedback_options import FeedbackOptions
 
 # What a wingbeat allows, beyond which no command may go; half the frequency, for slower beats are no small change.
-_ALLOWED = {
+ALLOWED = {
     "flap_amplitude": (0.0, math.inf),
     "pitch_amplitude": (0.0, math.inf),
     "sweep_amplitude": (0.0, math.inf),
@@ -46,7 +46,7 @@ def command_limits(
     lower, upper = [], []
     for name in inputs:
         value = float(parameter(wingbeat, name))
-        low, high = _ALLOWED.get(name, (-math.inf, math.inf))
+        low, high = ALLOWED.get(name, (-math.inf, math.inf))
         if name == "frequency":
             low = 0.5 * value
         if name in given:

@@ -17,7 +17,14 @@ from wingbeat.kinematics import Wingbeat, parameter, unpack, with_parameters
 from wingbeat.stability.inputs import LAWS, Compensation, law_jumps, laws_at
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Commands, LawRates, Parameters
+    from wingbeat._jax.shapes import (
+        AllParameters,
+        Commands,
+        InputChanges,
+        LawRates,
+        Parameters,
+        ParameterSlopes,
+    )
 
 # The harmonics enter position and speed linearly. Where an input changes how much they do so, corrections are
 # repeated: each leaves less than a fifth of the jump.
@@ -50,13 +57,23 @@ def smoother(wingbeat: Wingbeat, inputs: tuple[str, ...], harmonics: Compensatio
     harmonics : that go with them.
     """
     numbers = [float(parameter(wingbeat, name)) for name in (*inputs, *harmonics.names)]
-    top = np.asarray(_top(wingbeat))
+    top = top_of(wingbeat)
     if not harmonics.names:
         return Smoother(np.array(numbers), top, np.zeros((0, *top.shape)))
     held = np.array([law in FIRST_ORDER for law in LAWS])[:, None, None]
     own = np.where(held, law_jumps(wingbeat, harmonics.names), 0.0) / np.array([1.0, wingbeat.frequency])[:, None]
     inverse = np.linalg.pinv(own.reshape(-1, len(harmonics.names)), rcond=1e-9)
     return Smoother(np.array(numbers), top, inverse.reshape(-1, *top.shape))
+
+
+def top_of(wingbeat: Wingbeat) -> np.ndarray:
+    """Return all laws at the top of the stroke and their rates, shape (laws, 2) [rad, rad/s; shares of the span].
+
+    Parameters
+    ----------
+    wingbeat : the wingbeat.
+    """
+    return np.asarray(_top(wingbeat))
 
 
 @exported
@@ -101,6 +118,31 @@ def _parameters_of(
     wingbeat: Wingbeat, smooth: Smoother, changes: Commands, *, inputs: tuple[str, ...], harmonics: tuple[str, ...]
 ) -> Parameters:
     return parameters_of(wingbeat, smooth, changes, inputs=inputs, harmonics=harmonics)
+
+
+@exported(static=("inputs", "harmonics"))
+def parameters_and_slopes(
+    wingbeat: Wingbeat,
+    smooth: Smoother,
+    changes: InputChanges,
+    *,
+    inputs: tuple[str, ...],
+    harmonics: tuple[str, ...],
+) -> tuple[AllParameters, ParameterSlopes]:
+    """Return what `parameters_of` returns for one wingbeat, and its derivatives by the changes.
+
+    Parameters
+    ----------
+    wingbeat, smooth, inputs, harmonics : as in `parameters_of`.
+    changes : of the inputs, shape (inputs,) [Hz, rad or shares].
+    """
+
+    def at(changes: Any) -> tuple[Any, Any]:
+        found = parameters_of(wingbeat, smooth, changes, inputs=inputs, harmonics=harmonics)
+        return found, found
+
+    slopes, found = jax.jacfwd(at, has_aux=True)(changes)
+    return found, slopes
 
 
 def changed_wingbeat(

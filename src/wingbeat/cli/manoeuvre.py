@@ -1,0 +1,111 @@
+"""``wingbeat manoeuvre``: from one speed to others, beat by beat, with feedback on the way."""
+
+from __future__ import annotations
+
+import json as json_format
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
+from wingbeat.cli.options import SPECIES, Climb, Seed, Settings, Whole, check_files, check_outputs
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.streams import plain_console
+from wingbeat.cli.winds import Gust, wind_of
+from wingbeat.errors import FaultList
+from wingbeat.orbits.status import Status
+from wingbeat.plots import manoeuvre_page, save_figure
+from wingbeat.results.flight import Flight
+from wingbeat.results.solving import solve_orbit
+from wingbeat.stability.manoeuvre import Manoeuvre
+from wingbeat.stability.manoeuvre import manoeuvre as find
+
+
+def manoeuvre(
+    species: Annotated[str, SPECIES],
+    *,
+    speed: Annotated[float, Parameter(help="Mean forward speed at the start [m/s]; 0 is hover.")],
+    to: Annotated[
+        list[float],
+        Parameter(consume_multiple=True, negative=(), help="Speeds to reach, one after the other [m/s]: 16 6 ..."),
+    ],
+    beats: Annotated[
+        Whole | None, Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 2 m/s2.")
+    ] = None,
+    climb: Climb = 0.0,
+    model: ModelOptions = DEFAULT_MODEL,
+    starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
+    seed: Seed = 0,
+    set_: Settings = None,
+    gust: Gust = None,
+    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw the flight: .png, .pdf or .svg.")] = None,
+) -> int:
+    """Find the beats that lead from an orbit to steady flights at other speeds, and fly them.
+
+    The command prints the steady flights, and how the flight with feedback follows the plan. With --gust it flies
+    through the gust, once with feedback and once without.
+    Exit code 0: the manoeuvre is certified. 3: it is not.
+
+    Examples: wingbeat manoeuvre pigeon --speed 6 --to 16 6 --plot manoeuvre.png;
+    wingbeat manoeuvre pigeon --speed 8 --to 12 --gust w=2 start=1
+    """
+    faults = FaultList()
+    check_files(faults, None, plot=plot)
+    faults.raise_if_any()
+    wind = wind_of(gust, None, 0, speed)
+    problem = model.problem(species, speed, set_, climb=climb)
+    check_outputs(plot)
+    with progress_bar(f"{problem.species.name}, beats") as progress:
+        orbit = solve_orbit(problem, starts, seed)
+        if orbit.status is not Status.CONVERGED:
+            faults.add("--speed", speed, f"has no certified orbit: {orbit.message}", "start at another speed")
+            faults.raise_if_any()
+        plan = find(orbit, to, beats=beats, progress=progress)
+    flights: dict[str, Flight] = {}
+    if plan.status is Status.CONVERGED:
+        flights["with feedback"] = plan.fly(wind)
+        if gust is not None:
+            flights["without feedback"] = plan.fly(wind, feedback=False)
+        if plot:
+            save_figure(manoeuvre_page(plan, flights), plot)
+    if json:
+        print(json_format.dumps(plan.record(), indent=2, allow_nan=False))
+    else:
+        _print(plan, flights)
+    return EXIT_GOOD if plan.status is Status.CONVERGED else EXIT_NOT_CERTIFIED
+
+
+def _print(plan: Manoeuvre, flights: dict[str, Flight]) -> None:
+    from rich.table import Table
+    from rich.text import Text
+
+    console = plain_console()
+    record = plan.record()
+    console.print(f"{record['species']} from {record['speed']:g} m/s: {record['message']}", soft_wrap=True)
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for heading in ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"):
+        table.add_column(Text(heading), justify="right")
+    for end in record["ends"]:
+        table.add_row(*map(Text, _row(end)))
+    console.print(table)
+    if flights:
+        console.print(f"{record['time'][-1]:.2f} s, {record['distance']:.1f} m", soft_wrap=True)
+    for name, flight in flights.items():
+        console.print(f"{name}: {_outcome(plan, flight)}", soft_wrap=True)
+
+
+def _row(end: dict[str, Any]) -> tuple[str, str, str, str]:
+    free = end["free_frequency"]
+    return f"{end['speed']:g}", f"{end['beats']}", f"{end['frequency']:.4g}", "" if free is None else f"{free:.4g}"
+
+
+def _outcome(plan: Manoeuvre, flight: Flight) -> str:
+    """Return how far a flight ends from the last steady flight."""
+    if not flight.completed:
+        return "lost: it tumbles"
+    state, last = flight.states[-1], plan.ends[-1].state
+    path = float(plan.beat_map.orbit.initial_state.z) + plan.beat_map.climb * flight.time[-1]
+    return f"ends {abs(state[3] - last[2]):.2g} m/s from the speed, {abs(state[1] - path):.2g} m from the path"

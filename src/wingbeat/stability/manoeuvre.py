@@ -1,0 +1,365 @@
+"""Manoeuvres from one speed to others: `manoeuvre` and the class `Manoeuvre`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wingbeat._version import __version__
+from wingbeat.errors import FaultList
+from wingbeat.kinematics import parameter
+from wingbeat.orbits.problem.problem import SPEED_LIMITS
+from wingbeat.orbits.status import Status
+from wingbeat.results.flight import Flight, simulate
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.record import finite_or_none
+from wingbeat.results.solving import solve_orbit
+from wingbeat.stability.beat_map import BeatMap
+from wingbeat.stability.command_limits import ALLOWED
+from wingbeat.stability.manoeuvre_controller import ManoeuvreController
+from wingbeat.stability.manoeuvre_options import DEFAULTS, ManoeuvreOptions
+from wingbeat.stability.riccati import linear_quadratic
+from wingbeat.stability.smooth_commands import top_of
+from wingbeat.stability.steady_flight import SteadyFlight, scales_of, steady_flight
+from wingbeat.stability.transition import Transition, transition
+from wingbeat.winds import Wind
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Manoeuvre:
+    """A flight from an orbit to steady flights at other speeds, beat by beat; made by `manoeuvre`.
+
+    Attributes
+    ----------
+    beat_map : the map of a beat, with the first orbit and the names of the inputs.
+    ends : the steady flights at the speeds asked for, each as far as it was found.
+    free_frequencies : of the orbits of minimum objective at these speeds [Hz].
+    legs : number of beats to each of the ends.
+    states : (height, body_pitch, u, w, pitch_rate) at the tops of the stroke, shape (K + 1, 5).
+    changes : of the inputs from the first orbit in each beat, shape (K, inputs) [Hz, rad or shares].
+    advances : distance flown in each beat [m], shape (K,).
+    gains : of the feedback at each top of the stroke, the last for all later ones, shape (K + 1, inputs, 5).
+    lower, upper : limits of the changes, shape (inputs,).
+    defect : by how much a beat, flown by the adaptive integrator, misses the start of the next at the most, in
+        scales of `FeedbackOptions` [-].
+    status : converged if the manoeuvre is certified.
+    message : what the status means, in terms of flight.
+    """
+
+    beat_map: BeatMap
+    ends: tuple[SteadyFlight, ...]
+    free_frequencies: tuple[float, ...]
+    legs: tuple[int, ...]
+    states: np.ndarray
+    changes: np.ndarray
+    advances: np.ndarray
+    gains: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    defect: float
+    status: Status
+    message: str
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the parameters of the wingbeat that change."""
+        return self.beat_map.inputs
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Frequency of each beat [Hz], shape (K,)."""
+        return np.array([self.beat_map.wingbeat(change).frequency for change in self.changes])
+
+    @property
+    def times(self) -> np.ndarray:
+        """Times of the tops of the stroke [s], shape (K + 1,)."""
+        return np.concatenate([[0.0], np.cumsum(1.0 / self.frequencies)])
+
+    @property
+    def largest_jump(self) -> float:
+        """Largest jump of the wing from one beat to the next, in position or speed [rad or rad/s]."""
+        tops = [top_of(self.beat_map.wingbeat(change)) for change in self.changes]
+        first = top_of(self.beat_map.orbit.wingbeat)
+        return float(max((np.abs(top - first).max() for top in tops), default=0.0))
+
+    def controller(self, feedback: bool = True) -> ManoeuvreController:
+        """Return a controller for `simulate`.
+
+        Parameters
+        ----------
+        feedback : whether it reacts to the state; if not, it plays the commands.
+        """
+        return ManoeuvreController(self, feedback)
+
+    def fly(
+        self, wind: Wind | tuple[float, float] | None = None, *, feedback: bool = True, after: int = 10
+    ) -> Flight:
+        """Fly the manoeuvre with the adaptive integrator, and some beats of the last steady flight.
+
+        Parameters
+        ----------
+        wind : as in `simulate`.
+        feedback : whether the wingbeat reacts to the state.
+        after : number of beats after the manoeuvre.
+        """
+        orbit = self.beat_map.orbit
+        return simulate(
+            orbit.problem.model,
+            orbit.wingbeat,
+            orbit.initial_state,
+            len(self.changes) + after,
+            wind=wind,
+            controller=self.controller(feedback),
+        )
+
+    def record(self) -> dict[str, Any]:
+        """Return the numbers as a JSON-able dictionary in SI units and radians; None for missing values."""
+        orbit = self.beat_map.orbit
+        ends = [
+            {
+                "speed": end.speed,
+                "beats": beats,
+                "frequency": end.frequency,
+                "free_frequency": free,
+                "defect": end.defect,
+                "changes": dict(zip(self.inputs, end.changes.tolist(), strict=True)),
+                "state": end.state.tolist(),
+            }
+            for end, beats, free in zip(self.ends, self.legs, self.free_frequencies, strict=False)
+        ]
+        return finite_or_none(
+            {
+                "status": self.status.value,
+                "message": self.message,
+                "species": orbit.inputs["species"]["name"],
+                "speed": float(orbit.inputs["speed"]),
+                "climb": self.beat_map.climb,
+                "state": ["z", "body_pitch", "u", "w", "pitch_rate"],
+                "inputs": list(self.inputs),
+                "ends": ends,
+                "time": self.times.tolist(),
+                "states": self.states.tolist(),
+                "changes": self.changes.tolist(),
+                "gains": self.gains.tolist(),
+                "lower": self.lower.tolist(),
+                "upper": self.upper.tolist(),
+                "distance": float(self.advances.sum()),
+                "defect": self.defect,
+                "largest_jump": self.largest_jump,
+                "version": __version__,
+            }
+        )
+
+
+def manoeuvre(
+    orbit: Orbit,
+    speeds: Sequence[float],
+    *,
+    beats: int | None = None,
+    inputs: Sequence[str] | None = None,
+    progress: Progress | None = None,
+    options: ManoeuvreOptions = DEFAULTS,
+) -> Manoeuvre:
+    """Find the beats that lead from an orbit to steady flights at other speeds, one after the other.
+
+    The wing never jumps: all beats share position and speed of the wing at the top of the stroke with the orbit.
+    Each steady flight has the inputs that are nearest to those of the best orbit at its speed. The commands follow
+    the steady flights along speed, with the feed-forward that the acceleration needs. Feedback holds the animal on
+    the way: its gains solve the Riccati equation backwards along the beats.
+
+    Parameters
+    ----------
+    orbit : a certified orbit, the start.
+    speeds : mean forward speeds to reach [m/s], for example ``[16.0, 6.0]``.
+    beats : number of beats to each speed. Default: for the mean acceleration of `ManoeuvreOptions`.
+    inputs : names of the parameters that may change, as in `feedback`.
+    progress : called with (beats found, beats in all).
+    options : of the search.
+
+    Returns
+    -------
+    The manoeuvre. Its status is converged if the adaptive integrator, beat by beat, flies from each top of the
+    stroke to the next, the steady flights are periodic, and no command exceeds its limit.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified, speeds that are missing or out of range, beats that are no
+        whole number from 2 to 2000, inputs that `linearise` refuses.
+
+    The search is direct multiple shooting (Bock & Plitt 1984, doi 10.1016/S1474-6670(17)61205-9).
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> faster = wb.manoeuvre(orbit, [13.0])
+    >>> faster.status.value, bool(faster.largest_jump < 1e-9)
+    ('converged', True)
+    """
+    _check(orbit, speeds, beats)
+    beat_map = BeatMap(orbit, inputs, options.blocks)
+    here = _start(beat_map)
+    ends, free, legs, chains = [], [], [], []
+    failure: str | None = None
+    for speed in map(float, speeds):
+        road = _road(beat_map, here, speed, options)
+        ends.append(road.flights[-1])
+        free.append(road.free_frequency)
+        failure = road.failure
+        if failure:
+            break
+        count = beats or _beats(here, ends[-1], options)
+        legs.append(count)
+        chains.append(transition(beat_map, *_schedule(road.flights, count), options))
+        if progress is not None:
+            progress(sum(legs), sum(legs) + (len(speeds) - len(legs)) * count)
+        if not chains[-1].converged:
+            failure = f"no commands were found that lead to {speed:g} m/s in {count} beats: give more beats"
+            break
+        here = ends[-1]
+    return _joined(beat_map, tuple(ends), tuple(free), tuple(legs), chains, failure, options)
+
+
+def _check(orbit: Orbit, speeds: Any, beats: int | None) -> None:
+    faults = FaultList()
+    if not isinstance(speeds, list | tuple | np.ndarray) or len(speeds) == 0:
+        faults.add("speeds", speeds, "must be a list of speeds", "for example [16.0, 6.0]")
+    else:
+        for i, speed in enumerate(speeds):
+            faults.number(f"speeds[{i}]", speed, **SPEED_LIMITS)
+    if beats is not None:
+        faults.whole("beats", beats, 2, 2000, "beats to each speed")
+    if orbit.status is not Status.CONVERGED:
+        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
+    faults.raise_if_any()
+
+
+def _start(beat_map: BeatMap) -> SteadyFlight:
+    orbit = beat_map.orbit
+    still = np.zeros(len(beat_map.inputs))
+    return SteadyFlight(
+        float(orbit.inputs["speed"]), beat_map.start, still, float(orbit.wingbeat.frequency), 0.0, True
+    )
+
+
+@dataclass(frozen=True)
+class _Road:
+    """Steady flights from one speed to another, and why there are no more, if so."""
+
+    flights: list[SteadyFlight]
+    free_frequency: float
+    failure: str | None
+
+
+def _road(beat_map: BeatMap, here: SteadyFlight, speed: float, options: ManoeuvreOptions) -> _Road:
+    orbit = beat_map.orbit
+    if speed == float(orbit.inputs["speed"]):
+        best, wanted = orbit, np.zeros(len(beat_map.inputs))
+    else:
+        best = solve_orbit(orbit.problem.at_speed(speed), int(orbit.inputs["starts"]))
+        if best.status is not Status.CONVERGED:
+            return _Road([here], math.nan, f"there is no certified orbit at {speed:g} m/s: {best.message}")
+        ends = [[float(parameter(one.wingbeat, name)) for name in beat_map.inputs] for one in (orbit, best)]
+        wanted = np.array(ends[1]) - np.array(ends[0])
+    count = max(math.ceil(abs(speed - here.speed) / options.speed_step), 1)
+    flights = [here]
+    for share in np.linspace(0.0, 1.0, count + 1)[1:]:
+        between = here.speed + share * (speed - here.speed)
+        toward = here.changes + share * (wanted - here.changes)
+        flights.append(steady_flight(beat_map, between, toward, flights[-1], options, exact=share == 1.0))
+        if not flights[-1].converged:
+            failure = f"no steady flight with this top of the stroke was found at {between:.3g} m/s"
+            return _Road(flights, float(best.wingbeat.frequency), failure)
+    return _Road(flights, float(best.wingbeat.frequency), None)
+
+
+def _beats(here: SteadyFlight, there: SteadyFlight, options: ManoeuvreOptions) -> int:
+    seconds = abs(there.speed - here.speed) / options.acceleration
+    return min(max(math.ceil(seconds * 0.5 * (here.frequency + there.frequency)), 5), 2000)
+
+
+def _schedule(flights: list[SteadyFlight], count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return states at the tops of the stroke and changes in the beats; the speed starts and ends smoothly."""
+    at = np.linspace(0.0, 1.0, len(flights))
+    tops = np.linspace(0.0, 1.0, count + 1)
+    ramp = tops**2 * (3.0 - 2.0 * tops)
+
+    def along(shares: np.ndarray, name: str) -> np.ndarray:
+        values = np.array([getattr(flight, name) for flight in flights])
+        return np.stack([np.interp(shares, at, column) for column in values.T], axis=-1)
+
+    return along(ramp, "state"), along(0.5 * (ramp[1:] + ramp[:-1]), "changes")
+
+
+def _joined(
+    beat_map: BeatMap,
+    ends: tuple[SteadyFlight, ...],
+    free: tuple[float, ...],
+    legs: tuple[int, ...],
+    chains: list[Transition],
+    failure: str | None,
+    options: ManoeuvreOptions,
+) -> Manoeuvre:
+    scales, units = scales_of(beat_map, options)
+    first = beat_map.start[None]
+    states = np.concatenate([first, *(chain.states[1:] for chain in chains)])
+    changes = np.concatenate([np.zeros((0, len(units))), *(chain.changes for chain in chains)])
+    lower, upper = _limits(beat_map, ends, units, options)
+    defect = max([*(chain.defect for chain in chains), *(end.defect for end in ends)], default=math.inf)
+    if failure is None:
+        failure = _excess(beat_map.inputs, changes, lower, upper)
+    if failure is None and defect > options.defect:
+        failure = f"a beat misses the next by {defect:.1g} of the scales of the state: give more beats"
+    gains = np.zeros((len(states), len(units), len(scales)))
+    if failure is None:
+        gains = _gains(beat_map, ends[-1], chains, scales, units)
+    status = Status.CONVERGED if failure is None else Status.NOT_CONVERGED
+    message = failure or f"certified: {len(changes)} beats, each ends where the next begins, to {defect:.0e}"
+    advances = np.concatenate([np.zeros(0), *(chain.advances for chain in chains)])
+    return Manoeuvre(
+        beat_map, ends, free, legs, states, changes, advances, gains, lower, upper, defect, status, message
+    )
+
+
+def _limits(
+    beat_map: BeatMap, ends: tuple[SteadyFlight, ...], units: np.ndarray, options: ManoeuvreOptions
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the limits of the changes: some units beyond the steady flights, and never beyond a wingbeat."""
+    steady = np.array([np.zeros(len(units)), *(end.changes for end in ends)])
+    room = options.reach * units
+    lower, upper = steady.min(axis=0) - room, steady.max(axis=0) + room
+    for i, name in enumerate(beat_map.inputs):
+        value = float(parameter(beat_map.orbit.wingbeat, name))
+        low, high = ALLOWED.get(name, (-math.inf, math.inf))
+        lower[i], upper[i] = max(lower[i], low - value), min(upper[i], high - value)
+    return lower, upper
+
+
+def _excess(inputs: tuple[str, ...], changes: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> str | None:
+    """Return which command exceeds its limits, if one does."""
+    beyond = np.maximum(lower - changes, changes - upper)
+    if beyond.size == 0 or beyond.max() <= 0:
+        return None
+    beat, i = np.unravel_index(int(beyond.argmax()), beyond.shape)
+    return f"the command of {inputs[i]} exceeds its limit in beat {beat + 1}: give more beats"
+
+
+def _gains(
+    beat_map: BeatMap, last: SteadyFlight, chains: list[Transition], scales: np.ndarray, units: np.ndarray
+) -> np.ndarray:
+    """Return the gains at each top of the stroke: those of the last steady flight, and backwards from there."""
+    held = beat_map(last.state, last.changes)
+    state_cost, input_cost = np.diag(scales**-2), np.diag(units**-2)
+    steady, cost = linear_quadratic(held.A, held.B, state_cost, input_cost)
+    gains = [steady]
+    for chain in reversed(chains):
+        for A, B in zip(chain.A[::-1], chain.B[::-1], strict=True):
+            gain = np.linalg.solve(input_cost + B.T @ cost @ B, B.T @ cost @ A)
+            cost = state_cost + A.T @ cost @ (A - B @ gain)
+            cost = 0.5 * (cost + cost.T)
+            gains.append(gain)
+    return np.array(gains[::-1])

@@ -1,0 +1,54 @@
+"""Options of manoeuvres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from wingbeat.orbits.options.checks import check_options
+from wingbeat.stability.feedback_options import FeedbackOptions
+
+
+@dataclass(frozen=True)
+class ManoeuvreOptions:
+    """Options of manoeuvres from one speed to another.
+
+    Parameters
+    ----------
+    acceleration : mean acceleration for which the number of beats is chosen, if it is not given [m/s2]. A pigeon
+        that took 6 to 16 m/s with 4 m/s2 in place of 2 needed twice the changes of its inputs beyond the schedule.
+    speed_step : largest step of speed between the steady flights that make the schedule [m/s].
+    iterations : largest number of Gauss-Newton steps of a steady flight and of a transition. Pigeons took 4 to 9.
+    free_steps, caution : after so many steps of a transition, the cost of a step over that of the deviation grows
+        by this factor with each step. Without it, a pigeon from 6 to 16 m/s was not through in 30 steps.
+    largest_step : no step changes an input by more than this many of its units [-].
+    step_tolerance : a search ends when no input changes by more than this many of its units [-].
+    blocks : a beat is flown in this many times 32 steps; the adaptive integrator corrects the end of the beat.
+    corrections : how often the ends of all beats are corrected; each time the misses fall by a factor of 10 or
+        more.
+    defect : a manoeuvre is certified if no beat, flown by the adaptive integrator, misses its end by more than this
+        share of the scales of the state [-].
+    smoothness : cost of a change of an input from beat to beat, over the cost of its deviation from the schedule.
+    reach : commands exceed the inputs of the steady flights by at most so many of their units [-]. A pigeon that
+        took 6 to 16 m/s and back with 2 m/s2 needed 4.0.
+    feedback : scales of the state and units of the inputs.
+    """
+
+    acceleration: float = 2.0
+    speed_step: float = 1.0
+    iterations: int = 30
+    free_steps: int = 3
+    caution: float = 3.0
+    largest_step: float = 4.0
+    step_tolerance: float = 1e-8
+    blocks: int = 2
+    corrections: int = 4
+    defect: float = 1e-6
+    smoothness: float = 10.0
+    reach: float = 6.0
+    feedback: FeedbackOptions = FeedbackOptions()  # noqa: RUF009, frozen
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+
+DEFAULTS = ManoeuvreOptions()

@@ -32,7 +32,7 @@ def manoeuvre(
         Parameter(consume_multiple=True, negative=(), help="Speeds to reach, one after the other [m/s]: 16 6 ..."),
     ],
     beats: Annotated[
-        Whole | None, Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 2 m/s2.")
+        Whole | None, Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 1 m/s2.")
     ] = None,
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,

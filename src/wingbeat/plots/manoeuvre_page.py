@@ -85,4 +85,4 @@ def _draw_changes(axes: Axes, plan: Manoeuvre) -> None:
         label = f"{name.replace('_', ' ')}{' [0.1 Hz]' if name == 'frequency' else ''}"
         axes.plot(middle, factor * values, color=colour, marker=mark, ms=2.0, linewidth=0.8, label=label)
     axes.axhline(0.0, color=GREY, linewidth=0.6)
-    dress(axes, "time [s]", "change of the input [deg, 0.1 Hz]")
+    dress(axes, "time [s]", "change [deg, 0.1 Hz]")

@@ -29,6 +29,7 @@ from wingbeat.stability.transition import Transition, transition
 from wingbeat.winds import Wind
 
 Progress = Callable[[int, int], None]
+_MOST_BEATS = 300  # the matrix of more takes a gigabyte
 
 
 @dataclass(frozen=True)
@@ -190,7 +191,7 @@ def manoeuvre(
     Raises
     ------
     InvalidInputError : an orbit that is not certified, speeds that are missing or out of range, beats that are no
-        whole number from 2 to 2000, inputs that `linearise` refuses.
+        whole number from 2 to 300, inputs that `linearise` refuses.
 
     The search is direct multiple shooting (Bock & Plitt 1984, doi 10.1016/S1474-6670(17)61205-9).
 
@@ -205,8 +206,10 @@ def manoeuvre(
     here = _start(beat_map)
     ends, free, legs, chains = [], [], [], []
     failure: str | None = None
+    passed: list[SteadyFlight] = [here]
     for speed in map(float, speeds):
-        road = _road(beat_map, here, speed, options)
+        road = _road_back(passed, speed, beat_map) or _road(beat_map, here, speed, options)
+        passed += road.flights[1:]
         ends.append(road.flights[-1])
         free.append(road.free_frequency)
         failure = road.failure
@@ -232,7 +235,7 @@ def _check(orbit: Orbit, speeds: Any, beats: int | None) -> None:
         for i, speed in enumerate(speeds):
             faults.number(f"speeds[{i}]", speed, **SPEED_LIMITS)
     if beats is not None:
-        faults.whole("beats", beats, 2, 2000, "beats to each speed")
+        faults.whole("beats", beats, 2, _MOST_BEATS, "beats to each speed")
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()
@@ -255,20 +258,26 @@ class _Road:
     failure: str | None
 
 
+def _road_back(passed: list[SteadyFlight], speed: float, beat_map: BeatMap) -> _Road | None:
+    """Return the way back over the steady flights passed, None if none of them had this speed."""
+    for i in range(len(passed) - 2, -1, -1):
+        if passed[i].speed == speed and math.isfinite(passed[i].defect):
+            free = float(beat_map.orbit.wingbeat.frequency) if i == 0 else math.nan
+            return _Road(passed[i:][::-1], free, None)
+    return None
+
+
 def _road(beat_map: BeatMap, here: SteadyFlight, speed: float, options: ManoeuvreOptions) -> _Road:
     orbit = beat_map.orbit
-    if speed == float(orbit.inputs["speed"]):
-        best, wanted = orbit, np.zeros(len(beat_map.inputs))
-    else:
-        best = solve_orbit(orbit.problem.at_speed(speed), int(orbit.inputs["starts"]))
-        if best.status is not Status.CONVERGED:
-            return _Road([here], math.nan, f"there is no certified orbit at {speed:g} m/s: {best.message}")
-        ends = [[float(parameter(one.wingbeat, name)) for name in beat_map.inputs] for one in (orbit, best)]
-        wanted = np.array(ends[1]) - np.array(ends[0])
+    best = solve_orbit(orbit.problem.at_speed(speed), int(orbit.inputs["starts"]))
+    if best.status is not Status.CONVERGED:
+        return _Road([here], math.nan, f"there is no certified orbit at {speed:g} m/s: {best.message}")
+    first, last = ([float(parameter(one.wingbeat, name)) for name in beat_map.inputs] for one in (orbit, best))
+    wanted = np.array(last) - np.array(first)
     count = max(math.ceil(abs(speed - here.speed) / options.speed_step), 1)
     flights = [here]
     for share in np.linspace(0.0, 1.0, count + 1)[1:]:
-        between = here.speed + share * (speed - here.speed)
+        between = speed if share == 1.0 else float(here.speed + share * (speed - here.speed))
         toward = here.changes + share * (wanted - here.changes)
         flights.append(steady_flight(beat_map, between, toward, flights[-1], options, exact=share == 1.0))
         if not flights[-1].converged:
@@ -279,7 +288,7 @@ def _road(beat_map: BeatMap, here: SteadyFlight, speed: float, options: Manoeuvr
 
 def _beats(here: SteadyFlight, there: SteadyFlight, options: ManoeuvreOptions) -> int:
     seconds = abs(there.speed - here.speed) / options.acceleration
-    return min(max(math.ceil(seconds * 0.5 * (here.frequency + there.frequency)), 5), 2000)
+    return min(max(math.ceil(seconds * 0.5 * (here.frequency + there.frequency)), 5), _MOST_BEATS)
 
 
 def _schedule(flights: list[SteadyFlight], count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -14,8 +14,8 @@ class ManoeuvreOptions:
 
     Parameters
     ----------
-    acceleration : mean acceleration for which the number of beats is chosen, if it is not given [m/s2]. A pigeon
-        that took 6 to 16 m/s with 4 m/s2 in place of 2 needed twice the changes of its inputs beyond the schedule.
+    acceleration : mean acceleration for which the number of beats is chosen, if it is not given [m/s2]. From 12 to
+        14 m/s a pigeon can do with 1 m/s2, but not with 2: its frequency would exceed its limit.
     speed_step : largest step of speed between the steady flights that make the schedule [m/s].
     iterations : largest number of Gauss-Newton steps of a steady flight and of a transition. Pigeons took 4 to 9.
     free_steps, caution : after so many steps of a transition, the cost of a step over that of the deviation grows
@@ -29,11 +29,11 @@ class ManoeuvreOptions:
         share of the scales of the state [-].
     smoothness : cost of a change of an input from beat to beat, over the cost of its deviation from the schedule.
     reach : commands exceed the inputs of the steady flights by at most so many of their units [-]. A pigeon that
-        took 6 to 16 m/s and back with 2 m/s2 needed 4.0.
+        flies from 6 to 16 m/s and back needs 4.0 with 2 m/s2, and 3.0 with 1 m/s2.
     feedback : scales of the state and units of the inputs.
     """
 
-    acceleration: float = 2.0
+    acceleration: float = 1.0
     speed_step: float = 1.0
     iterations: int = 30
     free_steps: int = 3

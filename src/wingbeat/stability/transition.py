@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import spsolve
+from scipy.sparse.linalg import splu
 
 from wingbeat.stability.beat_map import ORDER, BeatMap, FlownBeat
 from wingbeat.stability.manoeuvre_options import ManoeuvreOptions
@@ -135,7 +135,10 @@ class _Weights(NamedTuple):
         deviation = np.concatenate([away[0][1:-1].ravel(), away[1].ravel()])
         whole = np.block([[(1.0 + caution) * self.hessian, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
         right = np.concatenate([-self.hessian @ deviation, -(gaps / scales).ravel()])
-        found = np.asarray(spsolve(csc_matrix(whole), right))[:size]
+        try:
+            found = splu(csc_matrix(whole)).solve(right)[:size]
+        except RuntimeError:  # singular: the search ends, because NaN is no state
+            found = np.full(size, np.nan)
         states = np.zeros((self.beats + 1, ORDER))
         states[1:-1] = found[:inner].reshape(-1, ORDER)
         return states, found[inner:].reshape(self.beats, self.inputs)

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# A flight whose body pitch differs by this much from the plan is lost, and its lines end [rad].
+_LOST = np.pi / 3
 _LINES = (FIRST, SECOND, THIRD)
 
 
@@ -35,8 +37,9 @@ _LINES = (FIRST, SECOND, THIRD)
 def manoeuvre_page(plan: Manoeuvre, flights: Mapping[str, Flight]) -> Figure:
     """Draw the plan of a manoeuvre at the tops of the stroke, and flights of it.
 
-    Lines are flights, with the motion within each beat; black dots are the plan. The last panel shows how the
-    inputs change. Angles are in degrees, the frequency in tenths of a hertz.
+    All values are those at the tops of the stroke. Lines are flights, which end where a flight is lost; black dots
+    are the plan. The last panel shows how the inputs change. Angles are in degrees, the frequency is in tenths of a
+    hertz.
 
     Parameters
     ----------
@@ -69,11 +72,17 @@ def _draw_state(
     climb: float = 0.0,
 ) -> None:
     start = float(plan.beat_map.orbit.initial_state.z)
+
+    def planned(time: np.ndarray) -> np.ndarray:
+        return np.interp(time, plan.times, plan.states[:, 1])
+
     for (name, flight), line in zip(flights.items(), _LINES, strict=False):
-        values = flight.states[:, column + 1]
+        tops = slice(None, None, (len(flight.time) - 1) // len(flight.wingbeats))
+        time, values = flight.time[tops], flight.states[tops, column + 1]
         if column == 0:
-            values = values - start - climb * flight.time
-        axes.plot(flight.time, factor * values, label=name, **{**line, "linewidth": 0.8})
+            values = values - start - climb * time
+        shown = np.cumprod(np.abs(flight.states[tops, 2] - planned(time)) < _LOST).astype(bool)
+        axes.plot(time[shown], factor * values[shown], label=name, **line)
     axes.plot(plan.times, factor * plan.states[:, column], ".", color="k", ms=2.0, label="plan", zorder=3)
     dress(axes, "time [s]", label)
 

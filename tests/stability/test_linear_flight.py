@@ -253,3 +253,17 @@ def test_faults_are_named(pigeon_orbit):
         wb.linearise(orbit, options=wb.LinearOptions(closure=1e-12))
     with pytest.raises(wb.InvalidInputError, match="LinearOptions"):
         wb.LinearOptions(blocks=0)
+
+
+def test_a_hovering_hummingbird_is_linearised_like_any_other_orbit():
+    orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("annas-hummingbird"), speed=0.0), starts=2)
+    assert orbit.status is wb.Status.CONVERGED
+    found = wb.linearise(orbit)
+    certified = sorted(abs(complex(*pair)) for pair in orbit.record()["floquet_multipliers"])
+    assert sorted(np.abs(np.linalg.eigvals(found.A))) == pytest.approx(certified, abs=1e-4)
+    start, changes = np.array(orbit.initial_state, dtype=float), np.zeros((4, 6))
+    changes[:, 2:] = np.diag(STEPS[1:])
+    model, beat = orbit.problem.model, orbit.wingbeat
+    ends = refly_many(model, beat, np.concatenate([start + changes, start - changes]))
+    differences = ((ends[:4] - ends[4:]) / 2)[:, 2:].T / STEPS[1:]
+    assert np.abs(found.A - differences).max() < 1e-4 * np.abs(differences).max()

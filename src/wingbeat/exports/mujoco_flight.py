@@ -30,11 +30,13 @@ class MujocoStates(NamedTuple):
     ----------
     time : [s], shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
+    positions : of all joints, in the order of the model's, shape (K, joints) [m or rad].
     torques : of the motors, in the order of the model's actuators, shape (K, motors) [N m; N for slides].
     """
 
     time: np.ndarray
     states: np.ndarray
+    positions: np.ndarray
     torques: np.ndarray
 
 
@@ -174,7 +176,7 @@ class MujocoFlight:
         def note() -> None:
             engine.mj_forward(self.model, data)  # a step ends with the torques of its last stage
             state = np.concatenate([data.qpos[_BODY], data.qvel[_BODY]])
-            found.append((data.time, state, data.ctrl.copy()))
+            found.append((data.time, state, data.qpos.copy(), data.ctrl.copy()))
 
         before = engine.get_mjcb_control()
         engine.set_mjcb_control(self.drive)

@@ -199,7 +199,7 @@ def linearise(
         names = smooth_ones(beat, names)
     harmonics = compensation(beat, names) if smooth else Compensation((), np.zeros((0, len(names))))
     start = np.array(orbit.initial_state)[2:]
-    flown = stroke_map(problem.model, beat, start, (*names, *harmonics.names) or ("frequency",), options.blocks)
+    flown = _accurate_map(orbit, start, (*names, *harmonics.names) or ("frequency",), options)
     scales = _scales(problem, beat)
     miss = float(np.abs((flown.path[-1] - flown.path[0]) / scales).max())
     if not miss <= options.closure:
@@ -216,6 +216,24 @@ def linearise(
         tuple(averaged_modes(averaged, beat.frequency, len(flown.transition), scales)),
         harmonics,
     )
+
+
+def _accurate_map(
+    orbit: Orbit, start: np.ndarray, parameters: tuple[str, ...], options: LinearOptions
+) -> StrokeMap:
+    """Return the stroke map, flown in so many steps that its multipliers agree with those of the certificate.
+
+    They are compared by their characteristic polynomials, because two multipliers that nearly meet are inaccurate
+    one by one.
+    """
+    certified = np.poly([complex(*pair) for pair in orbit.record()["floquet_multipliers"]])
+    blocks = options.blocks
+    while True:
+        flown = stroke_map(orbit.problem.model, orbit.wingbeat, start, parameters, blocks)
+        away = np.abs(np.poly(flown.by_state[1:, 1:]) - certified).max() / np.abs(certified).max()
+        if not away > options.agreement or blocks >= options.most_blocks:
+            return flown
+        blocks *= 4
 
 
 def _matrices(

@@ -12,6 +12,7 @@ from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.plots import manoeuvre_page
 from wingbeat.stability.beat_map import BeatMap
+from wingbeat.stability.riccati import closed_loop
 from wingbeat.stability.smooth_commands import top_of
 
 SCALES = np.array([0.2, 0.1, 1.0, 1.0, 2.0])
@@ -73,6 +74,7 @@ def test_scipy_flies_each_beat_from_one_top_to_the_next(plan):
 def test_the_ends_are_periodic_flights_at_their_speeds(plan):
     for end, speed in zip(plan.ends, (13.0, 12.0), strict=True):
         assert end.speed == speed
+        assert 0.0 < end.defect < 1e-6
         state, advance = plan.beat_map.exactly(end.state, end.changes)
         assert np.abs((state - end.state) / SCALES).max() < 1e-6
         assert advance * end.frequency == pytest.approx(speed, abs=1e-6)
@@ -122,6 +124,38 @@ def test_the_gains_hold_the_last_orbit(plan):
     assert np.abs(np.linalg.eigvals(held.A - held.B @ plan.gains[-1])).max() < 1.0
 
 
+def test_feedback_that_acts_a_beat_later_holds_the_way_too(cruise):
+    late = wb.manoeuvre(cruise, [12.5], beats=8, delay=1)
+    assert late.status is wb.Status.CONVERGED
+    assert late.gains.shape == (9, 5, 10)
+    held = late.beat_map(late.ends[-1].state, late.ends[-1].changes)
+    assert np.abs(np.linalg.eigvals(closed_loop(held.A, held.B, late.gains[-1], 1))).max() < 1.0
+    flown = tops(late.fly(wb.winds.CosineGust(w=2.0, start=0.2, duration=0.3), after=16))
+    assert np.abs((flown[-1, 1:] - late.states[-1]) / SCALES).max() < 0.5
+
+
+def test_the_first_beat_of_late_feedback_is_the_planned_one(cruise):
+    late = wb.manoeuvre(cruise, [12.5], beats=8, delay=1)
+    pilot, pushed = late.controller(), wb.State(0, 0, *(late.states[0, 1:] + [0.02, 0.1, 0.1, 0.1]))
+    pilot(0, pushed)
+    pilot(1, wb.State(0, 0, *late.states[1, 1:]))
+    np.testing.assert_array_equal(pilot.commands[0], late.changes[0])
+    assert np.abs(pilot.commands[1] - late.changes[1]).max() > 1e-3
+
+
+def test_beats_are_doubled_until_they_suffice(cruise):
+    fast = wb.ManoeuvreOptions(acceleration=2.0)
+    plan = wb.manoeuvre(cruise, [14.0], options=fast)
+    half = wb.manoeuvre(cruise, [14.0], beats=plan.legs[0] // 2)
+    assert (plan.status, half.status) == (wb.Status.CONVERGED, wb.Status.NOT_CONVERGED)
+
+
+def test_a_wing_that_jumps_is_not_certified(cruise):
+    rounding = wb.manoeuvre(cruise, [12.5], beats=8, options=wb.ManoeuvreOptions(jump=1e-300))
+    assert rounding.status is wb.Status.NOT_CONVERGED
+    assert "the wing jumps by" in rounding.message
+
+
 def test_too_few_beats_end_with_advice(cruise):
     hasty = wb.manoeuvre(cruise, [15.0], beats=4)
     assert hasty.status is wb.Status.NOT_CONVERGED
@@ -143,6 +177,8 @@ def test_a_speed_that_nothing_flies_at_is_named(cruise):
         (14.0, {}, "must be a list of speeds"),
         ([float("nan")], {}, r"speeds\[0\] = nan"),
         ([14.0], {"beats": 1}, "beats = 1: must be a whole number from 2 to 300"),
+        ([14.0], {"beats": 0}, "beats = 0: must be a whole number from 2 to 300"),
+        ([14.0], {"delay": 5}, "delay = 5"),
         ([14.0], {"inputs": ["flapping"]}, "flapping"),
     ],
 )
@@ -178,3 +214,18 @@ def test_the_command(tmp_path, capsys):
     assert drawn.stat().st_size > 10_000
     assert main([*asked[:5], "15", *asked[6:], "--json"]) == 3
     assert json.loads(capsys.readouterr().out)["status"] == "not-converged"
+
+
+def test_the_command_starts_from_a_saved_orbit(cruise, tmp_path, capsys):
+    saved = tmp_path / "cruise.nc"
+    cruise.save(saved)
+    asked = ["manoeuvre", str(saved), "--to", "12.5", "--beats", "8", "--delay", "1", "--json"]
+    assert main(asked) == 0
+    assert json.loads(capsys.readouterr().out)["delay"] == 1
+    assert main([*asked, "--speed", "12"]) == 2
+    assert "is a saved orbit" in capsys.readouterr().err
+
+
+def test_the_command_asks_for_the_speed_at_the_start(capsys):
+    assert main(["manoeuvre", "pigeon", "--to", "14"]) == 2
+    assert "--speed" in capsys.readouterr().err

@@ -12,6 +12,7 @@ from wingbeat.stability.riccati import (
     check_reach,
     closed_loop,
     delayed,
+    gains_along,
     linear_quadratic,
     periodic_linear_quadratic,
     reaches,
@@ -134,3 +135,34 @@ def test_other_periodic_gains_cost_more():
     least = whole(gains)
     for _ in range(3):
         assert whole(gains + 0.01 * random.normal(size=gains.shape)) > least
+
+
+@pytest.mark.parametrize("delay", [0, 1])
+def test_gains_along_equal_maps_are_the_steady_ones(delay):
+    A, B = pair([0.9, 0.3, 0.0, -0.2, 1.2, 0.1, 0.4, 0.0, 0.8, 0.5, 0.1, 0.0, 0.3, 0.2, 0.7])
+    found = gains_along([A] * 4, [B] * 4, np.eye(3), np.eye(2), delay)
+    costs = np.diag([1.0] * 3 + [0.0] * 2 * delay)
+    steady, _ = linear_quadratic(*delayed(A, B, delay), costs, np.eye(2))
+    np.testing.assert_allclose(found, np.stack([steady] * 4), atol=1e-8)
+
+
+def test_gains_along_cost_least():
+    """Any other first command, with the best ones after it, costs more."""
+    chain = [pair(np.random.default_rng(seed).uniform(-1.0, 1.0, 15)) for seed in range(4)]
+    A, B = zip(*chain, strict=True)
+    gains = gains_along(A, B, np.eye(3), np.eye(2))
+
+    def cost(change):
+        total, state = 0.0, np.array([1.0, -0.5, 0.3])
+        for k in range(400):
+            at = min(k, 3)
+            taken = -gains[at] @ state + (change if k == 0 else 0.0)
+            total += state @ state + taken @ taken
+            state = A[at] @ state + B[at] @ taken
+        return total
+
+    for change in 0.01 * np.vstack([np.eye(2), -np.eye(2)]):
+        assert cost(change) > cost(np.zeros(2))
+        assert cost(change) + cost(-change) - 2 * cost(np.zeros(2)) > 0
+    slope = (cost(np.array([1e-4, 0])) - cost(np.array([-1e-4, 0]))) / 2e-4
+    assert abs(slope) < 1e-6

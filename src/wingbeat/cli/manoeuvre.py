@@ -10,30 +10,36 @@ from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import SPECIES, Climb, Seed, Settings, Whole, check_files, check_outputs
+from wingbeat.cli.options import Climb, Seed, Settings, Whole, check_files, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, wind_of
-from wingbeat.errors import FaultList
+from wingbeat.errors import Fault, FaultList, InvalidInputError
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.plots import manoeuvre_page, save_figure
 from wingbeat.results.flight import Flight
+from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit
 from wingbeat.stability.manoeuvre import Manoeuvre
 from wingbeat.stability.manoeuvre import manoeuvre as find
 
 
 def manoeuvre(
-    species: Annotated[str, SPECIES],
+    species: Annotated[str, Parameter(help="Name or file of a species, or a saved orbit (.nc).")],
     *,
-    speed: Annotated[float, Parameter(help="Mean forward speed at the start [m/s]; 0 is hover.")],
+    speed: Annotated[
+        float | None, Parameter(help="Mean forward speed at the start [m/s]; 0 is hover. Not with a saved orbit.")
+    ] = None,
     to: Annotated[
         list[float],
         Parameter(consume_multiple=True, negative=(), help="Speeds to reach, one after the other [m/s]: 16 6 ..."),
     ],
     beats: Annotated[
-        Whole | None, Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 1 m/s2.")
+        Whole | None,
+        Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 1 m/s2, or more."),
     ] = None,
+    delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that feedback changes.")] = 0,
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
@@ -50,20 +56,30 @@ def manoeuvre(
     Exit code 0: the manoeuvre is certified. 3: it is not.
 
     Examples: wingbeat manoeuvre pigeon --speed 6 --to 16 6 --plot manoeuvre.png;
-    wingbeat manoeuvre pigeon --speed 8 --to 12 --gust w=2 start=1
+    wingbeat manoeuvre pigeon --speed 8 --to 12 --gust w=2 start=1;
+    wingbeat manoeuvre pigeon.nc --to 14 --delay 1
     """
     faults = FaultList()
     check_files(faults, None, plot=plot)
     faults.raise_if_any()
-    wind = wind_of(gust, None, 0, speed)
-    problem = model.problem(species, speed, set_, climb=climb)
     check_outputs(plot)
-    with progress_bar(f"{problem.species.name}, beats") as progress:
-        orbit = solve_orbit(problem, starts, seed)
-        if orbit.status is not Status.CONVERGED:
-            faults.add("--speed", speed, f"has no certified orbit: {orbit.message}", "start at another speed")
+    if species.endswith(".nc"):
+        if (speed, model, climb, starts, seed, set_) != (None, DEFAULT_MODEL, 0.0, None, 0, None):
+            fix = "give only --to, --beats, --delay, --gust, --json and --plot with it"
+            faults.add("SPECIES", species, "is a saved orbit, which has its speed, model and settings", fix)
             faults.raise_if_any()
-        plan = find(orbit, to, beats=beats, progress=progress)
+        orbit = load_orbit(Path(species))
+        with unpacking(Path(species)):
+            _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
+    else:
+        if speed is None:
+            faults.add("--speed", speed, "is missing", "give the speed at the start in m/s, or a saved orbit")
+            faults.raise_if_any()
+        problem = model.problem(species, float(speed or 0.0), set_, climb=climb)
+        orbit = _solved(problem, starts, seed)
+    wind = wind_of(gust, None, 0, float(orbit.inputs["speed"]))
+    with progress_bar(f"{orbit.inputs['species']['name']}, beats") as progress:
+        plan = find(orbit, to, beats=beats, delay=delay, progress=progress)
     flights: dict[str, Flight] = {}
     if plan.status is Status.CONVERGED:
         flights["with feedback"] = plan.fly(wind)
@@ -76,6 +92,18 @@ def manoeuvre(
     else:
         _print(plan, flights)
     return EXIT_GOOD if plan.status is Status.CONVERGED else EXIT_NOT_CERTIFIED
+
+
+def _solved(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
+    """Return the certified orbit at the start."""
+    with progress_bar(f"{problem.species.name}, first orbit"):
+        orbit = solve_orbit(problem, starts, seed)
+    if orbit.status is not Status.CONVERGED:
+        fault = Fault(
+            "--speed", problem.speed, f"has no certified orbit: {orbit.message}", "start at another speed"
+        )
+        raise InvalidInputError([fault])
+    return orbit
 
 
 def _print(plan: Manoeuvre, flights: dict[str, Flight]) -> None:

@@ -17,14 +17,15 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.record import finite_or_none
-from wingbeat.results.solving import solve_orbit
 from wingbeat.stability.beat_map import BeatMap
 from wingbeat.stability.command_limits import ALLOWED
+from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.stability.manoeuvre_controller import ManoeuvreController
 from wingbeat.stability.manoeuvre_options import DEFAULTS, ManoeuvreOptions
-from wingbeat.stability.riccati import linear_quadratic
+from wingbeat.stability.riccati import gains_along
 from wingbeat.stability.smooth_commands import top_of
-from wingbeat.stability.steady_flight import SteadyFlight, scales_of, steady_flight
+from wingbeat.stability.speed_schedule import Road, road_back, road_to, schedule, steady_start
+from wingbeat.stability.steady_flight import SteadyFlight, scales_of
 from wingbeat.stability.transition import Transition, transition
 from wingbeat.winds import Wind
 
@@ -42,10 +43,12 @@ class Manoeuvre:
     ends : the steady flights at the speeds asked for, each as far as it was found.
     free_frequencies : of the orbits of minimum objective at these speeds [Hz].
     legs : number of beats to each of the ends.
+    delay : beats by which feedback acts later.
     states : (height, body_pitch, u, w, pitch_rate) at the tops of the stroke, shape (K + 1, 5).
     changes : of the inputs from the first orbit in each beat, shape (K, inputs) [Hz, rad or shares].
     advances : distance flown in each beat [m], shape (K,).
-    gains : of the feedback at each top of the stroke, the last for all later ones, shape (K + 1, inputs, 5).
+    gains : of the feedback at each top of the stroke, the last for all later ones, on the deviation of the state
+        and on the corrections of the last `delay` beats, the oldest first, shape (K + 1, inputs, 5 + delay inputs).
     lower, upper : limits of the changes, shape (inputs,).
     defect : by how much a beat, flown by the adaptive integrator, misses the start of the next at the most, in
         scales of `FeedbackOptions` [-].
@@ -57,6 +60,7 @@ class Manoeuvre:
     ends: tuple[SteadyFlight, ...]
     free_frequencies: tuple[float, ...]
     legs: tuple[int, ...]
+    delay: int
     states: np.ndarray
     changes: np.ndarray
     advances: np.ndarray
@@ -85,9 +89,7 @@ class Manoeuvre:
     @property
     def largest_jump(self) -> float:
         """Largest jump of the wing from one beat to the next, in position or speed [rad or rad/s]."""
-        tops = [top_of(self.beat_map.wingbeat(change)) for change in self.changes]
-        first = top_of(self.beat_map.orbit.wingbeat)
-        return float(max((np.abs(top - first).max() for top in tops), default=0.0))
+        return _largest_jump(self.beat_map, self.changes)
 
     def controller(self, feedback: bool = True) -> ManoeuvreController:
         """Return a controller for `simulate`.
@@ -143,6 +145,7 @@ class Manoeuvre:
                 "climb": self.beat_map.climb,
                 "state": ["z", "body_pitch", "u", "w", "pitch_rate"],
                 "inputs": list(self.inputs),
+                "delay": self.delay,
                 "ends": ends,
                 "time": self.times.tolist(),
                 "states": self.states.tolist(),
@@ -164,6 +167,7 @@ def manoeuvre(
     *,
     beats: int | None = None,
     inputs: Sequence[str] | None = None,
+    delay: int = 0,
     progress: Progress | None = None,
     options: ManoeuvreOptions = DEFAULTS,
 ) -> Manoeuvre:
@@ -178,8 +182,10 @@ def manoeuvre(
     ----------
     orbit : a certified orbit, the start.
     speeds : mean forward speeds to reach [m/s], for example ``[16.0, 6.0]``.
-    beats : number of beats to each speed. Default: for the mean acceleration of `ManoeuvreOptions`.
+    beats : number of beats to each speed. Default: for the mean acceleration of `ManoeuvreOptions`; if they do not
+        suffice, twice as many, and so on.
     inputs : names of the parameters that may change, as in `feedback`.
+    delay : beats between a measurement and the beat that feedback changes, 0 to 4.
     progress : called with (beats found, beats in all).
     options : of the search.
 
@@ -191,7 +197,7 @@ def manoeuvre(
     Raises
     ------
     InvalidInputError : an orbit that is not certified, speeds that are missing or out of range, beats that are no
-        whole number from 2 to 300, inputs that `linearise` refuses.
+        whole number from 2 to 300, a delay that is none from 0 to 4, inputs that `linearise` refuses.
 
     The search is direct multiple shooting (Bock & Plitt 1984, doi 10.1016/S1474-6670(17)61205-9).
 
@@ -201,33 +207,33 @@ def manoeuvre(
     >>> faster.status.value, bool(faster.largest_jump < 1e-9)
     ('converged', True)
     """
-    _check(orbit, speeds, beats)
+    _check(orbit, speeds, beats, delay)
     beat_map = BeatMap(orbit, inputs, options.blocks)
-    here = _start(beat_map)
+    here = steady_start(beat_map, options)
     ends, free, legs, chains = [], [], [], []
     failure: str | None = None
     passed: list[SteadyFlight] = [here]
     for speed in map(float, speeds):
-        road = _road_back(passed, speed, beat_map) or _road(beat_map, here, speed, options)
+        road = road_back(passed, speed, beat_map) or road_to(beat_map, here, speed, options)
         passed += road.flights[1:]
         ends.append(road.flights[-1])
         free.append(road.free_frequency)
         failure = road.failure
         if failure:
             break
-        count = beats or _beats(here, ends[-1], options)
+        chains.append(_leg(beat_map, road, beats, ends, options))
+        count = len(chains[-1].changes)
         legs.append(count)
-        chains.append(transition(beat_map, *_schedule(road.flights, count), options))
         if progress is not None:
             progress(sum(legs), sum(legs) + (len(speeds) - len(legs)) * count)
         if not chains[-1].converged:
             failure = f"no commands were found that lead to {speed:g} m/s in {count} beats: give more beats"
             break
         here = ends[-1]
-    return _joined(beat_map, tuple(ends), tuple(free), tuple(legs), chains, failure, options)
+    return _joined(beat_map, tuple(ends), tuple(free), tuple(legs), chains, failure, delay, options)
 
 
-def _check(orbit: Orbit, speeds: Any, beats: int | None) -> None:
+def _check(orbit: Orbit, speeds: Any, beats: int | None, delay: int) -> None:
     faults = FaultList()
     if not isinstance(speeds, list | tuple | np.ndarray) or len(speeds) == 0:
         faults.add("speeds", speeds, "must be a list of speeds", "for example [16.0, 6.0]")
@@ -236,72 +242,32 @@ def _check(orbit: Orbit, speeds: Any, beats: int | None) -> None:
             faults.number(f"speeds[{i}]", speed, **SPEED_LIMITS)
     if beats is not None:
         faults.whole("beats", beats, 2, _MOST_BEATS, "beats to each speed")
+    faults.whole("delay", delay, 0, MOST_DELAY, "commands act in the same beat (0), in the next (1) and so on")
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()
 
 
-def _start(beat_map: BeatMap) -> SteadyFlight:
-    orbit = beat_map.orbit
-    still = np.zeros(len(beat_map.inputs))
-    return SteadyFlight(
-        float(orbit.inputs["speed"]), beat_map.start, still, float(orbit.wingbeat.frequency), 0.0, True
-    )
+def _leg(
+    beat_map: BeatMap, road: Road, beats: int | None, ends: list[SteadyFlight], options: ManoeuvreOptions
+) -> Transition:
+    """Return the beats along a road; if their number is not given, twice as many as long as they do not suffice."""
+    units = scales_of(beat_map, options)[1]
+    lower, upper = _limits(beat_map, tuple(ends), units, options)
+    count = beats or _first_count(road, options)
+    for _ in range(options.doublings):
+        chain = transition(beat_map, *schedule(road.flights, count), options)
+        enough = chain.converged and chain.defect <= options.defect
+        if beats or count == _MOST_BEATS or (enough and not _excess(beat_map.inputs, chain.changes, lower, upper)):
+            return chain
+        count = min(2 * count, _MOST_BEATS)
+    return transition(beat_map, *schedule(road.flights, count), options)
 
 
-@dataclass(frozen=True)
-class _Road:
-    """Steady flights from one speed to another, and why there are no more, if so."""
-
-    flights: list[SteadyFlight]
-    free_frequency: float
-    failure: str | None
-
-
-def _road_back(passed: list[SteadyFlight], speed: float, beat_map: BeatMap) -> _Road | None:
-    """Return the way back over the steady flights passed, None if none of them had this speed."""
-    for i in range(len(passed) - 2, -1, -1):
-        if passed[i].speed == speed and math.isfinite(passed[i].defect):
-            free = float(beat_map.orbit.wingbeat.frequency) if i == 0 else math.nan
-            return _Road(passed[i:][::-1], free, None)
-    return None
-
-
-def _road(beat_map: BeatMap, here: SteadyFlight, speed: float, options: ManoeuvreOptions) -> _Road:
-    orbit = beat_map.orbit
-    best = solve_orbit(orbit.problem.at_speed(speed), int(orbit.inputs["starts"]))
-    if best.status is not Status.CONVERGED:
-        return _Road([here], math.nan, f"there is no certified orbit at {speed:g} m/s: {best.message}")
-    first, last = ([float(parameter(one.wingbeat, name)) for name in beat_map.inputs] for one in (orbit, best))
-    wanted = np.array(last) - np.array(first)
-    count = max(math.ceil(abs(speed - here.speed) / options.speed_step), 1)
-    flights = [here]
-    for share in np.linspace(0.0, 1.0, count + 1)[1:]:
-        between = speed if share == 1.0 else float(here.speed + share * (speed - here.speed))
-        toward = here.changes + share * (wanted - here.changes)
-        flights.append(steady_flight(beat_map, between, toward, flights[-1], options, exact=share == 1.0))
-        if not flights[-1].converged:
-            failure = f"no steady flight with this top of the stroke was found at {between:.3g} m/s"
-            return _Road(flights, float(best.wingbeat.frequency), failure)
-    return _Road(flights, float(best.wingbeat.frequency), None)
-
-
-def _beats(here: SteadyFlight, there: SteadyFlight, options: ManoeuvreOptions) -> int:
+def _first_count(road: Road, options: ManoeuvreOptions) -> int:
+    here, there = road.flights[0], road.flights[-1]
     seconds = abs(there.speed - here.speed) / options.acceleration
     return min(max(math.ceil(seconds * 0.5 * (here.frequency + there.frequency)), 5), _MOST_BEATS)
-
-
-def _schedule(flights: list[SteadyFlight], count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return states at the tops of the stroke and changes in the beats; the speed starts and ends smoothly."""
-    at = np.linspace(0.0, 1.0, len(flights))
-    tops = np.linspace(0.0, 1.0, count + 1)
-    ramp = tops**2 * (3.0 - 2.0 * tops)
-
-    def along(shares: np.ndarray, name: str) -> np.ndarray:
-        values = np.array([getattr(flight, name) for flight in flights])
-        return np.stack([np.interp(shares, at, column) for column in values.T], axis=-1)
-
-    return along(ramp, "state"), along(0.5 * (ramp[1:] + ramp[:-1]), "changes")
 
 
 def _joined(
@@ -311,6 +277,7 @@ def _joined(
     legs: tuple[int, ...],
     chains: list[Transition],
     failure: str | None,
+    delay: int,
     options: ManoeuvreOptions,
 ) -> Manoeuvre:
     scales, units = scales_of(beat_map, options)
@@ -323,14 +290,20 @@ def _joined(
         failure = _excess(beat_map.inputs, changes, lower, upper)
     if failure is None and defect > options.defect:
         failure = f"a beat misses the next by {defect:.1g} of the scales of the state: give more beats"
-    gains = np.zeros((len(states), len(units), len(scales)))
+    jump = _largest_jump(beat_map, np.concatenate([changes, *(end.changes[None] for end in ends)]))
+    if failure is None and not jump <= options.jump:
+        failure = f"the wing jumps by {jump:.1g} rad or rad/s between two beats: leave out an input"
+    gains = np.zeros((len(states), len(units), len(scales) + delay * len(units)))
     if failure is None:
-        gains = _gains(beat_map, ends[-1], chains, scales, units)
+        held = beat_map(ends[-1].state, ends[-1].changes)
+        A, B = (np.concatenate([getattr(chain, name) for chain in chains]) for name in "AB")
+        costs = np.diag(scales**-2), np.diag(units**-2)
+        gains = gains_along((*A, held.A), (*B, held.B), *costs, delay)
     status = Status.CONVERGED if failure is None else Status.NOT_CONVERGED
     message = failure or f"certified: {len(changes)} beats, each ends where the next begins, to {defect:.0e}"
     advances = np.concatenate([np.zeros(0), *(chain.advances for chain in chains)])
     return Manoeuvre(
-        beat_map, ends, free, legs, states, changes, advances, gains, lower, upper, defect, status, message
+        beat_map, ends, free, legs, delay, states, changes, advances, gains, lower, upper, defect, status, message
     )
 
 
@@ -348,6 +321,12 @@ def _limits(
     return lower, upper
 
 
+def _largest_jump(beat_map: BeatMap, changes: np.ndarray) -> float:
+    tops = [top_of(beat_map.wingbeat(change)) for change in changes]
+    first = top_of(beat_map.orbit.wingbeat)
+    return float(max((np.abs(top - first).max() for top in tops), default=0.0))
+
+
 def _excess(inputs: tuple[str, ...], changes: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> str | None:
     """Return which command exceeds its limits, if one does."""
     beyond = np.maximum(lower - changes, changes - upper)
@@ -355,20 +334,3 @@ def _excess(inputs: tuple[str, ...], changes: np.ndarray, lower: np.ndarray, upp
         return None
     beat, i = np.unravel_index(int(beyond.argmax()), beyond.shape)
     return f"the command of {inputs[i]} exceeds its limit in beat {beat + 1}: give more beats"
-
-
-def _gains(
-    beat_map: BeatMap, last: SteadyFlight, chains: list[Transition], scales: np.ndarray, units: np.ndarray
-) -> np.ndarray:
-    """Return the gains at each top of the stroke: those of the last steady flight, and backwards from there."""
-    held = beat_map(last.state, last.changes)
-    state_cost, input_cost = np.diag(scales**-2), np.diag(units**-2)
-    steady, cost = linear_quadratic(held.A, held.B, state_cost, input_cost)
-    gains = [steady]
-    for chain in reversed(chains):
-        for A, B in zip(chain.A[::-1], chain.B[::-1], strict=True):
-            gain = np.linalg.solve(input_cost + B.T @ cost @ B, B.T @ cost @ A)
-            cost = state_cost + A.T @ cost @ (A - B @ gain)
-            cost = 0.5 * (cost + cost.T)
-            gains.append(gain)
-    return np.array(gains[::-1])

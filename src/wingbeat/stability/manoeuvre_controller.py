@@ -29,6 +29,7 @@ class ManoeuvreController:
         self.manoeuvre, self.feedback = manoeuvre, feedback
         self.commands: list[np.ndarray] = []
         self._ground = self._time = 0.0
+        self._waiting: list[np.ndarray] = []  # corrections that do not act yet, the oldest first
 
     def __call__(self, beats: int, state: State) -> Wingbeat:
         """Return the wingbeat of the next beat.
@@ -41,15 +42,26 @@ class ManoeuvreController:
         plan = self.manoeuvre
         if beats == 0:
             self.commands, self._ground, self._time = [], float(state.z), 0.0
+            self._waiting = [np.zeros(len(plan.inputs))] * plan.delay
         at = min(beats, len(plan.changes))
-        command = plan.changes[at] if at < len(plan.changes) else plan.ends[-1].changes
+        planned = self._planned(beats)
         if self.feedback:
             height = float(state.z) - self._ground - plan.beat_map.climb * self._time
             deviation = np.concatenate([[height], np.array(state, dtype=float)[2:]]) - plan.states[at]
-            correction = plan.gains[at] @ deviation
-            if np.isfinite(correction).all():  # not after the vehicle has tumbled
-                command = np.clip(command - correction, plan.lower, plan.upper)
+            correction = -plan.gains[at] @ np.concatenate([deviation, *self._waiting])
+            then = self._planned(beats + plan.delay)
+            correction = np.clip(then + correction, plan.lower, plan.upper) - then
+            if not np.isfinite(correction).all():  # the vehicle has tumbled
+                correction = np.zeros_like(then)
+            self._waiting.append(correction)
+            planned = planned + self._waiting.pop(0)
+        command = planned
         self.commands.append(command)
         wingbeat = plan.beat_map.wingbeat(command)
         self._time += 1.0 / wingbeat.frequency
         return wingbeat
+
+    def _planned(self, beats: int) -> np.ndarray:
+        """Return the planned changes of a beat."""
+        plan = self.manoeuvre
+        return plan.changes[beats] if beats < len(plan.changes) else plan.ends[-1].changes

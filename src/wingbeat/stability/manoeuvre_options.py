@@ -16,6 +16,8 @@ class ManoeuvreOptions:
     ----------
     acceleration : mean acceleration for which the number of beats is chosen, if it is not given [m/s2]. From 12 to
         14 m/s a pigeon can do with 1 m/s2, but not with 2: its frequency would exceed its limit.
+    doublings : if the number of beats is not given and does not suffice, it is doubled at most so many times. From
+        12 to 14 m/s, beats for 2 m/s2 must be doubled once.
     speed_step : largest step of speed between the steady flights that make the schedule [m/s].
     iterations : largest number of Gauss-Newton steps of a steady flight and of a transition. Pigeons took 4 to 9.
     free_steps, caution : after so many steps of a transition, the cost of a step over that of the deviation grows
@@ -27,6 +29,8 @@ class ManoeuvreOptions:
         more.
     defect : a manoeuvre is certified if no beat, flown by the adaptive integrator, misses its end by more than this
         share of the scales of the state [-].
+    jump : nor is it certified if the wing jumps from beat to beat by more than this [rad or rad/s]. Rounding leaves
+        some 1e-13.
     smoothness : cost of a change of an input from beat to beat, over the cost of its deviation from the schedule.
     reach : commands exceed the inputs of the steady flights by at most so many of their units [-]. A pigeon that
         flies from 6 to 16 m/s and back needs 4.0 with 2 m/s2, and 3.0 with 1 m/s2.
@@ -34,6 +38,7 @@ class ManoeuvreOptions:
     """
 
     acceleration: float = 1.0
+    doublings: int = 3
     speed_step: float = 1.0
     iterations: int = 30
     free_steps: int = 3
@@ -43,6 +48,7 @@ class ManoeuvreOptions:
     blocks: int = 2
     corrections: int = 4
     defect: float = 1e-6
+    jump: float = 1e-9
     smoothness: float = 10.0
     reach: float = 6.0
     feedback: FeedbackOptions = FeedbackOptions()  # noqa: RUF009, frozen

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -141,6 +142,37 @@ def periodic_linear_quadratic(
         if np.abs(cost - before).max() <= 1e-12 * np.abs(cost).max():
             break
     return gains
+
+
+def gains_along(
+    A: Sequence[np.ndarray],
+    B: Sequence[np.ndarray],
+    state_cost: np.ndarray,
+    input_cost: np.ndarray,
+    delay: int = 0,
+) -> np.ndarray:
+    """Return gains of each of K + 1 maps that follow each other, the last for ever; shape (K + 1, m, n + delay m).
+
+    The last map has the gains of `linear_quadratic`; the Riccati equation is stepped back from its cost to go.
+
+    Parameters
+    ----------
+    A, B : of the maps without delay, shapes (n, n) and (n, m) each.
+    state_cost, input_cost : of each map, as in `linear_quadratic`.
+    delay : beats by which inputs act later; then the pending inputs belong to the state, the oldest first.
+    """
+    maps = [delayed(one, entering, delay) for one, entering in zip(A, B, strict=True)]
+    order, whole = len(state_cost), len(maps[-1][0])
+    costs = np.zeros((whole, whole))
+    costs[:order, :order] = state_cost
+    last, cost = linear_quadratic(*maps[-1], costs, input_cost)
+    gains = [last]
+    for later, entering in reversed(maps[:-1]):
+        gain = np.linalg.solve(input_cost + entering.T @ cost @ entering, entering.T @ cost @ later)
+        cost = costs + later.T @ cost @ (later - entering @ gain)
+        cost = 0.5 * (cost + cost.T)
+        gains.append(gain)
+    return np.array(gains[::-1])
 
 
 def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:

@@ -90,9 +90,32 @@ def steady_flight(
         miss_of_end, miss_of_advance = end - coarse.end, advance - coarse.advance
     if not exact:
         return SteadyFlight(speed, state, changes, frequency, np.inf, converged)
+    defect = defect_of(beat, speed, state, changes, frequency, options)
+    return SteadyFlight(speed, state, changes, frequency, defect, converged)
+
+
+def defect_of(
+    beat: BeatMap,
+    speed: float,
+    state: np.ndarray,
+    changes: np.ndarray,
+    frequency: float,
+    options: ManoeuvreOptions,
+) -> float:
+    """Return by how much a flight misses its start and its speed when the adaptive integrator flies it, in scales.
+
+    Parameters
+    ----------
+    beat : the map of a beat.
+    speed : mean forward speed [m/s].
+    state : at the top of the stroke, shape (5,).
+    changes : of the inputs, shape (inputs,).
+    frequency : [Hz].
+    options : with the scales.
+    """
+    scales = scales_of(beat, options)[0]
     end, advance = beat.exactly(state, changes)
-    defect = max(np.abs((end - state) / scales).max(), abs(advance * frequency - speed) / scales[2])
-    return SteadyFlight(speed, state, changes, frequency, float(defect), converged)
+    return float(max(np.abs((end - state) / scales).max(), abs(advance * frequency - speed) / scales[2]))
 
 
 def scales_of(beat: BeatMap, options: ManoeuvreOptions) -> tuple[np.ndarray, np.ndarray]:

@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     import xarray as xr
-
-PANELS: list[dict[str, Any]] = [
-    {
-        "title": "Body pitch away from the orbit's",
-        "unit": "deg",
-        "curves": [{"array": "pitch_away", "label": "body pitch"}],
-    },
-    {"title": "Height above the path", "unit": "m", "curves": [{"array": "height", "label": "height"}]},
-]
 
 
 class Push(NamedTuple):

@@ -13,7 +13,6 @@ from wingbeat.datasets import KIND, at_station, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body, Tail
-from wingbeat.viewer.pushes import PANELS as PUSHED_PANELS
 from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.shape import body_axes, tail_corners
 
@@ -40,6 +39,15 @@ _PANELS: list[dict[str, Any]] = [
     },
     {"title": "Hinge power", "unit": _unit("hinge_power"), "curves": [{"array": "power", "label": "hinge power"}]},
     {"title": "Body pitch", "unit": _unit("body_pitch"), "curves": [{"array": "pitch_deg", "label": "body pitch"}]},
+]
+
+_PUSHED: list[dict[str, Any]] = [
+    {
+        "title": "Body pitch away from the orbit's",
+        "unit": _unit("body_pitch"),
+        "curves": [{"array": "pitch_away", "label": "body pitch"}],
+    },
+    {"title": "Height above the path", "unit": _unit("z"), "curves": [{"array": "height", "label": "height"}]},
 ]
 
 
@@ -87,7 +95,7 @@ def _push(push: Push) -> dict[str, Any]:
         "size": push.size,
         "feedback": push.feedback,
         "outcome": push.outcome,
-        "scene": {"flights": [flight], "panels": [*PUSHED_PANELS, _PANELS[0], _PANELS[2]]},
+        "scene": {"flights": [flight], "panels": [*_PUSHED, _PANELS[0], _PANELS[2]]},
     }
 
 

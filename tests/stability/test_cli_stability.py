@@ -120,3 +120,14 @@ def test_an_unknown_input_gets_its_sentence(saved, capsys):
     for source in ([saved], ["pigeon", "--speed", "10"]):  # before anything is solved
         assert main(["stability", *source, "--inputs", "flaping"]) == 2
         assert "inputs = 'flaping': is not a parameter of the wingbeat" in capsys.readouterr().err
+
+
+def test_a_mode_is_flown_and_can_be_viewed(saved, tmp_path, capsys):
+    flown, page = tmp_path / "mode.nc", tmp_path / "mode.html"
+    assert main(["stability", saved, "--mode", "0", "-o", str(flown)]) == 0
+    assert main(["view", str(flown), "-o", str(page)]) == 0
+    assert "simulated" in page.read_text("utf-8")
+    assert main(["stability", saved, "--mode", "0"]) == 2
+    assert "needs --output" in capsys.readouterr().err
+    assert main(["stability", saved, "--mode", "9", "-o", str(flown)]) == 2
+    assert "index = 9" in capsys.readouterr().err

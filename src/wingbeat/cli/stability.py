@@ -15,12 +15,14 @@ from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     Climb,
     Limits,
+    Output,
     Seed,
     Settings,
     Whole,
     WithinPlausible,
     check_files,
     check_outputs,
+    check_result,
     given_beside,
     unpacking,
 )
@@ -38,7 +40,7 @@ from wingbeat.stability.causes import StabilitySensitivities, stability_sensitiv
 from wingbeat.stability.inputs import check_inputs
 from wingbeat.stability.linear_flight import linearise
 
-_OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "json", "plot")
+_OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "mode", "output", "json", "plot")
 
 
 def stability(
@@ -79,6 +81,11 @@ def stability(
         bool,
         Parameter(negative="", help="Print which numbers of the animal move the spectral radius most."),
     ] = False,
+    mode: Annotated[
+        Whole | None,
+        Parameter(help="Fly the orbit with this mode, 0 for the fastest growing; write the flight to --output."),
+    ] = None,
+    output: Output = None,
     json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, Parameter(help="Draw the multipliers and modes: .png, .pdf or .svg.")] = None,
 ) -> int:
@@ -90,11 +97,15 @@ def stability(
     Exit code 0: some speeds are certified. 3: no speed is certified.
 
     Examples: wingbeat stability pigeon --speed 12; wingbeat stability bat.nc --json;
-    wingbeat stability pigeon --speed 4:20:2 --plot locus.png; wingbeat stability pigeon --speed 12 --sensitivities
+    wingbeat stability pigeon --speed 4:20:2 --plot locus.png; wingbeat stability pigeon --speed 12 --sensitivities;
+    wingbeat stability pigeon --speed 12 --mode 0 -o mode.nc
     """
     beside = given_beside(stability, locals(), *_OF_A_FILE)
     faults = FaultList()
-    check_files(faults, None, plot=plot)
+    check_result(faults, output)
+    check_files(faults, output, plot=plot)
+    if (mode is None) != (output is None):
+        faults.add("--mode", mode, "needs --output, and --output needs --mode", "give both: --mode 0 -o mode.nc")
     saved = source.endswith(".nc")
     if saved and beside:
         faults.add("SPECIES", source, "is an orbit and comes with its own inputs", f"leave out {', '.join(beside)}")
@@ -103,7 +114,7 @@ def stability(
     if inputs is not None:
         check_inputs(faults, inputs)
     faults.raise_if_any()
-    check_outputs(plot)
+    check_outputs(plot, output)
     if saved:
         orbit = load_orbit(source)
         with unpacking(Path(source)):
@@ -127,6 +138,8 @@ def stability(
     for record, cause in zip(found, causes, strict=True):
         if cause is not None:
             record["sensitivities"] = cause.record()
+    if mode is not None and output is not None and certified:
+        linearise(certified[0], inputs, smooth=not jumps).mode_flight(mode).save(output)
     if plot and found:
         save_figure(stability_page(found), plot)
     if json:

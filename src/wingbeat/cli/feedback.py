@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import Whole, check_files, check_outputs, unpacking
+from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
@@ -96,7 +96,7 @@ def feedback(
         faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
     faults.whole("--beats", beats, 1, 10_000)
     faults.whole("--survey", survey, 0, _MOST_GUSTS)
-    errors = _read_noise(faults, noise)
+    errors = named_numbers(faults, "--noise", noise, tuple(_UNITS), "body_pitch=0.01")
     faults.raise_if_any()
     check_outputs(plot)
     orbit = load_orbit(source)
@@ -133,25 +133,6 @@ def _fly(
         FREE: fly_gust(orbit, wind, beats),
         HELD: fly_gust(orbit, wind, beats, feedback=held, late=late, noise=noise, seed=seed),
     }
-
-
-def _read_noise(faults: FaultList, words: list[str] | None) -> dict[str, float]:
-    """Return standard deviations by name, and note what cannot be read."""
-    found: dict[str, float] = {}
-    for word in words or []:
-        name, _, text = word.partition("=")
-        try:
-            value = float(text)
-        except ValueError:
-            faults.add("--noise", word, "must be NAME=VALUE with a number", "for example body_pitch=0.01")
-            continue
-        if name in found:
-            faults.add("--noise", word, "is given twice", "keep one of them")
-        faults.choice("--noise", name, tuple(_UNITS))
-        found[name] = value
-    if words is not None and not words:
-        faults.add("--noise", "", "must be NAME=VALUE", "for example body_pitch=0.01")
-    return found
 
 
 def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None) -> None:

@@ -84,6 +84,27 @@ def with_settings(species: Species, settings: list[str] | None, payload: float =
     return (species.with_values(values) if values else species).with_payload(payload)
 
 
+def named_numbers(
+    faults: FaultList, option: str, words: list[str] | None, names: Sequence[str], example: str
+) -> dict[str, float]:
+    """Return the numbers of words such as ``w=3`` by name, and note what cannot be read."""
+    found: dict[str, float] = {}
+    if words is not None and not words:
+        faults.add(option, "", "must be NAME=VALUE", f"for example {example}")
+    for word in words or []:
+        name, _, text = word.partition("=")
+        try:
+            value = float(text)
+        except ValueError:
+            faults.add(option, word, "must be NAME=VALUE with a number", f"for example {example}")
+            continue
+        if name in found:
+            faults.add(option, word, "is given twice", "keep one of them")
+        faults.choice(option, name, tuple(names))
+        found[name] = value
+    return found
+
+
 def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
     """Return the options, as typed, that differ from their defaults, except those in `allowed`."""
     defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}

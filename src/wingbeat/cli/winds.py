@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
-from wingbeat.cli.options import Whole
+from wingbeat.cli.options import Whole, named_numbers
 from wingbeat.errors import FaultList
 from wingbeat.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 
@@ -44,7 +44,10 @@ def wind_of(gust: list[str] | None, turbulence: str | None, seed: int, airspeed:
     """
     parts: list[Wind] = []
     if gust is not None:
-        parts.append(CosineGust(**_read(gust)))
+        faults = FaultList()
+        found = named_numbers(faults, "--gust", gust, _KEYS, "w=3")
+        faults.raise_if_any()
+        parts.append(CosineGust(**found))
     if turbulence is not None:
         parts.append(DrydenTurbulence(airspeed, turbulence, seed=seed))
     return _sum(parts) if parts else None
@@ -56,23 +59,3 @@ def _sum(parts: list[Wind]) -> Callable[[np.ndarray], tuple[Any, Any]]:
         return sum(u for u, _ in found), sum(w for _, w in found)
 
     return air
-
-
-def _read(words: list[str]) -> dict[str, float]:
-    """Return the numbers of a gust by name; all faults are reported at once."""
-    faults, found = FaultList(), {}
-    if not words:
-        faults.add("--gust", "", "must be NAME=VALUE", "for example w=3")
-    for word in words:
-        name, _, text = word.partition("=")
-        try:
-            value = float(text)
-        except ValueError:
-            faults.add("--gust", word, "must be NAME=VALUE with a number", "for example w=3")
-            continue
-        if name in found:
-            faults.add("--gust", word, "is given twice", "keep one of them")
-        faults.choice("--gust", name, _KEYS)
-        found[name] = value
-    faults.raise_if_any()
-    return found

@@ -21,13 +21,12 @@ from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
-from wingbeat.stability.gust_survey import GustSurvey, survey_gusts
+from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.winds import Wind
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
 _GUST = ["w=2", "duration=0.3"]
-_MOST_GUSTS = 100_000
 # Units in which the state is printed, and the size of each in SI units.
 _UNITS = {
     "z": ("z [m]", 1.0),
@@ -95,7 +94,7 @@ def feedback(
     if source.suffix != ".nc":
         faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
     faults.whole("--beats", beats, 1, 10_000)
-    faults.whole("--survey", survey, 0, _MOST_GUSTS)
+    faults.whole("--survey", survey, 0, MOST_FLIGHTS)
     errors = named_numbers(faults, "--noise", noise, tuple(_UNITS), "body_pitch=0.01")
     faults.raise_if_any()
     check_outputs(plot)

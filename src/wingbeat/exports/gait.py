@@ -113,7 +113,7 @@ class Gait:
         found = [Column(NOMENCLATURE["time"], self.dataset["time"].values)]
         laws = laws_at(self.orbit.wingbeat, self.phase)
         for i, name in enumerate(LAW_NAMES):
-            if name in ("flap", "wing_pitch") or np.ptp(laws[0][:, i]) > 0 or self._stands_out(name, laws[0][0, i]):
+            if name in ("flap", "wing_pitch") or np.ptp(laws[0][:, i]) > 0 or self._is_held(name, laws[0][0, i]):
                 found += [Column(term, of[:, i]) for term, of in zip(_derivatives(name), laws, strict=True)]
         for name in _OF_ONE_WING:
             term = NOMENCLATURE[name]
@@ -122,8 +122,8 @@ class Gait:
         return found
 
     @staticmethod
-    def _stands_out(name: str, value: float) -> bool:
-        """Return whether a law stands still at another value than that of a law that is off."""
+    def _is_held(name: str, value: float) -> bool:
+        """Return whether a law that does not move is held away from where it is if it is off."""
         return bool(abs(value - _OFF.get(name, 0.0)) > 0)
 
     @functools.cached_property

@@ -20,6 +20,7 @@ from wingbeat.winds import CosineGust
 # Shortest and longest gust, and the time in which it may begin [beats].
 _DURATION = (1.0, 8.0)
 _BEGIN = 1.0
+MOST_FLIGHTS = 100_000
 
 
 @dataclass(frozen=True)
@@ -139,7 +140,7 @@ def survey_gusts(
     True
     """
     faults = FaultList()
-    faults.whole("flights", flights, 1, 100_000)
+    faults.whole("flights", flights, 1, MOST_FLIGHTS)
     faults.number("size", size, above=0.0, unit="m/s")
     faults.whole("seed", seed, 0, 2**31)
     if feedbacks is not None and (not isinstance(feedbacks, Mapping) or not feedbacks):

@@ -187,7 +187,7 @@ def test_links_lead_to_files(page):
 
 
 def test_docs_hold_pages_and_pictures_and_the_data_are_described():
-    assert {path.suffix for path in DOCS.iterdir()} == {".md", ".png"}
+    assert {path.suffix for path in DOCS.iterdir()} == {".md", ".png", ".gif"}
     described = (ROOT / "data" / "README.md").read_text(encoding="utf-8")
     tables = [path for path in (ROOT / "data").iterdir() if path.name != "README.md"]
     assert tables

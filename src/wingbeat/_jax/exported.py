@@ -139,8 +139,11 @@ class StoredFunction:
         if _cannot_run:
             _refuse_fork()
         program, out_tree, out_shapes = ready
-        with jax.ensure_compile_time_eval():  # inside another trace, numbers stay numbers
+        if trace_state_clean():
             found = np.asarray(program(held, _packed(more)))
+        else:
+            with jax.ensure_compile_time_eval():  # inside another trace, numbers stay numbers
+                found = np.asarray(program(held, _packed(more)))
         return jax.tree_util.tree_unflatten(out_tree, _unpacked(found, out_shapes))
 
     def _load(self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]) -> _Ready:

@@ -66,11 +66,30 @@ def first_searches(
     return found
 
 
-def search_from_optima(programme: Transcription, easier: Iterable[Candidate], threads: int) -> list[Candidate]:
-    """Search from the best optimum of each family of an easier problem; return where the local searches end."""
+def search_from_optima(
+    programme: Transcription, easier: Iterable[Candidate], threads: int, pruned: bool = False
+) -> list[Candidate]:
+    """Search from the best optimum of each family of an easier problem; return where the local searches end.
+
+    Parameters
+    ----------
+    programme : of the problem.
+    easier : ends of the searches of the easier problem.
+    threads : number of local searches at a time.
+    pruned : whether to leave out families that are dearer without the limits than an optimum found with them. Limits
+        only raise the objective within a family.
+    """
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
-    starts = [optimum.unknowns for optimum in families(optima_of(easier), scale, apart)]
-    return list(_side_by_side(lambda start: search(programme.uncorrected(), start), starts, threads))
+    found: list[Candidate] = []
+    starts = list(families(optima_of(easier), scale, apart))
+    while starts:
+        together, starts = starts[:threads] if pruned else starts, starts[threads:] if pruned else []
+        begun = [optimum.unknowns for optimum in together]
+        found += _side_by_side(lambda start: search(programme.uncorrected(), start), begun, threads)
+        best = optimal(found)
+        if best:
+            starts = [optimum for optimum in starts if optimum.objective < best[0].objective]
+    return found
 
 
 def easier_searches(
@@ -94,10 +113,10 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
         already = as_candidate(programme.uncorrected(), programme.scaled(optima_of(best)[0].unknowns), optimal=True)
         if already.is_optimum:
             return [already]
-    found = search_from_optima(programme, free, threads)
-    stable = optimal(found)
     if map_is_minimised or not best:
-        return found
+        return search_from_optima(programme, free, threads)
+    found = search_from_optima(programme, free, threads, pruned=True)
+    stable = optimal(found)
     dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)
     if not stable or stable[0].objective > dear:
         found.append(search(programme.uncorrected(), tightened(programme, optima_of(best)[0].unknowns)))

@@ -1,6 +1,6 @@
 """Tables of how numerical choices change the result: strips, steps, blend width, extension.
 
-Run from the root of a clone; it rewrites docs/convergence.md::
+Run from the root of a clone; it rewrites docs/evidence/convergence.md::
 
     uv run python benchmarks/convergence.py
 """
@@ -15,7 +15,7 @@ import wingbeat as wb
 from wingbeat.orbits.flight.shooting import STEPS, flier
 from wingbeat.orbits.solve import find_orbit
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "convergence.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "evidence" / "convergence.md"
 CASES = (("pigeon", 10.0), ("bat", 8.0))
 
 

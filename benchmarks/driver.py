@@ -1,7 +1,7 @@
 """What a study's driver costs: bytes, memory and seconds by the number of points, and the cores it can feed.
 
 Each point is answered in no time with the record of a real orbit, so that what is left is the driver and its store.
-Run from the root of a clone, on Linux; it prints the tables of docs/clusters.md and writes nothing else::
+Run from the root of a clone, on Linux; it prints the tables of docs/guide/clusters.md and writes nothing else::
 
     uv run --extra cluster python benchmarks/driver.py            # 10^3, 10^4 and 10^5 points: minutes
     uv run --extra cluster python benchmarks/driver.py 1000 10000

@@ -1,6 +1,6 @@
 """Flipped bits in the store of a study: is each harmless or refused in words, and are the whole answers kept?
 
-Run from the root of a clone; it prints what docs/studies.md says::
+Run from the root of a clone; it prints what docs/guide/studies.md says::
 
     uv run python benchmarks/flipped_bits.py [--seeds 60] [--flips 60] [--log-flips 600] [--program 12]
 

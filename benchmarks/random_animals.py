@@ -1,6 +1,6 @@
 """Fly random birds and bats by both models: how many are certified, and how long an orbit takes.
 
-Run from the root of a clone; it prints the numbers of docs/models.md::
+Run from the root of a clone; it prints the numbers of docs/guide/models.md::
 
     uv run python benchmarks/random_animals.py --starts 1
 

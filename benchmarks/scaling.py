@@ -1,6 +1,6 @@
 """Cost against strips, steps, lanes and free parameters, measured on one core, drawn with its exponents.
 
-Run from the root of a clone; it rewrites docs/scaling.png and data/scaling.csv::
+Run from the root of a clone; it rewrites docs/evidence/scaling.png and data/scaling.csv::
 
     taskset -c 0 uv run python benchmarks/scaling.py
 """
@@ -90,7 +90,7 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
         axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=8)
         axes.legend()
         axes.grid()
-    save_figure(figure, ROOT / "docs" / "scaling.png")
+    save_figure(figure, ROOT / "docs" / "evidence" / "scaling.png")
 
 
 def main() -> None:

@@ -1,6 +1,6 @@
 """Orbits on which disturbances decay: how many searches find one, what stability costs, and the time of a search.
 
-Run from the root of a clone; it prints the numbers of docs/stability.md::
+Run from the root of a clone; it prints the numbers of docs/guide/stability.md::
 
     uv run python benchmarks/stability.py along pigeon --speeds 4:20
     uv run python benchmarks/stability.py along pigeon --speeds 6:18 --tail

@@ -1,6 +1,6 @@
 """A study of 2 000 points: how fast beside the bare batch solver, and what twenty SIGKILLs leave of it.
 
-Run from the root of a clone, on a machine with nothing else to do; it prints what docs/studies.md says::
+Run from the root of a clone, on a machine with nothing else to do; it prints what docs/guide/studies.md says::
 
     uv run python benchmarks/survival.py [--designs 25] [--kills 20] [--pairs 3]
 

@@ -56,7 +56,9 @@ def main(argv: list[str] | None = None) -> int:
     """Fly, compare, and write tables, page and figure; return the exit code."""
     parser = argparse.ArgumentParser(description="Birds by scaling laws against measured airspeeds.")
     parser.add_argument("--data", type=Path, default=ROOT / "../shared/data", help=f"folder that holds {AIRSPEEDS}")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder of page and figure")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=ROOT / "docs" / "evidence", help="folder of page and figure"
+    )
     parser.add_argument("--tables", type=Path, default=ROOT / "data", help="folder of the tables")
     parser.add_argument("--flown", type=Path, help="folder of an earlier run's tables, in place of flying")
     parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS, help="models to fly by")

@@ -20,8 +20,8 @@ HEAD = """# {count} birds against radar measurements
 `python validation/alerstam.py` writes this page and computes every number in its tables. Alerstam et al. 2007
 (PLoS Biol 5:e197, doi 10.1371/journal.pbio.0050197, CC BY 4.0) measured the airspeeds of birds by radar. For
 {count} of their species, mass, span and area are known. `wb.bird` builds each of these species from the three
-numbers; scaling laws give the rest. Each bird is flown by the [models](models.md) `paper` and `animal`, and nothing
-is fitted.
+numbers; scaling laws give the rest. Each bird is flown by the [models](../guide/models.md) `paper` and `animal`,
+and nothing is fitted.
 
 The model `paper` computes air loads from the Su-Fan coefficients, without induced flow and without body drag. Its
 least power is the least positive hinge power, because it has no muscle. The model `animal` has feathered wings. Its
@@ -44,7 +44,7 @@ wingbeat. Each orbit then serves as a start at the neighbouring speeds, until no
 {certified}
 
 The orbits are the best found; better ones may exist. The tables behind this page are
-[alerstam.csv](../data/alerstam.csv) (all species) and [alerstam_points.csv](../data/alerstam_points.csv) (all
+[alerstam.csv](../../data/alerstam.csv) (all species) and [alerstam_points.csv](../../data/alerstam_points.csv) (all
 orbits).
 
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
@@ -132,8 +132,8 @@ def spread_table(moved: list[Moved]) -> str:
     head = (
         "\n## Sensitivity to the derived numbers\n\nThese are results of the model `paper`. Each number is changed "
         "alone, to the low or high end of its plausible range. The ends for span retraction are 0 and 0.5; "
-        "in the row *body-drag* the body has drag, by the law for birds ([tails](tails.md#body-drag)), and in all "
-        "other rows it has none. Each cell gives three changes in percent: of the "
+        "in the row *body-drag* the body has drag, by the law for birds ([tails](../guide/tails.md#body-drag)), "
+        "and in all other rows it has none. Each cell gives three changes in percent: of the "
         "minimum-power speed / of the maximum-range speed / of the minimum power. A dash means that power, or "
         "power over speed, has no minimum within the speeds flown.\n\n"
     )

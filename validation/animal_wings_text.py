@@ -40,7 +40,7 @@ different stalls: C_L is at most {highest:.2f} with air from below the wing and 
 above. The formulas hold from -20 to 25 degrees, where wings were measured. From there to -45 and 45 degrees a
 quintic polynomial leads to the coefficients of the plate (`su-fan`), with equal value, slope and curvature at its
 ends. It is a guess that a wing acts like a plate from 45 degrees on. `wingbeat fit TABLE --form cambered` fits
-this form to a wing of your own ([how](own_coefficients.md)).
+this form to a wing of your own ([how](../guide/own_coefficients.md)).
 """
 METHOD = """
 We convert each gull wing to aspect ratio {ratio:g} with Prandtl's lifting line, whose downwash angle is `C_L / (pi

@@ -1,4 +1,4 @@
-"""Write docs/frequency_trials.md: which change of a pigeon's model gives the frequency of live pigeons.
+"""Write docs/evidence/frequency_trials.md: which change of a pigeon's model gives the frequency of live pigeons.
 
     python validation/frequency_trials.py
 
@@ -17,15 +17,15 @@ import wingbeat as wb
 from wingbeat.files import write_atomically
 
 SPEEDS = 6.0, 10.0, 14.0
-PAGE = Path(__file__).parents[1] / "docs" / "frequency_trials.md"
+PAGE = Path(__file__).parents[1] / "docs" / "evidence" / "frequency_trials.md"
 TEXT = """# What sets the frequency?
 
 `python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
 speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
-([models](models.md)) does not predict this: in its beats of least metabolic power, the frequency is 14 to 17 Hz up
-to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz], flap
-amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of the flight muscle's fibres
-that the beat uses.
+([models](../guide/models.md)) does not predict this: in its beats of least metabolic power, the frequency is 14 to
+17 Hz up to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz],
+flap amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of the flight muscle's
+fibres that the beat uses.
 
 {table}
 
@@ -47,8 +47,8 @@ that the beat uses.
 Three effects are missing from the model. We do not know how large the first two are:
 
 - Activating and relaxing a muscle costs energy and takes time, so each beat has a fixed cost
-  ([muscles](muscles.md)). We found no value of this cost for birds. People who push against a fixed bar 2.5 times
-  a second spend 40 % of their energy on the fast rise of the force (van der Zee and Kuo 2021, J Exp Biol
+  ([muscles](../guide/muscles.md)). We found no value of this cost for birds. People who push against a fixed bar
+  2.5 times a second spend 40 % of their energy on the fast rise of the force (van der Zee and Kuo 2021, J Exp Biol
   224:jeb233965, abstract).
 - Stopping the wing at the end of the downstroke costs the model's elevators more than it costs a live bird's
   elevators. A live bird's wings fold there, and its tendons may store energy.

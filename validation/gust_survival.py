@@ -24,7 +24,7 @@ import wingbeat as wb
 from wingbeat.files import write_atomically
 
 ROOT = Path(__file__).parents[1]
-TABLE, PAGE = ROOT / "data" / "gust_survival.csv", ROOT / "docs" / "gust_survival.md"
+TABLE, PAGE = ROOT / "data" / "gust_survival.csv", ROOT / "docs" / "evidence" / "gust_survival.md"
 GUSTS, SIZE, BEATS = 1000, 5.0, 30  # number of gusts, size of the largest [m/s], beats of each flight
 SEEDS, LASTS = 32, 30.0  # number of flights through turbulence of each level, and how long each lasts [s]
 SIZES, DIRECTIONS = 10, 12  # bins

@@ -46,8 +46,8 @@ COLUMNS = (
 TEXT = """# Which gusts are survived?
 
 `python validation/gust_survival.py` writes this page. It flies a pigeon at 12 m/s and a bat at 8 m/s, by the models
-[`paper` and `animal`](models.md), through random gusts and through turbulence. They fly in open loop, and with the
-feedback of the page on [control](control.md).{missing}
+[`paper` and `animal`](../guide/models.md), through random gusts and through turbulence. They fly in open loop, and
+with the feedback of the page on [control](../guide/control.md).{missing}
 
 - **Gusts.** {gusts} gusts for each line of the table, the same for all controls of an orbit. Their size is uniform
   up to 5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.

@@ -3,7 +3,7 @@
     MUJOCO_GL=osmesa python validation/mujoco_film.py
 
 It needs the extra ``mujoco`` and a library that draws without a screen (OSMesa or EGL). The picture goes to
-``docs/mujoco.gif``.
+``docs/guide/mujoco.gif``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import wingbeat as wb
 
 # The library has no types.
 engine: Any = mujoco
-PICTURE = Path(__file__).parents[1] / "docs" / "mujoco.gif"
+PICTURE = Path(__file__).parents[1] / "docs" / "guide" / "mujoco.gif"
 BEATS, STEPS, FRAMES = 16, 64, 8  # beats flown, and MuJoCo's steps and pictures in each
 WIDTH, HEIGHT = 300, 240  # of each half [pixels]
 PUSH = {"w": 0.5, "body_pitch": 0.1}

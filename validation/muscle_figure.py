@@ -1,4 +1,4 @@
-"""Figure and numbers of `docs/muscles.md`: what a beat of a given frequency costs a pigeon's muscles.
+"""Figure and numbers of `docs/guide/muscles.md`: what a beat of a given frequency costs a pigeon's muscles.
 
 Run from the root of a clone::
 
@@ -14,7 +14,7 @@ import wingbeat as wb
 from wingbeat.plots import save_figure
 from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, dress, legend_below, letter_panels, new_figure
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[1] / "docs" / "guide"
 SPEEDS = (10.0, 12.0, 16.0)
 FREQUENCIES = tuple(float(f) for f in range(4, 19))
 STARTS = 8

@@ -22,7 +22,7 @@ def write_page(
     """Write what `made` makes of the folder of the CSV files, as `name`.md and `name`.png; return the exit code."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--data", type=Path, default=ROOT / "../shared/data", help="folder of the CSV files")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder to write to")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs" / "evidence", help="folder to write to")
     chosen = parser.parse_args(argv)
     try:
         text, figure = made(chosen.data)

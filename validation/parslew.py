@@ -1,4 +1,4 @@
-"""Write docs/parslew.md: what another predictive model of a pigeon does, and what ours does.
+"""Write docs/evidence/parslew.md: what another predictive model of a pigeon does, and what ours does.
 
     python validation/parslew.py [--page]
 
@@ -24,7 +24,11 @@ import wingbeat as wb
 from wingbeat.files import write_atomically
 
 ROOT = Path(__file__).parents[1]
-TABLE, PAGE, FIGURE = ROOT / "data" / "parslew.csv", ROOT / "docs" / "parslew.md", ROOT / "docs" / "parslew.png"
+TABLE, PAGE, FIGURE = (
+    ROOT / "data" / "parslew.csv",
+    ROOT / "docs" / "evidence" / "parslew.md",
+    ROOT / "docs" / "evidence" / "parslew.png",
+)
 CRUISE = 6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0  # m/s, as live pigeons
 CLIMBS = 0.5, 1.0, 2.0, 3.0, 4.0  # m/s
 CLIMB_SPEED = 8.0  # m/s forward

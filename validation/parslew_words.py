@@ -37,12 +37,12 @@ predicted pigeon flies as the abstracts say that their predicted pigeon does.
 
 ## How we flew
 
-We flew the pigeon of the model [`animal`](models.md) with two changes. First, we minimise mean positive power,
-because their model minimises mechanical power. Second, the tilt of the stroke plane and the span retraction are
-free parameters.
+We flew the pigeon of the model [`animal`](../guide/models.md) with two changes. First, we minimise mean positive
+power, because their model minimises mechanical power. Second, the tilt of the stroke plane and the span retraction
+are free parameters.
 *Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. *Frequency free* means
-without this limit. Fast, small strokes then need the least power in our model ([muscles](muscles.md)). Of the
-{count} flights, {certified} are certified.
+without this limit. Fast, small strokes then need the least power in our model ([muscles](../guide/muscles.md)). Of
+the {count} flights, {certified} are certified.
 
 ![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
 

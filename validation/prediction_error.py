@@ -25,7 +25,7 @@ from wingbeat.whole_flights import Measurement, read_measured_flights
 from wingbeat.whole_flights.comparison import AGREES
 
 ROOT = Path(__file__).parents[1]
-TABLE, PAGE = ROOT / "data" / "prediction_error.csv", ROOT / "docs" / "prediction_error.md"
+TABLE, PAGE = ROOT / "data" / "prediction_error.csv", ROOT / "docs" / "evidence" / "prediction_error.md"
 # Flights at most this far from the speed of a measurement at one speed [m/s].
 NEAR = 1.0
 # Predictions depend on the speed, measured frequencies hardly do. So bands of speed are judged apart [m/s].

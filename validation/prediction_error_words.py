@@ -39,9 +39,9 @@ would be worth measuring better?
 We drew {sets} sets of numbers: {drawn}.
 A set holds all numbers of the animal, of its tail, of its muscle and of its wing's coefficients, and a speed. Each
 number is drawn evenly from the range that its source gives. We flew each set with the model
-[`animal`](models.md) from two starts: the stock wingbeat, and the best flight of the species' own numbers at the
-nearest speed of the [whole flights](whole_flights.md). If both starts lead to a certified flight, we keep the one
-with less metabolic power. For {certified} sets we found a certified flight.
+[`animal`](../guide/models.md) from two starts: the stock wingbeat, and the best flight of the species' own numbers
+at the nearest speed of the [whole flights](whole_flights.md). If both starts lead to a certified flight, we keep
+the one with less metabolic power. For {certified} sets we found a certified flight.
 For {own} of these sets, the flight that we kept started from the flight of the species' own numbers.
 
 ![Predicted over measured values for each quantity and band of speeds]({figure})

@@ -2,7 +2,7 @@
 
     python validation/robot_motor.py
 
-prints the numbers of docs/muscles.md. The makers published the robot's simulation: Fei et al. 2019,
+prints the numbers of docs/guide/muscles.md. The makers published the robot's simulation: Fei et al. 2019,
 arXiv 1902.09628, code purdue-biorobotics/flappy (Actuator.cpp, Wing.cpp, mav_config_list.json, pid_controller.py).
 `makers_hover` marches these equations for one wing whose pitch is at its stop in each half of the stroke. It shares
 no code with wingbeat. `carried` gives the same flap to wingbeat's model `animal`.

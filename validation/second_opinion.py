@@ -70,7 +70,7 @@ def main(argv: list[str] | None = None) -> int:
     """Write the page and the figure; return the exit code."""
     parser = argparse.ArgumentParser(description="Our air loads beside a vortex lattice.")
     parser.add_argument("--records", type=Path, default=Path("second_opinion"), help="folder of the comparisons")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs", help="folder to write to")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs" / "evidence", help="folder to write to")
     chosen = parser.parse_args(argv)
     chosen.records.mkdir(parents=True, exist_ok=True)
     records = {}

@@ -1,4 +1,4 @@
-"""Write docs/slow_flight.md: which single change lets a pigeon in slow flight beat as slowly as live pigeons do.
+"""Write docs/evidence/slow_flight.md: which single change makes a slow pigeon beat as slowly as live ones.
 
     python validation/slow_flight.py
 
@@ -18,7 +18,7 @@ from wingbeat.files import writing
 
 SPEEDS = 4.0, 6.0, 8.0, 10.0
 STARTS = 6
-PAGE = Path(__file__).parents[1] / "docs" / "slow_flight.md"
+PAGE = Path(__file__).parents[1] / "docs" / "evidence" / "slow_flight.md"
 TEXT = """# Slow flight
 
 `python validation/slow_flight.py` writes the table of this page. It asks which single change lets a pigeon fly
@@ -44,7 +44,7 @@ lowest frequency [Hz] that six starts found for level flight.
 - Shoulders at their measured place, ahead of the centre of mass, raise the frequency. A free tilt of the stroke
   plane makes up for this rise only at 10 m/s.
 
-The model `animal` ([models](models.md)) has the delayed stall, a tail and a free downstroke fraction. At
+The model `animal` ([models](../guide/models.md)) has the delayed stall, a tail and a free downstroke fraction. At
 4 m/s the lowest frequency found with this model is 9.6 Hz, a fifth above the 8.0 Hz of live pigeons at 4.5 m/s. At
 6 m/s it is 8.5 Hz. The remaining difference may be due to a C_L above 1.64, to the clap of the wings at the top of
 the stroke, or to twist. We found no measured values of these.

@@ -1,4 +1,4 @@
-"""Figures of `docs/air_loads.md`: what each term adds over a beat, and what a tail and an upstroke factor do.
+"""Figures of `docs/guide/air_loads.md`: what each term adds over a beat, and what a tail and an upstroke factor do.
 
 Run from the root of a clone::
 
@@ -31,7 +31,7 @@ from wingbeat.style import (
     shade_downstrokes,
 )
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[1] / "docs" / "guide"
 SPEED = 8.0
 STARTS = 4
 

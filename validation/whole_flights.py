@@ -21,7 +21,7 @@ from wingbeat.whole_flights import Prediction, measured_animals, predict_flights
 from wingbeat.whole_flights.page import flight_text, overview_text
 
 ROOT = Path(__file__).parents[1]
-FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs"
+FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs" / "evidence"
 
 
 def flown(animal: str, anew: bool, draws: int, processes: int) -> Prediction:

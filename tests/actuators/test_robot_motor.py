@@ -44,7 +44,7 @@ def test_the_motor_needs_what_the_makers_equations_give_it(hovers, resistance):
 
 
 def test_wingbeats_own_air_asks_more_of_the_motor_and_lifts_less(hovers):
-    """The plate has a smaller coefficient than the makers' formula; docs/muscles.md gives these numbers."""
+    """The plate has a smaller coefficient than the makers' formula; docs/guide/muscles.md gives these numbers."""
     theirs = hovers[robot_motor.NOMINAL].numbers
     ours = robot_motor.carried(hovers[robot_motor.NOMINAL])
     ratios = {name: ours[name] / theirs[name] for name in theirs}

@@ -268,7 +268,7 @@ def study(monkeypatch):
 def test_the_study_of_measured_wings_writes_what_the_repository_holds(study, here):
     assert study(["--data", str(DATA), "-o", "."]) == 0
     page = Path("measured_wings.md").read_text()
-    assert page == (ROOT / "docs/measured_wings.md").read_text()
+    assert page == (ROOT / "docs/evidence/measured_wings.md").read_text()
     assert page.count("| gull F") == 9 + 18
 
 

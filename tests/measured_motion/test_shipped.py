@@ -152,7 +152,7 @@ def test_the_page_is_the_one_in_the_docs(found, tmp_path, capsys):
     assert (tmp_path / "validation_dragonfly-azuma1988-2.png").stat().st_size > 10_000
     text = page.read_text(encoding="utf-8")
     assert "| **dickinson** | **none** | **none** | **0.9" in text
-    committed = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    committed = (ROOT / "docs" / "evidence" / "validation.md").read_text(encoding="utf-8")
     head = text.split("## Recommended rows")[0]
     assert committed.startswith(head)
     for name, one in found.items():

@@ -13,7 +13,7 @@ import pytest
 
 from tests.helpers.places import ROOT
 
-STUDY, DOCS, TABLES = ROOT / "validation/alerstam.py", ROOT / "docs", ROOT / "data"
+STUDY, DOCS, TABLES = ROOT / "validation/alerstam.py", ROOT / "docs" / "evidence", ROOT / "data"
 DATA = ROOT / "../shared/data"
 
 

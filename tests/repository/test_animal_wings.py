@@ -8,7 +8,11 @@ import pytest
 import wingbeat as wb
 from tests.helpers.places import ROOT
 
-DATA, STUDY, PAGE = ROOT / "../shared/data", ROOT / "validation/animal_wings.py", ROOT / "docs/animal_wings.md"
+DATA, STUDY, PAGE = (
+    ROOT / "../shared/data",
+    ROOT / "validation/animal_wings.py",
+    ROOT / "docs/evidence/animal_wings.md",
+)
 needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="other people's measurements are not in this repository")
 
 

@@ -17,8 +17,8 @@ from tests.helpers.places import ROOT
 from wingbeat.cli.app import build_app
 
 DOCS = ROOT / "docs"
-PAGES = [page for page in sorted(DOCS.glob("*.md")) if "```python" in page.read_text(encoding="utf-8")]
-TYPED_PAGES = [*sorted(ROOT.glob("*.md")), ROOT / "data" / "README.md", *sorted(DOCS.glob("*.md"))]
+PAGES = [page for page in sorted(DOCS.rglob("*.md")) if "```python" in page.read_text(encoding="utf-8")]
+TYPED_PAGES = [*sorted(ROOT.glob("*.md")), ROOT / "data" / "README.md", *sorted(DOCS.rglob("*.md"))]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 EXTRAS = set(PROJECT["project"]["optional-dependencies"])
 GROUPS = set(PROJECT["dependency-groups"])
@@ -187,7 +187,7 @@ def test_links_lead_to_files(page):
 
 
 def test_docs_hold_pages_and_pictures_and_the_data_are_described():
-    assert {path.suffix for path in DOCS.iterdir()} == {".md", ".png", ".gif"}
+    assert {path.suffix for path in DOCS.rglob("*") if path.is_file()} == {".md", ".png", ".gif"}
     described = (ROOT / "data" / "README.md").read_text(encoding="utf-8")
     tables = [path for path in (ROOT / "data").iterdir() if path.name != "README.md"]
     assert tables
@@ -196,7 +196,9 @@ def test_docs_hold_pages_and_pictures_and_the_data_are_described():
 
 def test_the_example_study_is_the_one_on_its_page():
     shown = re.search(
-        r"`examples/wings.toml`:\n\n```toml\n(.*?)```", (DOCS / "studies.md").read_text("utf-8"), re.DOTALL
+        r"`examples/wings.toml`:\n\n```toml\n(.*?)```",
+        (DOCS / "guide" / "studies.md").read_text("utf-8"),
+        re.DOTALL,
     )
     assert shown is not None
     assert (ROOT / "examples" / "wings.toml").read_text(encoding="utf-8") == shown[1]

@@ -1,4 +1,4 @@
-"""Every number of docs/findings.md is counted again, from the sets in data/assumptions.csv, and none is left out.
+"""Every number of docs/evidence/findings.md is counted again from data/assumptions.csv, and none is left out.
 
 Each function of `COUNTS` returns phrases with the numbers that the sets give. The page must hold all of them, and
 every number of the page must lie in one of them. After a new sample `python -m tests.repository.test_findings`
@@ -31,7 +31,7 @@ from wingbeat.paper.pigeon_claims import AGREES
 from wingbeat.paper.treatments import SAMPLE_SPEED
 from wingbeat.species import load_species
 
-DOCS, TABLE = ROOT / "docs", ROOT / "data" / "assumptions.csv"
+DOCS, TABLE = ROOT / "docs" / "evidence", ROOT / "data" / "assumptions.csv"
 TRIPLE = ["twice-the-frequency", "pitch-range-su-fan", "power-exponent"]
 PEAKS = ["peak-power-su-fan", "peak-power-dickinson"]
 PIECE = 1000

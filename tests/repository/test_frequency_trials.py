@@ -8,7 +8,7 @@ from scipy.special import hankel2
 import wingbeat as wb
 from tests.helpers.places import ROOT
 
-PAGE = (ROOT / "docs" / "frequency_trials.md").read_text()
+PAGE = (ROOT / "docs" / "evidence" / "frequency_trials.md").read_text()
 
 
 def test_the_script_prints_the_words_of_the_page(monkeypatch):

@@ -21,7 +21,7 @@ def table():
 
 def test_the_page_is_that_of_the_table(words, table, tmp_path):
     found = words.page(table, tmp_path / "gust_survival.png")
-    assert found == (ROOT / "docs" / "gust_survival.md").read_text(encoding="utf-8")
+    assert found == (ROOT / "docs" / "evidence" / "gust_survival.md").read_text(encoding="utf-8")
     assert (tmp_path / "gust_survival.png").stat().st_size > 10_000
 
 

@@ -20,7 +20,10 @@ def flights():
 
 
 def test_the_page_is_that_of_the_table(words, flights, tmp_path):
-    assert words.page(flights, tmp_path / "parslew.png", 9.6) == (ROOT / "docs" / "parslew.md").read_text()
+    assert (
+        words.page(flights, tmp_path / "parslew.png", 9.6)
+        == (ROOT / "docs" / "evidence" / "parslew.md").read_text()
+    )
     assert (tmp_path / "parslew.png").stat().st_size > 10_000
 
 

@@ -23,7 +23,7 @@ def sets():
 
 def test_the_page_is_that_of_the_table(script, sets, tmp_path):
     found = script.page(sets, list(script.errors(sets)), tmp_path / "prediction_error.png")
-    assert found == (ROOT / "docs" / "prediction_error.md").read_text()
+    assert found == (ROOT / "docs" / "evidence" / "prediction_error.md").read_text()
     assert (tmp_path / "prediction_error.png").stat().st_size > 10_000
 
 

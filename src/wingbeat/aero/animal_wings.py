@@ -1,7 +1,7 @@
 """Coefficient models of animals' wings; each number has an interval and a basis, which is a measurement or a guess.
 
 ``validation/animal_wings.py`` computes the numbers of `Feathered` from measurements that are not part of this
-project. It writes ``docs/animal_wings.md``, which shows how well the model agrees with measured wings.
+project. It writes ``docs/evidence/animal_wings.md``, which shows how well the model agrees with measured wings.
 """
 
 from __future__ import annotations

@@ -141,9 +141,9 @@ def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) 
     judged, seconds = pieces.joined()
     heading = (
         f"`wingbeat paper assumptions --sets {sample.sets} --seed {sample.seed} --piece {sample.piece}` "
-        f"(numerical version {NUMERICAL_VERSION}) solved a [study](studies.md) for each animal, coefficient model "
-        f"and choice of trims, with {STARTS} starts per orbit. One of the starts is the orbit at the previous "
-        f"speed, if there is one. {SURENESS} The orbits took "
+        f"(numerical version {NUMERICAL_VERSION}) solved a [study](../guide/studies.md) for each animal, "
+        f"coefficient model and choice of trims, with {STARTS} starts per orbit. One of the starts is the orbit at "
+        f"the previous speed, if there is one. {SURENESS} The orbits took "
         f"{seconds / 3600:.1f} core-hours, {seconds / len(judged.sets):.2f} s per set.{so_far}"
     )
     if so_far:

@@ -96,8 +96,8 @@ def validate(
     With an animal, the command predicts its flights at the measured speeds by a model; nothing is fitted. Exit
     code 3: none of these flights is certified.
 
-    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o docs/validation.md;
-    wingbeat validate pigeon --draws 100 -o pigeon.md
+    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o
+    docs/evidence/validation.md; wingbeat validate pigeon --draws 100 -o pigeon.md
     """
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".md":

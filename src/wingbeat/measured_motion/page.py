@@ -9,7 +9,7 @@ from wingbeat.measured_motion.scores import Score
 
 _HEAD = """# Air loads on measured motions
 
-`uv run wingbeat validate -o docs/validation.md` writes this page and computes every number in it. It takes
+`uv run wingbeat validate -o docs/evidence/validation.md` writes this page and computes every number in it. It takes
 measured motions of wings, computes the air loads on the wings' strips, and compares the computed forces with the
 measured ones. For a case of your own, run `wingbeat validate my_case.toml`; `wingbeat validate --help` and the
 docstring of `wb.read_strip_case` describe its files.
@@ -79,7 +79,7 @@ Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too
 starts as in steady flight.
 
 The lag, like rotation and added mass, is computed for a wing section. A whole wing lags less than its sections:
-[air loads](air_loads.md) says what that means for the robot `flapper-yeo2011`.
+[air loads](../guide/air_loads.md) says what that means for the robot `flapper-yeo2011`.
 
 ## Whole flights
 

@@ -76,8 +76,8 @@ def search_from_optima(
     programme : of the problem.
     easier : ends of the searches of the easier problem.
     threads : number of local searches at a time.
-    pruned : whether to leave out families that are dearer without the limits than an optimum found with them. Limits
-        only raise the objective within a family.
+    pruned : whether to leave out families that are dearer without the limits than an optimum found with them.
+        Limits only raise the objective within a family.
     """
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     found: list[Candidate] = []

@@ -8,7 +8,8 @@ from wingbeat.paper.claim import Claim, Evidence, Finding, NotFlownError
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, PLANFORMS, Orbits
 
 # "Does not have a significant impact" means that the median change of frequency is at most this. The error of the
-# strips is as large: ten strips, the paper's number, leave an error of some per cent (docs/convergence.md).
+# strips is as large: ten strips, the paper's number, leave an error of some per cent
+# (docs/evidence/convergence.md).
 INSIGNIFICANT = 0.05
 
 

@@ -216,7 +216,7 @@ def _of_fit(
 
 # Share of the draws' variance that the first-order estimate must predict. At a tenth and at three tenths of every
 # range it predicts 97 to 99.9 %, and its standard deviation agrees with that of the draws. Over the bat's whole
-# ranges it predicts 6 %, and the two deviations disagree (docs/sensitivities.md).
+# ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
 _BORNE_OUT = 0.9
 
 

@@ -19,7 +19,7 @@ class LatticeOptions:
     """The resolution of the lattice, and the number of beats that it flies.
 
     For extrapolation, a lattice with half as many panels and steps is flown too, so numbers of panels and steps are
-    even. The page `docs/second_opinion.md` has the convergence study behind the defaults.
+    even. The page `docs/evidence/second_opinion.md` has the convergence study behind the defaults.
 
     Parameters
     ----------

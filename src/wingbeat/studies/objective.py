@@ -60,6 +60,6 @@ def _run(name: str, file: str, code: str) -> Quantity:
     if isinstance(found, Quantity):
         return found
     if not callable(found):
-        faults.add(where, name, "is not a function or a Quantity of that file", "see docs/objectives.md")
+        faults.add(where, name, "is not a function or a Quantity of that file", "see docs/guide/objectives.md")
         faults.raise_if_any()
     return Quantity(name, found)

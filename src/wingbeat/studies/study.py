@@ -100,7 +100,7 @@ class Study:
         retry_failed : try points again that failed before (an error, a crash, a time-out).
         progress : called with a tally whenever it changes.
         dask : a Dask cluster to use instead of processes: ``tcp://HOST:PORT`` of its scheduler, ``local:N``, or a
-            cluster object of Dask; see docs/clusters.md.
+            cluster object of Dask; see docs/guide/clusters.md.
 
         Raises
         ------
@@ -187,7 +187,7 @@ class Study:
             ]
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Return a row for each point, in the order of the study; see docs/studies.md for its columns.
+        """Return a row for each point, in the order of the study; see docs/guide/studies.md for its columns.
 
         Raises
         ------

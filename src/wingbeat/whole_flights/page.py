@@ -10,7 +10,8 @@ from wingbeat.whole_flights.prediction import FEWEST_DRAWS, Flown, Prediction
 
 _FIT = (
     "Nothing is fitted to the measurements below. The polars of the wings are fitted to measured wings "
-    "([animal wings](animal_wings.md)), and scaling laws give what the species file lacks ([models](models.md))."
+    "([animal wings](animal_wings.md)), and scaling laws give what the species file lacks "
+    "([models](../guide/models.md))."
 )
 
 

@@ -1,7 +1,7 @@
 """Pin worker processes to one core each (CPU affinity), if there is a process for every core.
 
 XLA hands a program from the calling thread to another thread, and back. By default, the system puts these threads
-on different cores, so each of these changes finds cold caches: see docs/performance.md.
+on different cores, so each of these changes finds cold caches: see docs/evidence/performance.md.
 """
 
 from __future__ import annotations

@@ -29,7 +29,6 @@ PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is tha
 PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
 CLOSURE = ("x", "z", *PITCH_STATE)
 CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])  # residuals that matter, in the units of CLOSURE
-_BY_ITSELF = np.eye(len(PITCH_STATE))  # derivative of the initial pitch state; made once because each flight needs it
 # Free parameters that change when or how fast the wings move along the stroke, or turn the whole stroke.
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt", "tail_tilt")
 FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
@@ -343,7 +342,7 @@ class OrbitProblem:
         frequency : of the wingbeat [Hz].
         """
         jacobian = np.array(end_jacobian)
-        jacobian[2:, :4] -= _BY_ITSELF
+        jacobian[2:].flat[:: jacobian.shape[1] + 1] -= 1.0  # the initial pitch state by itself
         if "frequency" in self.free:
             column = 4 + self.free.index("frequency")
             jacobian[0, column] += self.speed / frequency**2

@@ -13,6 +13,7 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import read_result
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.results.orbit import load_orbit
+from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 
 _SUFFIXES = (".html", ".gif")
@@ -61,7 +62,7 @@ def view(
         faults.add("--push", True, rule, "give one orbit, and an output that ends in .html")
     if delay is not None and not push:
         faults.add("--delay", delay, "is that of the feedback of --push", "add --push")
-    faults.whole("--delay", delay or 0, 0, 4, "beats")
+    faults.whole("--delay", delay or 0, 0, MOST_DELAY, "beats")
     faults.raise_if_any()
     check_outputs(output)
     flights = [(path.stem, read_result(path)) for path in (file, other) if path is not None]

@@ -31,7 +31,7 @@ from wingbeat.orbits.problem.map_quantities import MapQuantity
 from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
 from wingbeat.orbits.problem.stable import asks_for_stability, minimises_map
 from wingbeat.orbits.solution import Optimum, Solution, better_of, families
-from wingbeat.orbits.starts import start_count, start_point
+from wingbeat.orbits.starts import start_count, start_point, usual_most_starts
 from wingbeat.orbits.status import Status
 from wingbeat.workers.affinity import core_count
 
@@ -82,7 +82,7 @@ def find_orbit(
     InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
     starts = start_count(problem, starts, options.search)
-    most = options.search.most_starts if most_starts is None else most_starts
+    most = usual_most_starts(problem, options.search) if most_starts is None else most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()
     threads = threads or core_count()
@@ -148,9 +148,6 @@ def _searched(
         found += led
         if (best := first_certified(programme, led)) is not None:
             break
-    if asks_for_stability(programme.problem):
-        # Stable orbits are next to optima without limits of stability: few are found from other starts.
-        most = min(most, 3 * starts)
     more = range(starts, most if best is None else starts)
     for done, candidate in enumerate(search_from_starts(programme, more, seed, threads), starts + 1):
         found.append(candidate)

@@ -29,6 +29,11 @@ def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search
     return options.starts_of_outputs if problem.has_outputs else options.starts
 
 
+def usual_most_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
+    """Return the default of the largest number of starts, tried while none leads to a certified orbit."""
+    return options.most_stable_starts if asks_for_stability(problem) else options.most_starts
+
+
 def start_count(problem: OrbitProblem, starts: int | None, options: SearchOptions = DEFAULTS.search) -> int:
     """Return the number of starts as given, or the default of the problem."""
     return usual_starts(problem, options) if starts is None else starts

@@ -98,7 +98,8 @@ def solve_orbits(
     processes : how many Python processes share the work. A script whose own functions or classes are in the
         problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
-    most_starts : number of starts without an orbit after which the solver gives up; default 50. Fewer save time.
+    most_starts : number of starts without an orbit after which the solver gives up; default as in `SearchOptions`.
+        Fewer save time.
     advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does;
         this takes seconds for each.
     in_order : whether the problems are a series, such as speeds in order, with the same free parameters. Each

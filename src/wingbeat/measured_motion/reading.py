@@ -19,8 +19,8 @@ from wingbeat.measured_motion.strip_checks import (
 )
 from wingbeat.measured_motion.strip_table import read_strips
 
-_REQUIRED = ("name", *SCALAR_LIMITS, "mirrored", "periodic", "strips")
-_KNOWN = (*_REQUIRED, "from", "to", "forces", "mean_force", "wing")
+REQUIRED_KEYS = ("name", *SCALAR_LIMITS, "mirrored", "periodic", "strips")
+KNOWN_KEYS = (*REQUIRED_KEYS, "from", "to", "forces", "mean_force", "wing")
 # If the frequency is invalid, steps of up to ten minutes are accepted, because we cannot say what is wrong with
 # them.
 _UNKNOWN_FREQUENCY = 3e-4
@@ -110,11 +110,11 @@ def shipped_cases() -> list[Path]:
 
 def _check_keys(faults: FaultList, given: dict[str, Any], file: str) -> None:
     for key in given:
-        if key not in _KNOWN:
-            faults.add(f"{file}, {key!r}"[:100], "", "is not a known key", suggest(key, _KNOWN))
-    for key in _REQUIRED:
+        if key not in KNOWN_KEYS:
+            faults.add(f"{file}, {key!r}"[:100], "", "is not a known key", suggest(key, KNOWN_KEYS))
+    for key in REQUIRED_KEYS:
         if key not in given:
-            faults.add(f"{file}, {key}", "", "is missing", f"a case has {', '.join(_REQUIRED)}")
+            faults.add(f"{file}, {key}", "", "is missing", f"a case has {', '.join(REQUIRED_KEYS)}")
     check_scalars(faults, {k: v for k, v in given.items() if k not in ("strips",)}, lambda name: f"{file}, {name}")
     for key in ("strips", "forces"):
         if key in given and not (isinstance(given[key], str) and given[key].strip()):

@@ -53,11 +53,21 @@ class Vary(BaseModel):
 
     model_config = _STRICT
     # If Python already uses a key of the file, the field has another name.
-    grid: _Values | None = None
-    relative: Annotated[list[_Finite], _Some] | None = None
-    rows: _Values | None = Field(default=None, alias="list")
-    ends: _Pair | None = Field(default=None, alias="range")
-    relative_range: _Pair | None = None
+    grid: _Values | None = Field(
+        default=None, description="these values, each combined with those of the other grids"
+    )
+    relative: Annotated[list[_Finite], _Some] | None = Field(
+        default=None, description="multiples of the species' own value, combined in the same way as grids"
+    )
+    rows: _Values | None = Field(
+        default=None, alias="list", description="lists are combined row by row and must have equal length"
+    )
+    ends: _Pair | None = Field(
+        default=None, alias="range", description="sampled between the two ends, jointly with all other ranges"
+    )
+    relative_range: _Pair | None = Field(
+        default=None, description="sampled in the same way between two multiples of the species' own value"
+    )
 
     @property
     def given(self) -> tuple[str, ...]:
@@ -79,45 +89,71 @@ class Sample(BaseModel):
     """How ranges are sampled."""
 
     model_config = _STRICT
-    n: int
-    method: str = "sobol"
-    seed: int | None = None
+    n: int = Field(description="number of points")
+    method: str = Field(default="sobol", description="`sobol` or `latin-hypercube`")
+    seed: int | None = Field(default=None, description="of the sample; default the seed of the study")
 
 
 class StudyForm(BaseModel):
     """A study of all combinations of the lists outside `vary`; ``free`` and a set of limits count as one value."""
 
     model_config = _STRICT
-    species: _Texts
-    model: _Texts = Field(default=["paper"])
-    aero: _Texts = Field(default=["su-fan"])
-    extension: _Texts = Field(default=["mirrored"])
-    blend_width_deg: _Numbers = Field(default=[1.0])
-    strips: _Counts = Field(default=[10])
-    force_point: _Texts = Field(default=["quarter-chord"])
-    airspeed: _Texts = Field(default=["planar"])
-    unsteady: _Texts = Field(default=["none"])
-    inflow: _Texts = Field(default=["none"])
-    induced_factor: _Numbers = Field(default=[1.2])
-    hand: _Texts = Field(default=["none"])
-    hand_from: _Numbers = Field(default=[0.5])
-    upstroke_factor: _Numbers = Field(default=[1.0])
-    speed: _Numbers | None = None
-    climb: _Numbers = Field(default=[0.0])
-    payload: _Numbers = Field(default=[0.0])
-    minimise: _Texts = Field(default=["frequency"])
-    subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = Field(default=[[]])
-    starts: _Counts | None = None
-    seed: _Counts = Field(default=[0])
-    most_starts: _Counts | None = None
-    free: Annotated[list[_Text], _Some] | None = None
-    bounds: _Bounds = Field(default={})
-    settings: dict[str, Any] = Field(default={}, alias="set")
-    advise: bool = False
-    explain: bool = True
-    chain: str | None = None
-    vary: dict[str, Vary] = Field(default={})
-    sample: Sample | None = None
+    species: _Texts = Field(description="names of species, or paths of species files beside the study")
+    model: _Texts = Field(
+        default=["paper"],
+        description="`paper` or `animal`; sets air loads and objective, unless the study gives them",
+    )
+    aero: _Texts = Field(default=["su-fan"], description="coefficient models: names, or files beside the study")
+    extension: _Texts = Field(
+        default=["mirrored"], description="how coefficients continue outside the angles of the fit"
+    )
+    blend_width_deg: _Numbers = Field(
+        default=[1.0], description="half width of the blends where pieces of the coefficients meet [deg]"
+    )
+    strips: _Counts = Field(default=[10], description="number of strips of a wing")
+    force_point: _Texts = Field(default=["quarter-chord"], description="where on the chord the air load acts")
+    airspeed: _Texts = Field(default=["planar"], description="airspeed that determines the loads of a strip")
+    unsteady: _Texts = Field(default=["none"], description="unsteady terms of the air loads")
+    inflow: _Texts = Field(default=["none"], description="induced flow")
+    induced_factor: _Numbers = Field(default=[1.2], description="ratio of induced power to that of an ideal disc")
+    hand: _Texts = Field(default=["none"], description="coefficient models of the hand")
+    hand_from: _Numbers = Field(
+        default=[0.5], description="fraction of the span at which the hand's coefficients begin"
+    )
+    upstroke_factor: _Numbers = Field(
+        default=[1.0], description="factor on lift and drag where air meets the wing from above"
+    )
+    speed: _Numbers | None = Field(default=None, description="mean horizontal speeds [m/s]")
+    climb: _Numbers = Field(default=[0.0], description="mean vertical speeds [m/s]")
+    payload: _Numbers = Field(default=[0.0], description="masses added at the body's centre of mass [kg]")
+    minimise: _Texts = Field(
+        default=["frequency"], description="objectives: names, or functions of a file, such as `mine.py:lift`"
+    )
+    subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = Field(
+        default=[[]], description="limits; one list is one set, a list of lists several sets"
+    )
+    starts: _Counts | None = Field(default=None, description="numbers of starts; default as in `wingbeat orbit`")
+    seed: _Counts = Field(default=[0], description="seeds of the random starts")
+    most_starts: _Counts | None = Field(
+        default=None, description="while no start leads to an orbit, more follow, up to this many"
+    )
+    free: Annotated[list[_Text], _Some] | None = Field(
+        default=None, description="names of the free parameters; default those of the species"
+    )
+    bounds: _Bounds = Field(default={}, description="bounds of free parameters by name, or `plausible`")
+    settings: dict[str, Any] = Field(
+        default={}, alias="set", description="changes of numbers for all points, by path"
+    )
+    advise: bool = Field(
+        default=False, description="whether points without an orbit list the changes that would give one"
+    )
+    explain: bool = Field(default=True, description="whether points without an orbit name the balance that fails")
+    chain: str | None = Field(
+        default=None,
+        description="`speed`: points that differ only in speed are solved in order and start from one another",
+    )
+    vary: dict[str, Vary] = Field(default={}, description="values of varied numbers, by path")
+    sample: Sample | None = Field(default=None, description="how ranges are sampled")
 
 
 def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:

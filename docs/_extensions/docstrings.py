@@ -1,0 +1,41 @@
+"""Docstrings of wingbeat as Sphinx reads them.
+
+A parameter stands as ``name : meaning``. In numpydoc's form, the place after the colon is that of a type; here types
+stand in the signature, so the meaning moves to the line below.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from sphinx.application import Sphinx
+
+_SECTIONS = ("Parameters", "Returns", "Raises", "Attributes", "Yields")
+_ENTRY = re.compile(r"^(\S[^:]*?) : (.+)$")
+
+
+def meanings_below(lines: list[str]) -> list[str]:
+    """Return the lines of a docstring with each meaning below its name."""
+    found: list[str] = []
+    inside = False
+    for i, line in enumerate(lines):
+        underlined = i + 1 < len(lines) and set(lines[i + 1]) == {"-"}
+        if underlined:
+            inside = line.strip() in _SECTIONS
+        entry = _ENTRY.match(line) if inside else None
+        if entry:
+            found += [entry[1], f"    {entry[2]}"]
+        else:
+            found.append(line)
+    return found
+
+
+def _process(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
+    lines[:] = meanings_below(lines)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Run before napoleon, which has the default priority of 500."""
+    app.connect("autodoc-process-docstring", _process, priority=400)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

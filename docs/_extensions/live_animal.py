@@ -1,0 +1,29 @@
+"""The animals that fly on the first page: orbits solved when the site is built, in the viewer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+import wingbeat as wb
+
+
+def write_live(app: Sphinx) -> None:
+    """Write the viewer's page of a pigeon and a bat, unless it is there."""
+    path = Path(app.srcdir) / "_live" / "live.html"
+    if path.exists():
+        return
+    flights = []
+    for name, speed in (("pigeon", 10.0), ("bat", 6.0)):
+        orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed))
+        flights.append((f"{name}, {speed:g} m/s", orbit.dataset))
+    wb.viewer.write_page(flights, path)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Write the page before Sphinx copies it."""
+    (Path(app.srcdir) / "_live").mkdir(exist_ok=True)  # Sphinx looks for it before anything is written
+    app.connect("builder-inited", write_live, priority=100)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,6 +1,6 @@
 """Docstrings of wingbeat as Sphinx reads them.
 
-A parameter stands as ``name : meaning``. In numpydoc's form, the place after the colon is that of a type; here types
+A parameter stands as ``name : meaning``. In numpydoc's form, the place after the colon is that of a type. Here types
 stand in the signature, so the meaning moves to the line below.
 """
 

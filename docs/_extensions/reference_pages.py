@@ -65,8 +65,8 @@ def species_file() -> str:
 
 A TOML file; `uv run wingbeat species new mine.toml --kind bird --mass 0.3` writes one. Values are in SI units and
 radians. A key of an angle may end in `_deg`; its value is then in degrees. Give either `vehicle.mass` or
-`vehicle.body.mass`. Numbers may stand alone, or as a table with `value`, `unit`, `source` and `range`, the lowest and
-highest plausible value. Keys of a part, such as `vehicle.tail`, are required only if the part is there.
+`vehicle.body.mass`. Numbers may stand alone, or as a table with `value`, `unit`, `source` and `range`, the lowest
+and highest plausible value. Keys of a part, such as `vehicle.tail`, are required only if the part is there.
 `uv run wingbeat species --schema` prints the JSON schema, with which editors check such files.
 
 ## Numbers of the animal
@@ -74,13 +74,14 @@ highest plausible value. Keys of a part, such as `vehicle.tail`, are required on
 {table(head, _species_rows(KEYS))}
 ## Free parameters and limits along the path
 
-Give `bounds`, and optionally `unit`, `reason` and `guessed`. The last is true if a warning shall name the bound when
-an orbit is at it.
+Give `bounds`, and optionally `unit`, `reason` and `guessed`. If the last is true, a warning names the bound when an
+orbit is at it.
 
 {free}
 ## Plausible ranges
 
-Give `low`, `high` or both, and optionally `unit`, `source` and `speeds`, the speeds at which the range applies [m/s].
+Give `low`, `high` or both, and optionally `unit`, `source` and `speeds`: the speeds at which the range applies
+[m/s].
 
 {table(head, ((*row[:1], "low, high", *row[2:]) for row in _species_rows(PLAUSIBLE)))}
 ## Other keys
@@ -174,8 +175,8 @@ def record() -> str:
 
 ## The record of an orbit
 
-`wingbeat orbit --json` prints it, `Orbit.record()` returns it, and NetCDF files hold it as attributes. Numbers are in
-SI units and radians; an angle whose name ends in `_deg` is in degrees. A number that is not defined, such as the
+`wingbeat orbit --json` prints it, `Orbit.record()` returns it, and NetCDF files hold it as attributes. Numbers are
+in SI units and radians; an angle whose name ends in `_deg` is in degrees. A number that is not defined, such as the
 Strouhal number in hover, is null.
 
 {table(("name", "meaning"), named)}

@@ -7,6 +7,7 @@ an environment that has wingbeat; `text` is printed. Of inline code, what begins
 import itertools
 import re
 import shlex
+import subprocess
 import tomllib
 
 import pytest
@@ -17,8 +18,18 @@ from tests.helpers.places import ROOT
 from wingbeat.cli.app import build_app
 
 DOCS = ROOT / "docs"
-PAGES = [page for page in sorted(DOCS.rglob("*.md")) if "```python" in page.read_text(encoding="utf-8")]
-TYPED_PAGES = [*sorted(ROOT.glob("*.md")), ROOT / "data" / "README.md", *sorted(DOCS.rglob("*.md"))]
+
+
+def kept(*folders):
+    """Return the files of the folders that are not written when the site is built, as Git knows."""
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", *folders]
+    names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()
+    return [ROOT / name for name in sorted(names) if (ROOT / name).is_file()]
+
+
+DOCS_PAGES = [page for page in kept("docs") if page.suffix == ".md"]
+TYPED_PAGES = [*sorted(ROOT.glob("*.md")), ROOT / "data" / "README.md", *DOCS_PAGES]
+PAGES = [page for page in (ROOT / "README.md", *DOCS_PAGES) if "```python" in page.read_text(encoding="utf-8")]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 EXTRAS = set(PROJECT["project"]["optional-dependencies"])
 GROUPS = set(PROJECT["dependency-groups"])
@@ -27,6 +38,15 @@ LANGUAGES = {"sh", "bash", "text", "python", "py", "toml", "csv", "matlab"}
 FILE = re.compile(r"[\w./-]+\.(toml|csv|nc|json|jsonl|html|gif|png|pdf|mat|parquet|sqlite|py)")
 WRITES = {"-o", "--output", "--plot", "--tornado", "--plot-kinematics"}
 TOOLS = {"pytest", "ruff", "pyright", "lint-imports", "pre-commit"}  # of the group dev
+SUFFIXES = {
+    ".css",
+    ".gif",
+    ".md",
+    ".png",
+    ".py",
+    ".txt",
+    ".woff2",
+}  # of pages, pictures, and what the site is made with
 
 
 def page_name(page):
@@ -47,6 +67,7 @@ def test_python_of_a_page_runs(page, capsys, monkeypatch):
 def commands(text):
     """Return the commands of a page in their order, as words, and whether each stands in a script to be saved."""
     found = []
+    text = re.sub(r"^(:{3,}|```)\{.*?^\1$", "", text, flags=re.DOTALL | re.MULTILINE)  # what only the site reads
     fenced = re.compile(r"^```(\w*)\n(.*?)^```", re.DOTALL | re.MULTILINE)
     inline = re.compile(r"`(uv run [^`]+)`")
     for match in re.finditer(rf"{fenced.pattern}|{inline.pattern}", text, re.DOTALL | re.MULTILINE):
@@ -96,6 +117,8 @@ def faults_of_uv_run(words, made):
         needed = {"cluster"} if "dask_engine" in source else set()
     elif program in TOOLS:
         faults += [] if developer else [f"{program} needs --group dev"]
+    elif program == "sphinx-build":
+        faults += [] if "docs" in chosen["--group"] else ["needs the group docs"]
     elif program == "jupyter":
         needed = {"notebook"}
         faults += [] if "jupyterlab" in chosen["--with"] else ["no Jupyter is installed"]
@@ -187,7 +210,7 @@ def test_links_lead_to_files(page):
 
 
 def test_docs_hold_pages_and_pictures_and_the_data_are_described():
-    assert {path.suffix for path in DOCS.rglob("*") if path.is_file()} == {".md", ".png", ".gif"}
+    assert {path.suffix for path in kept("docs")} == SUFFIXES
     described = (ROOT / "data" / "README.md").read_text(encoding="utf-8")
     tables = [path for path in (ROOT / "data").iterdir() if path.name != "README.md"]
     assert tables

@@ -1,15 +1,17 @@
 """Docstrings of wingbeat as Sphinx reads them.
 
-A parameter stands as ``name : meaning``. In numpydoc's form, the place after the colon is that of a type. Here types
-stand in the signature, so the meaning moves to the line below.
+A parameter stands as ``name : meaning``. In numpydoc's form, a type stands after the colon. Here types stand in the
+signature, so the meaning moves to the line below.
 """
 
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
 
 _SECTIONS = ("Parameters", "Returns", "Raises", "Attributes", "Yields")
 _ENTRY = re.compile(r"^(\S[^:]*?) : (.+)$")

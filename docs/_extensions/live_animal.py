@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
-
-from sphinx.application import Sphinx
+from typing import TYPE_CHECKING, Any
 
 import wingbeat as wb
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 
 def write_live(app: Sphinx) -> None:

@@ -8,10 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
-from sphinx.application import Sphinx
 
 import wingbeat as wb
 from wingbeat.cli.app import build_app
@@ -21,6 +20,9 @@ from wingbeat.measured_motion.strip_checks import SCALAR_LIMITS
 from wingbeat.nomenclature import NOMENCLATURE, find, for_people, plain
 from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
 from wingbeat.studies.form import Sample, StudyForm, Vary
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 _SHAPES = {"number": "number", "stations": "number or list", "vector": "three numbers", "list": "list"}
 

@@ -1,0 +1,130 @@
+"""The site: every public name, command, option and key is on it, and its pages ask no other host for anything."""
+
+import importlib.util
+import re
+
+import pytest
+
+import wingbeat as wb
+from tests.helpers.browsers import AXE
+from tests.helpers.places import ROOT
+from wingbeat.cli.app import build_app
+from wingbeat.measured_motion.reading import KNOWN_KEYS
+from wingbeat.nomenclature import NOMENCLATURE
+from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE
+from wingbeat.studies.form import Sample, StudyForm, Vary
+
+SITE = ROOT / "site"
+# One page of each kind.
+PAGES = (
+    *("index.html", "doors/biologists.html", "guide/stability.html", "theory/dynamics.html", "gallery/index.html"),
+    *("reference/commands.html", "reference/python/wingbeat.OrbitProblem.html", "evidence/whole_flights.html"),
+)
+
+
+@pytest.fixture(scope="module")
+def reference():
+    spec = importlib.util.spec_from_file_location("reference_pages", ROOT / "docs/_extensions/reference_pages.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def site():
+    if not (SITE / "index.html").exists():
+        pytest.skip("needs the site: uv run --group docs sphinx-build -W -b html docs site")
+    return SITE
+
+
+def test_every_public_name_has_its_page():
+    listed = re.findall(
+        r"^   (\w+)$", (ROOT / "docs/reference/python.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert sorted(listed) == sorted(set(wb.__all__) - {"__version__"})
+
+
+def options_of(app):
+    """Yield the options of an app and of its commands, with the words of each command."""
+    for name, command in app.resolved_commands().items():
+        if not name.startswith("-"):
+            yield from ((f"{name} {words}".strip(), option) for words, option in options_of(command))
+    if app.default_command is not None:
+        for argument in app.assemble_argument_collection():
+            yield from (("", option) for option in argument.names if option.startswith("--"))
+
+
+def test_every_option_of_every_command_is_on_its_page(reference):
+    page = reference.commands()
+    parts = dict(re.findall(r"^#+ (.+?)\n(.*?)(?=^#+ |\Z)", page, re.DOTALL | re.MULTILINE))
+    found = list(options_of(build_app()))
+    assert len(found) > 200
+    assert [(words, option) for words, option in found if option not in parts.get(words, "")] == []
+
+
+def test_every_key_of_files_is_on_its_page_with_a_meaning(reference):
+    species, study, case = reference.species_file(), reference.study_file(), reference.case_file()
+    assert [key.path for key in (*KEYS, *FREE, *PATH, *PLAUSIBLE) if f"`{key.path}`" not in species] == []
+    for model in (StudyForm, Vary, Sample):
+        names = [entry.alias or name for name, entry in model.model_fields.items() if not entry.description]
+        assert names == []
+        assert [
+            name for name, entry in model.model_fields.items() if f"| `{entry.alias or name}` |" not in study
+        ] == []
+    rows = [re.search(rf"^\| `{key}` \|.*\| (\S.{(4,)}) \|$", case, re.MULTILINE) for key in KNOWN_KEYS]
+    assert all(rows)
+
+
+def test_every_name_of_records_is_on_its_page(reference):
+    page = reference.record()
+    assert [name for name in NOMENCLATURE if f"| `{name}` |" not in page] == []
+    assert "| `initial_state.body_pitch` |" in page
+
+
+def test_the_built_site_has_a_page_for_each_name(site):
+    built = {path.stem.removeprefix("wingbeat.") for path in (site / "reference" / "python").glob("*.html")}
+    assert set(wb.__all__) - {"__version__"} <= built
+
+
+@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_page_keeps_to_itself_and_is_accessible(site, browser, name, scheme):
+    context = browser.new_context(color_scheme=scheme, viewport={"width": 1280, "height": 900})
+    asked = []
+    context.on("request", lambda request: asked.append(request.url))
+    page = context.new_page()
+    page.goto((site / name).as_uri())
+    page.wait_for_load_state("networkidle")
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    if AXE.exists():
+        page.add_script_tag(content=AXE.read_text())
+        faults = page.evaluate("axe.run(document, {iframes: false}).then(found => found.violations)")
+        serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
+        assert [(fault["id"], fault["nodes"][0]["html"][:120]) for fault in serious] == []
+    context.close()
+
+
+def test_no_page_names_a_script_a_style_or_a_picture_of_another_host(site):
+    remote = re.compile(r"<(?:script|link|img|iframe|source)\b[^>]*\b(?:src|href)=\"(?:https?:)?//[^\"]+\"[^>]*>")
+    harmless = re.compile(r"rel=\"(?:canonical|author|license)\"")
+    found = {
+        str(path.relative_to(site)): [tag for tag in remote.findall(text) if not harmless.search(tag)]
+        for path in site.rglob("*.html")
+        if remote.search(text := path.read_text(encoding="utf-8"))
+    }
+    assert {name: tags for name, tags in found.items() if tags} == {}
+
+
+def test_a_phone_shows_the_first_page_without_scrolling_sideways(site, browser):
+    page = browser.new_page(viewport={"width": 390, "height": 844})
+    page.goto((site / "index.html").as_uri())
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.close()
+
+
+def test_the_search_works_from_disk(site, browser):
+    page = browser.new_page()
+    page.goto((site / "search.html").as_uri() + "?q=certificate")
+    page.wait_for_selector("#search-results li", timeout=30_000)
+    assert page.locator("#search-results li").count() > 3
+    page.close()

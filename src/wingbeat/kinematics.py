@@ -183,6 +183,8 @@ def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
     If phases are angles from mid-downstroke, an angle alpha becomes theta with ``tan(theta/2) = cot(pi d/2)
     tan(alpha/2)``, where d is the downstroke fraction. Phase d becomes 1/2, and 1 stays 1. This Moebius map of the
     circle is smooth and increasing for every d.
+
+    Theory: equation ``stroke-phase``.
     """
     if at_default(wingbeat, "downstroke_fraction"):
         return phase
@@ -195,12 +197,15 @@ def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
 
 def recovery(phase: Phases) -> Phases:
-    """Return the recovery law ``(1 - sin 2 pi phase)/2``: 0 at mid-downstroke, 1 at mid-upstroke."""
+    """Return the recovery law ``(1 - sin 2 pi phase)/2``: 0 at mid-downstroke, 1 at mid-upstroke.
+
+    Theory: equation ``recovery-law``.
+    """
     return 0.5 * (1.0 - sin(2 * math.pi * phase))
 
 
 def with_harmonics(base: Phases, pairs: Sequence[Scalar], first: int, phase: Phases) -> Phases:
-    """Add to a law its cosines and sines of order `first` and up."""
+    """Add to a law its cosines and sines of order `first` and up. Theory: equation ``harmonics``."""
     if not pairs:
         return base
     # All orders at once: one sine to trace and compile, however many there are.
@@ -213,14 +218,14 @@ def with_harmonics(base: Phases, pairs: Sequence[Scalar], first: int, phase: Pha
 
 
 def flap_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the flap angle of the arm, up positive [rad]."""
+    """Return the flap angle of the arm, up positive [rad]. Theory: equation ``flap-law``."""
     at = stroke_phase(wingbeat, phase)
     base = wingbeat.flap_mean + wingbeat.flap_amplitude * cos(2 * math.pi * at)
     return with_harmonics(base, wingbeat.flap_harmonics, FIRST_ORDER["flap"], at)
 
 
 def pitch_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the wing pitch at the root, leading edge up positive [rad]."""
+    """Return the wing pitch at the root, leading edge up positive [rad]. Theory: equation ``pitch-law``."""
     at = stroke_phase(wingbeat, phase)
     turn = 2 * math.pi * at
     if not at_default(wingbeat, "pitch_phase"):
@@ -230,19 +235,22 @@ def pitch_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
 
 def span_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the span divided by the full span."""
+    """Return the span divided by the full span. Theory: equation ``span-law``."""
     at = stroke_phase(wingbeat, phase)
     base = 1.0 - wingbeat.span_retraction * recovery(at)
     return with_harmonics(base, wingbeat.span_harmonics, FIRST_ORDER["span"], at)
 
 
 def fold_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the angle of the hand below the arm [rad]."""
+    """Return the angle of the hand below the arm [rad]. Theory: equation ``fold-law``."""
     return wingbeat.fold_amplitude * recovery(stroke_phase(wingbeat, phase))
 
 
 def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
-    """Return the angle by which the span points ahead of the stroke plane [rad], None for a wing without sweep."""
+    """Return the angle by which the span points ahead of the stroke plane [rad], None for a wing without sweep.
+
+    Theory: equation ``sweep-law``.
+    """
     still = at_default(wingbeat, "sweep_mean") and at_default(wingbeat, "sweep_amplitude")
     if still and not wingbeat.sweep_harmonics:
         return None
@@ -252,7 +260,10 @@ def sweep_angle(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
 
 def chord_ratio(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
-    """Return the chord that meets the air divided by the full chord, None if it is always the full chord."""
+    """Return the chord that meets the air divided by the full chord, None if it is always the full chord.
+
+    Theory: equation ``chord-law``.
+    """
     if at_default(wingbeat, "chord_retraction") and not wingbeat.chord_harmonics:
         return None
     at = stroke_phase(wingbeat, phase)
@@ -265,6 +276,8 @@ def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
 
     The whole pitch at the tip is this angle plus ``twist_ratio`` times the pitch at the root. At a span fraction
     s/L, the law adds s/L of the angle.
+
+    Theory: equation ``twist-law``.
     """
     if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
         return None

@@ -172,7 +172,10 @@ class Vehicle:
 
     @property
     def mass(self) -> Any:
-        """Total mass: body and both wings [kg]."""
+        """Total mass: body and both wings [kg].
+
+        Theory: equation ``whole-mass``.
+        """
         return self.body.mass + 2 * self.wing.mass
 
     @property

@@ -9,12 +9,17 @@ first and the world axis last; they describe the left wing, while every total co
 `q` is (x, z, psi, phi, theta) and `t` a time in seconds that moves span, fold, sweep, twist and chord only.
 `coefficients(alpha)` returns (c_l, c_d, x_cp); `force_at_cp` puts the air load at x_cp; with `full_airspeed` its
 size goes with the square of the strip's whole velocity, the spanwise part included.
+
+Each part names the equations of docs/theory that it computes.
 """
 
 import math
 
 import numpy as np
 
+from tests.helpers.oracle_coefficients import blend_distance as blend_distance
+from tests.helpers.oracle_coefficients import dickinson as dickinson
+from tests.helpers.oracle_coefficients import su_fan as su_fan
 from tests.helpers.oracle_laws import chord_ratio, prescribed, wing_angles
 from tests.helpers.tail_oracle import moment, tail_load
 
@@ -26,46 +31,6 @@ NEXT, AFTER = [1, 2, 0], [2, 0, 1]
 def cross(a, b):
     """a x b along the last axis; NumPy's own takes five times as long, and half the time of this oracle."""
     return a[..., NEXT] * b[..., AFTER] - a[..., AFTER] * b[..., NEXT]
-
-
-# --- Coefficients: mirrored extension, away from the blends
-
-
-def blend_distance(alpha):
-    """Distance in degrees from `alpha` (rad) to the nearest of 0, +-90 and 180 degrees."""
-    return abs((math.degrees(alpha) + 45.0) % 90.0 - 45.0)
-
-
-def _mirrored(alpha, lift, drag):
-    """Return (c_l, c_d, angle in 0..90 degrees, seen from behind?) of a plate at `alpha` (rad)."""
-    if blend_distance(alpha) < 1.0 - 1e-9:
-        raise ValueError(f"alpha = {math.degrees(alpha)} deg lies within a degree of a blend centre")
-    signed = math.degrees(math.atan2(math.sin(alpha), math.cos(alpha)))
-    behind = abs(signed) > 90.0
-    a = 180.0 - abs(signed) if behind else abs(signed)
-    sign = math.copysign(1.0, signed) * (-1.0 if behind else 1.0)
-    return sign * lift(a), drag(a), a, behind
-
-
-def su_fan(alpha):
-    """(c_l, c_d, x_cp) of Su and Fan at `alpha` (rad); x_cp in chords from the leading edge."""
-    c_l, c_d, a, behind = _mirrored(
-        alpha,
-        lambda a: -0.44 * math.exp(-0.47 * a) + 1.19 * math.sin(math.radians(1.74 * a + 20.0)),
-        lambda a: 1.04 + math.sin(math.radians(1.72 * a - 70.0)),
-    )
-    x_cp = 0.247 + 0.016 * a**0.6 + 0.026 * a * math.exp(-0.11 * a)
-    return c_l, c_d, 1.0 - x_cp if behind else x_cp
-
-
-def dickinson(alpha):
-    """(c_l, c_d, 0.25) of Dickinson 1999 at `alpha` (rad); no centre of pressure was published."""
-    c_l, c_d, _, _ = _mirrored(
-        alpha,
-        lambda a: 0.225 + 1.58 * math.sin(math.radians(2.13 * a - 7.2)),
-        lambda a: 1.92 - 1.55 * math.cos(math.radians(2.04 * a - 9.82)),
-    )
-    return c_l, c_d, 0.25
 
 
 # --- Kinematics
@@ -96,12 +61,14 @@ class Wing:
         wing = vehicle["wing"]
         x, z, psi, phi, theta = q
 
+        # Theory: equation ``phase``.
         # What time prescribes: the recovery law that drives the fold, the half span, the sweep, the tip's twist.
         laws = prescribed(wingbeat, wingbeat["frequency"] * t, frozen)
         (law, law_d, law_dd), ratios, (sweep, sweep_d, sweep_dd), twists = laws
         span, span_d, span_dd = (wing["semi_span"] * ratio for ratio in ratios)
 
-        # Per-strip constants, as columns where they multiply vectors.
+        # Per-strip constants, as columns where they multiply vectors. Theory: equations ``strip-chord``,
+        # ``strip-mass``, ``strip-angles`` and ``chord-law``.
         eta = (np.arange(strips) + 0.5) / strips
         stations = np.atleast_1d(np.asarray(wing["chord"], float))
         self.chord = np.interp(eta, np.linspace(0.0, 1.0, len(stations)), stations)
@@ -117,6 +84,7 @@ class Wing:
         twist, twist_d, twist_dd = (eta[:, None] * angle for angle in twists)
 
         # Axes in the world. Flap turns about e_c0, sweep about -e_n0, pitch about -e_s, body pitch about -y.
+        # Theory: equations ``body-axes``, ``stroke-plane``, ``stroke-axes`` and ``strip-axes``.
         x_b = np.array([math.cos(psi), 0.0, math.sin(psi)])
         z_b = np.array([-math.sin(psi), 0.0, math.cos(psi)])
         beta = wing["stroke_plane_angle"] + wingbeat["stroke_plane_tilt"]
@@ -133,14 +101,14 @@ class Wing:
         self.e_c = np.cos(tilt) * level + np.sin(tilt) * e_n0
         self.e_n = -np.sin(tilt) * level + np.cos(tilt) * e_n0
 
-        # Places.
+        # Places. Theory: equations ``shoulder-place`` and ``strip-place``.
         self.body, self.psi, self.rate = np.array([x, 0.0, z]), psi, q_dot[2]
         x_s, y_s, z_s = wing["shoulder"]
         hang = x_s * x_b + y_s * Y + z_s * z_b
         self.shoulder = self.body + hang
         self.station = self.shoulder + inner * span * e_arm + outer * span * self.e_s
 
-        # Spins and motions, link by link.
+        # Spins and motions, link by link, where the pages differentiate. Theory: equation ``point-rates``.
         spin_body = (-q_dot[2] * Y, -q_ddot[2] * Y)
         spin_arm = _spin_up(spin_body, self.e_c0, q_dot[3], q_ddot[3])
         spin_own = _spin_up(spin_body, self.e_c0, q_dot[3] - fold * law_d, q_ddot[3] - fold * law_dd)
@@ -164,11 +132,13 @@ class Wing:
 
     def mass_points(self):
         """Two tuples (mass, place, velocity, acceleration): the points ahead of and behind mid-chord."""
+        # Theory: equation ``mass-points``.
         half = self.chord / (2.0 * math.sqrt(3.0))
         return [(self.mass / 2.0, *self.point(-self.chord / 4.0 + side * half)) for side in (1.0, -1.0)]
 
     def jacobian(self, r):
         """dr/dq, shape (strips, 3, 5), for points at `r` that belong to the strips."""
+        # Theory: equations ``partial-velocities`` and ``quarter-turn``.
         columns = [
             np.broadcast_to(X, r.shape),
             np.broadcast_to(Z, r.shape),
@@ -180,6 +150,7 @@ class Wing:
 
     def jacobian_rate(self, r, v):
         """Rate of `jacobian` along the motion, for points at `r` moving with `v`."""
+        # Theory: equation ``frozen-motion``.
         e_c0_rate = cross(self.w_body, self.e_c0)
         e_s_rate = cross(self.w_own, self.e_s)
         columns = [
@@ -197,6 +168,8 @@ class Wing:
 
     def air_loads(self, air, coefficients, force_at_cp, full_airspeed):
         """(place, velocity, force, alpha, lift, drag) per strip of one wing."""
+        # Theory: equations ``strip-velocity``, ``angle-of-attack``, ``lift-drag``, ``strip-force`` and ``force-
+        # point``.
         _, v, _ = self.point(0.0)
         xi, alpha, lift, drag = np.zeros((4, len(v)))
         force = np.zeros(v.shape)
@@ -226,7 +199,7 @@ def points(vehicle, wingbeat, q, t, strips):
 
 
 def _body_drag(vehicle, air, velocity):
-    """Drag (N) on the body's reference point moving with `velocity` (m/s)."""
+    """Drag (N) on the body's reference point moving with `velocity` (m/s). Theory: equation ``body-drag``."""
     return -0.5 * air["density"] * vehicle["body"]["drag_area"] * np.linalg.norm(velocity) * velocity
 
 
@@ -253,6 +226,7 @@ def accelerations(
     vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False
 ):
     """Body accelerations (ax, az, psi_dd), m/s2 and rad/s2: Newton and Euler about the reference point."""
+    # Theory: equations ``wing-loads`` and ``body-balance``.
     wing, body = _prescribed(vehicle, wingbeat, state, phase, strips), vehicle["body"]
     matrix = np.diag([body["mass"], body["mass"], body["pitch_inertia"]])
     right = body_air(vehicle, wingbeat, air, wing)[0] - [0.0, body["mass"] * air["gravity"], 0.0]
@@ -285,13 +259,14 @@ def hinge_torques(
     vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False
 ):
     """Generalised (tau_flap, tau_pitch) in N m, both wings; tau_pitch is conjugate to the root pitch."""
+    # Theory: equations ``generalised-force`` and ``hinge-torques``.
     wing, groups = _needed(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp, full_airspeed)
     tau = sum(2.0 * np.einsum("nk,nkj->j", force, wing.jacobian(r)) for force, r, _ in groups)
     return tau[3:]
 
 
 def powers(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False):
-    """(hinge power, actuator power) in W, both wings."""
+    """(hinge power, actuator power) in W, both wings. Theory: equations ``hinge-power`` and ``actuator-power``."""
     args = (vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp, full_airspeed)
     wing, groups = _needed(*args)
     flap, pitch = wing_angles(wingbeat, phase)
@@ -300,7 +275,7 @@ def powers(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_
 
 
 def air_power(vehicle, wingbeat, air, state, phase, coefficients, strips, force_at_cp=False, full_airspeed=False):
-    """Power (W) that the air loads on both wings and the body deliver."""
+    """Power (W) that the air loads on both wings and the body deliver. Theory: equation ``air-power``."""
     wing = _prescribed(vehicle, wingbeat, state, phase, strips)
     _, velocity, force, *_ = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     return 2.0 * np.sum(force * velocity) + body_air(vehicle, wingbeat, air, wing)[1]
@@ -308,6 +283,7 @@ def air_power(vehicle, wingbeat, air, state, phase, coefficients, strips, force_
 
 def energies(vehicle, wingbeat, air, state, phase, strips):
     """(kinetic, potential) energy in J of body and both wings; potential is zero at z = 0."""
+    # Theory: equation ``energies``.
     wing, body = _prescribed(vehicle, wingbeat, state, phase, strips), vehicle["body"]
     kinetic = 0.5 * body["mass"] * wing.v_body @ wing.v_body + 0.5 * body["pitch_inertia"] * state[5] ** 2
     potential = body["mass"] * air["gravity"] * state[1]
@@ -322,6 +298,8 @@ def energies(vehicle, wingbeat, air, state, phase, strips):
 
 def five_coordinate(vehicle, wingbeat, air, q, q_dot, t, strips):
     """Terms of D q'' + C q' + h + g = tau + f_aero, both wings and body: dict of D, C (5, 5) and h, g (5)."""
+    # Theory: equations ``equations-of-motion``, ``mass-matrix``, ``velocity-matrix``, ``time-force`` and
+    # ``gravity-force``.
     args = (vehicle, wingbeat, q, q_dot, np.zeros(5), t, strips)
     wing, frozen = Wing(*args), Wing(*args, frozen=True)
     body, gravity = vehicle["body"], air["gravity"]
@@ -339,6 +317,7 @@ def five_coordinate(vehicle, wingbeat, air, q, q_dot, t, strips):
 
 def aero_forces(vehicle, wingbeat, air, q, q_dot, t, coefficients, strips, force_at_cp=False, full_airspeed=False):
     """Generalised air loads (5) of wings and body; {alpha (rad), lift, drag (N)} of one wing's strips."""
+    # Theory: equation ``generalised-air-loads``.
     wing = Wing(vehicle, wingbeat, q, q_dot, np.zeros(5), t, strips)
     place, _, force, alpha, lift, drag = wing.air_loads(air, coefficients, force_at_cp, full_airspeed)
     f_aero = 2.0 * np.einsum("nk,nkj->j", force, wing.jacobian(place))

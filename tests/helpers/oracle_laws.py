@@ -6,7 +6,10 @@ import numpy as np
 
 
 def warped(wingbeat, phase):
-    """Stroke phase and its first and second derivatives by phase: tan(half turn) is stretched by cot(pi d/2)."""
+    """Stroke phase and its first and second derivatives by phase: tan(half turn) is stretched by cot(pi d/2).
+
+    Theory: equation ``stroke-phase``.
+    """
     d = wingbeat["downstroke_fraction"]
     k, a = 1.0 / math.tan(0.5 * math.pi * d), math.pi * (phase - 0.5 * d)
     s, c = math.sin(a), math.cos(a)
@@ -15,7 +18,10 @@ def warped(wingbeat, phase):
 
 
 def series(wingbeat, phase, mean, terms):
-    """A mean and (order, cosine, sine) terms of the stroke phase, with first and second time derivatives."""
+    """A mean and (order, cosine, sine) terms of the stroke phase, with first and second time derivatives.
+
+    Theory: equations ``phase`` and ``harmonics``.
+    """
     tau, tau_d, tau_dd = warped(wingbeat, phase)
     value, slope, curve = mean, 0.0, 0.0
     for order, a, b in terms:
@@ -33,7 +39,10 @@ def harmonics(wingbeat, law, first):
 
 
 def wing_angles(wingbeat, phase):
-    """Flap and root pitch with their first and second time derivatives: two triples (rad, rad/s, rad/s2)."""
+    """Flap and root pitch with their first and second time derivatives: two triples (rad, rad/s, rad/s2).
+
+    Theory: equations ``flap-law`` and ``pitch-law``.
+    """
     pitch, ahead = wingbeat["pitch_amplitude"], wingbeat["pitch_phase"]
     flaps = [(1, wingbeat["flap_amplitude"], 0.0), *harmonics(wingbeat, "flap", 2)]
     pitches = [(1, -pitch * math.sin(ahead), -pitch * math.cos(ahead)), *harmonics(wingbeat, "pitch", 2)]
@@ -44,7 +53,10 @@ def wing_angles(wingbeat, phase):
 
 
 def prescribed(wingbeat, phase, frozen):
-    """What time prescribes, each with its two time derivatives, none if frozen: recovery, span, sweep, twist."""
+    """What time prescribes, each with its two time derivatives, none if frozen: recovery, span, sweep, twist.
+
+    Theory: equations ``recovery-law``, ``fold-law``, ``span-law``, ``sweep-law`` and ``twist-law``.
+    """
     shrink, swing, ahead = wingbeat["span_retraction"], wingbeat["sweep_amplitude"], wingbeat["sweep_phase"]
     spans = [(1, 0.0, 0.5 * shrink), *harmonics(wingbeat, "span", 1)]
     sweeps = [(1, swing * math.sin(ahead), swing * math.cos(ahead)), *harmonics(wingbeat, "sweep", 2)]
@@ -58,6 +70,6 @@ def prescribed(wingbeat, phase, frozen):
 
 
 def chord_ratio(wingbeat, phase):
-    """The chord that meets the air over the full chord."""
+    """The chord that meets the air over the full chord. Theory: equation ``chord-law``."""
     lost = wingbeat["chord_retraction"]
     return series(wingbeat, phase, 1.0 - 0.5 * lost, [(1, 0.0, 0.5 * lost), *harmonics(wingbeat, "chord", 1)])[0]

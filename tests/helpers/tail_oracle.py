@@ -13,13 +13,16 @@ BROADSIDE = 1.17
 
 
 def coefficients(lift_slope, drag_coefficient, alpha):
-    """(c_l, c_d) at an angle of attack (rad)."""
+    """(c_l, c_d) at an angle of attack (rad). Theory: equation ``tail-coefficients``."""
     s, c = math.sin(alpha), math.cos(alpha)
     return lift_slope * s * c, drag_coefficient + lift_slope * s**2 * c**2 + BROADSIDE * s**4
 
 
 def tail_load(vehicle, wingbeat, density, body_pitch, velocity, pitch_rate):
-    """(force, place, velocity) in the world, each (x, z); place counts from the body's centre of mass."""
+    """(force, place, velocity) in the world, each (x, z); place counts from the body's centre of mass.
+
+    Theory: equations ``tail-velocity`` and ``tail-force``.
+    """
     tail = vehicle.get("tail")
     if tail is None:
         return np.zeros(2), np.zeros(2), np.zeros(2)

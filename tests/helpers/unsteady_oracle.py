@@ -45,7 +45,10 @@ class Strips:
 
 
 def induced_wind(density, semi_span, factor, force, velocity):
-    """Velocity (x, z) of the air at the wings by momentum, from bisection on the induced speed."""
+    """Velocity (x, z) of the air at the wings by momentum, from bisection on the induced speed.
+
+    Theory: equation ``induced-flow``.
+    """
     size = math.hypot(*force)
     n = np.array(force) / size
     held = factor * size / (2.0 * density * math.pi * semi_span**2)
@@ -71,7 +74,10 @@ def _dots(a, b):
 
 
 def strip_loads(flier, state, phase, acceleration):
-    """Every load of the air on the left wing whose body has `acceleration` (ax, az, psi_dd)."""
+    """Every load of the air on the left wing whose body has `acceleration` (ax, az, psi_dd).
+
+    Theory: equations ``chord-turning``, ``rotation-force``, ``added-mass`` and ``unsteady-couple``.
+    """
     wing = _wing(flier, state, phase, acceleration)
     # An even wind that does not change is a frame that moves: seen from it, the air is still.
     seen = _wing(flier, state, phase, acceleration, flier.wind)
@@ -110,7 +116,10 @@ def _resultant(force, arm):
 
 
 def unbalance(flier, state, phase, acceleration):
-    """What is left of force along x and z and of nose-up moment on a body with this acceleration."""
+    """What is left of force along x and z and of nose-up moment on a body with this acceleration.
+
+    Theory: equations ``body-balance`` and ``body-inertia``.
+    """
     body, gravity = flier.vehicle["body"], flier.air["gravity"]
     loads = strip_loads(flier, state, phase, acceleration)
     wing = loads.wing
@@ -135,7 +144,10 @@ def accelerations(flier, state, phase):
 
 
 def torques_and_powers(flier, state, phase):
-    """Hinge torques (flap, pitch) in N m, and hinge, actuator and air power in W, of both wings."""
+    """Hinge torques (flap, pitch) in N m, and hinge, actuator and air power in W, of both wings.
+
+    Theory: equations ``hinge-torques``, ``hinge-power``, ``actuator-power`` and ``air-power``.
+    """
     acceleration = accelerations(flier, state, phase)
     loads = strip_loads(flier, state, phase, acceleration)
     wing, gravity = loads.wing, flier.air["gravity"]

@@ -211,6 +211,8 @@ def strip_forces(
     and ``F_n = L cos(gamma) - D sin(gamma)``; the code replaces sine and cosine of gamma by the speeds. If a speed
     along the span [m/s] is given, V is the magnitude of all three components. A strip that moves only along its
     span has no angle of attack and no load.
+
+    Theory: equations ``angle-of-attack``, ``lift-drag`` and ``strip-force``.
     """
     along_span = () if span_speed is None else (span_speed,)
     unit = _unit_forces(kernel, chord_speed, normal_speed, pitch, *along_span)

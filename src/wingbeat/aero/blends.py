@@ -43,13 +43,19 @@ def jet_of(function: Function, at: Scalar) -> Jet:
 
 
 def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the coefficients of the even polynomial that has `jet` at `width`, by powers of distance squared."""
+    """Return the coefficients of the even polynomial that has `jet` at `width`, by powers of distance squared.
+
+    Theory: equation ``even-blend``.
+    """
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the same for the odd polynomial that has `jet` at `width`, after division by the distance."""
+    """Return the same for the odd polynomial that has `jet` at `width`, after division by the distance.
+
+    Theory: equation ``odd-blend``.
+    """
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return (
         (15 * f - 7 * s + k) / (8 * width),
@@ -66,7 +72,10 @@ class Blend(NamedTuple):
 
     @classmethod
     def between(cls, left: Jet, right: Jet, width: Scalar) -> Blend:
-        """Return the blend that has `left` at distance -width and `right` at +width."""
+        """Return the blend that has `left` at distance -width and `right` at +width.
+
+        Theory: equation ``join-blend``.
+        """
         mirror = left.mirrored()
         even = Jet(*((r + m) / 2 for r, m in zip(right, mirror, strict=True)))
         odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))

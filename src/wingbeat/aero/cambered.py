@@ -33,7 +33,10 @@ if TYPE_CHECKING:
 
 
 def _ramp(x: Angles, width: Scalar) -> Angles:
-    """Return ``max(x, 0)`` with the corner rounded over about `width`."""
+    """Return ``max(x, 0)`` with the corner rounded over about `width`.
+
+    Theory: equation ``ramp``.
+    """
     return 0.5 * (x + jnp.sqrt(x * x + width * width))
 
 
@@ -54,7 +57,10 @@ class CamberedCurves(NamedTuple):
     onset_rounding: Scalar
 
     def lift(self, alpha: Angles) -> Angles:
-        """Return C_L at `alpha` [rad]."""
+        """Return C_L at `alpha` [rad].
+
+        Theory: equation ``cambered-lift``.
+        """
         line = self.slope * (alpha - self.zero_lift)
         above, beyond = _ramp(line - self.lowest, self.rounding), _ramp(line - self.highest, self.rounding)
         return self.lowest + above - beyond
@@ -66,7 +72,10 @@ class CamberedCurves(NamedTuple):
         return self.low_rise * low + self.high_rise * high
 
     def drag(self, alpha: Angles) -> Angles:
-        """Return C_D at `alpha` [rad]."""
+        """Return C_D at `alpha` [rad].
+
+        Theory: equation ``cambered-drag``.
+        """
         lift = self.lift(alpha)
         return self.least + self.induced * lift * lift + self.separation_drag(alpha)
 
@@ -184,7 +193,10 @@ class CamberedKernel(NamedTuple):
     high: Join
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], any shape."""
+        """Return C_L and C_D at `alpha` [rad], any shape.
+
+        Theory: equation ``cambered-join``.
+        """
         inside = (alpha > self.low.centre) & (alpha < self.high.centre)
         plate_lift, plate_drag = self.plate.lift_drag(alpha)
         lift = jnp.where(inside, self.curves.lift(alpha), plate_lift)

@@ -152,6 +152,8 @@ class CoefficientModel:
     def normal(self, alpha: ArrayLike) -> NDArray[np.float64]:
         """Return the normal force coefficient ``C_N = C_L cos(alpha) + C_D sin(alpha)`` at `alpha` [rad].
 
+        Theory: equation ``normal-coefficient``.
+
         Parameters
         ----------
         alpha : angle of attack [rad], any shape.
@@ -182,6 +184,8 @@ class CoefficientModel:
 
     def moment(self, alpha: ArrayLike, about: float = 0.5) -> NDArray[np.float64]:
         """Return the moment coefficient ``C_M = C_N (about - x_cp)``, nose-up positive.
+
+        Theory: equation ``moment-coefficient``.
 
         Parameters
         ----------

@@ -78,7 +78,10 @@ class SignedPatch(NamedTuple):
     at_minus_right: Blend
 
     def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
-        """Return the patched coefficient; it needs no blend at 0, because one formula holds on both sides."""
+        """Return the patched coefficient; it needs no blend at 0, because one formula holds on both sides.
+
+        Theory: equation ``signed-extensions``.
+        """
         inside = (alpha > -RIGHT_ANGLE) & (alpha < width)
         value = jnp.where(inside, piece(jnp.where(inside, alpha, 0.0)), value)
         return self.at_minus_right.over(value, alpha + RIGHT_ANGLE, width)
@@ -92,7 +95,10 @@ class ClippedPatch(NamedTuple):
     at_half_turn: Blend
 
     def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
-        """Return the patched coefficient."""
+        """Return the patched coefficient.
+
+        Theory: equation ``signed-extensions``.
+        """
         value = self.at_zero.over(jnp.where(alpha < 0, self.level, value), alpha, width)
         return self.at_half_turn.over(value, alpha - jnp.where(alpha < 0, -math.pi, math.pi), width)
 
@@ -106,7 +112,10 @@ class Ends(NamedTuple):
 
 
 def _fold(alpha: Angles) -> tuple[Angles, Angles]:
-    """Return the angle minus whole half turns, in [-90, 90] degrees, and the number of half turns."""
+    """Return the angle minus whole half turns, in [-90, 90] degrees, and the number of half turns.
+
+    Theory: equation ``folded-angle``.
+    """
     turns = jnp.round(alpha * (1 / math.pi))
     return alpha - turns * math.pi, turns
 
@@ -124,7 +133,10 @@ class ExtendedKernel(NamedTuple):
     centre: Ends
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], any shape."""
+        """Return C_L and C_D at `alpha` [rad], any shape.
+
+        Theory: equation ``mirrored-extension``.
+        """
         # One fold serves both: mirrored, C_L and C_D repeat every half turn.
         folded, _ = _fold(alpha)
         sign = jnp.where(folded < 0, -1.0, 1.0)
@@ -144,7 +156,10 @@ class ExtendedKernel(NamedTuple):
         return lift, drag
 
     def centre_of_pressure(self, alpha: Angles) -> Angles:
-        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none."""
+        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none.
+
+        Theory: equation ``mirrored-extension``.
+        """
         folded, turns = _fold(alpha)
         acute = jnp.where(folded < 0, -1.0, 1.0) * folded
         short = acute - RIGHT_ANGLE
@@ -176,6 +191,11 @@ def _patch(piece: Function, behind: Jet, width: Scalar, extension: str, name: st
 
 @exported(static=("extension", "signed"))
 def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+    """Return the kernel with its blends.
+
+    Theory: equation ``mirrored-blends``.
+    """
+
     def ends(name: str) -> Ends:
         piece = getattr(pieces, name)
         zero, right = jet_of(piece, width), jet_of(piece, RIGHT_ANGLE - width)

@@ -22,7 +22,10 @@ GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
 
 
 class Wave(NamedTuple):
-    """``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)``, a in radians."""
+    """``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)``, a in radians.
+
+    Theory: equation ``formula-terms``.
+    """
 
     constant: Scalar
     amplitude: Scalar
@@ -40,7 +43,10 @@ class Wave(NamedTuple):
 
 
 class PowerLaw(NamedTuple):
-    """``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``, a in radians > 0."""
+    """``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``, a in radians > 0.
+
+    Theory: equation ``formula-terms``.
+    """
 
     constant: Scalar
     power_amplitude: Scalar

@@ -40,6 +40,8 @@ def induced_flow(
 ) -> tuple[Any, Any]:
     """Return the induced velocity of the air at the wings, forward and up [m/s].
 
+    Theory: equation ``induced-flow``.
+
     Parameters
     ----------
     density : of the air [kg/m3].
@@ -75,6 +77,8 @@ def check_descent(
     Principles of Helicopter Aerodynamics, section 2.13). With forward speed this range narrows; it ends at a
     forward speed of about the induced speed of hover (Johnson 2005, NASA TP-2005-213477). Here the range is the
     inside of the circle through these points.
+
+    Theory: equation ``vortex-ring``.
 
     Parameters
     ----------

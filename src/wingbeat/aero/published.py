@@ -16,7 +16,10 @@ from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 
 
 def _sine_cosine(name: str, lift: float, mean: float, swing: float, **about: Any) -> FormulaCoefficients:
-    """Return the model ``C_L = lift sin 2a``, ``C_D = mean - swing cos 2a``, valid at every angle."""
+    """Return the model ``C_L = lift sin 2a``, ``C_D = mean - swing cos 2a``, valid at every angle.
+
+    Theory: equation ``sine-cosine``.
+    """
     lift_terms = FormulaTerms(constant=0.0, amplitude=lift, rate=2.0, phase_deg=0.0)
     drag_terms = FormulaTerms(constant=mean, amplitude=swing, rate=2.0, phase_deg=-90.0)
     return FormulaCoefficients(name, lift_terms, drag_terms, grade="B", **about)
@@ -31,6 +34,8 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
     degrees removes this.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
+
+    Theory: equation ``su-fan``.
 
     Parameters
     ----------
@@ -65,6 +70,8 @@ def Dickinson(extension: str = "mirrored", blend_width_deg: float = 1.0) -> Form
     ``C_L = 0.225 + 1.58 sin(2.13 a - 7.2)``, ``C_D = 1.92 - 1.55 cos(2.04 a - 9.82)``; about -9 to 90 deg.
 
     Dickinson, Lehmann and Sane 1999, Science 284:1954, doi 10.1126/science.284.5422.1954.
+
+    Theory: equation ``dickinson``.
 
     Parameters
     ----------

@@ -51,6 +51,8 @@ class SectionalKernel(NamedTuple):
 def sectional_kernel(model: CoefficientModel) -> Kernel:
     """Return the kernel of the sectional coefficients that follow from those of a wing of finite aspect ratio.
 
+    Theory: equation ``section-coefficients``.
+
     Parameters
     ----------
     model : coefficients of a wing of any aspect ratio; those of an infinite wing are returned unchanged.
@@ -76,7 +78,10 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
 
 
 def _wing_angles(model: CoefficientModel, aspect_ratio: float, section: np.ndarray) -> np.ndarray:
-    """Return the angles of attack of a wing [rad] at which its sections have the angles `section`."""
+    """Return the angles of attack of a wing [rad] at which its sections have the angles `section`.
+
+    Theory: equation ``section-angle``.
+    """
 
     def turned(alpha: np.ndarray) -> np.ndarray:
         return model.lift(alpha) / (math.pi * aspect_ratio)

@@ -67,7 +67,10 @@ class UpstrokeKernel(NamedTuple):
     factor: Scalar
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], shape (N, ...)."""
+        """Return C_L and C_D at `alpha` [rad], shape (N, ...).
+
+        Theory: equation ``upstroke-factor``.
+        """
         lift, drag = self.kernel.lift_drag(alpha)
         below = jnp.clip(0.5 + 0.5 * sin(alpha) / math.sin(math.radians(_CHANGE_DEG)), 0.0, 1.0)
         smooth = below * below * below * horner((10.0, -15.0, 6.0), below)

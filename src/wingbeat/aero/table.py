@@ -148,7 +148,10 @@ class TableCoefficients(CoefficientModel):
         return self.x_cp is not None
 
     def kernel(self) -> Kernel:
-        """Return the JAX pytree that evaluates this table."""
+        """Return the JAX pytree that evaluates this table.
+
+        Theory: equation ``table-spline``.
+        """
         # Imported here, because SciPy is slow to import and the formulas do not need it.
         from scipy.interpolate import CubicSpline
 

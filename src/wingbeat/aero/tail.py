@@ -49,6 +49,8 @@ def tail_force(
     Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)``, where n
     is the unit normal of the surface.
 
+    Theory: equations ``tail-coefficients`` and ``tail-force``.
+
     Parameters
     ----------
     density : rho [kg/m3].

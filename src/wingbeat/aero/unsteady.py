@@ -41,6 +41,8 @@ def rotation_force(
     ``(F_c, F_n) = rho G dr (-v_n, v_c)`` with the circulation ``G = pi/2 c^2 omega``. It does no work at the
     quarter chord. The formula holds in any axes in the plane of chord and normal, such as the unpitched strip's.
 
+    Theory: equation ``rotation-force``.
+
     Parameters
     ----------
     density : rho [kg/m3].
@@ -58,6 +60,8 @@ def added_mass(density: Scalar, chord: PerStripBroadcast, width: Phases) -> PerS
     It resists the acceleration of the mid-chord: ``F_n = -m d(v_n)/dt`` with v_n the speed of the mid-chord through
     the air along the normal of the chord.
 
+    Theory: equation ``added-mass``.
+
     Parameters
     ----------
     density : rho [kg/m3].
@@ -74,6 +78,8 @@ def added_inertia(density: Scalar, chord: PerStripBroadcast, width: Phases) -> P
 
     It resists the turning of the chord: couple ``-I d(omega)/dt``.
 
+    Theory: equation ``unsteady-couple``.
+
     Parameters
     ----------
     density : rho [kg/m3].
@@ -87,6 +93,8 @@ def damping_couple(
     density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip, speed: PerStrip
 ) -> PerStrip:
     """Return the couple that opposes the turning of strips, ``-pi/16 rho c^3 |V| omega dr`` [N m].
+
+    Theory: equation ``unsteady-couple``.
 
     Parameters
     ----------

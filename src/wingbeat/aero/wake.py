@@ -59,6 +59,8 @@ def shed_downwash(kernel: Kernel, chord: Array, chord_speed: Array, normal_speed
     there ``V sin(a_s) C_L(alpha)/C_L(a_s)`` replaces ``-v_n``. The replacement vanishes, like the lift, for a plate
     broadside to the air.
 
+    Theory: equation ``shed-downwash``.
+
     Parameters
     ----------
     kernel : the kernel of the polar.
@@ -98,6 +100,8 @@ def wake_downwash(downwash: Array, travelled: Array, repeats: bool) -> Array:
 
     Between two samples w is taken as linear in s, and the states are integrated exactly. In a motion that repeats,
     the states repeat too; any other motion starts with the wake of steady flight, X = 0.
+
+    Theory: equation ``wake-downwash``.
 
     Parameters
     ----------

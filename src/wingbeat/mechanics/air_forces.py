@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 class AirPower(NamedTuple):
     """The power that a flight spends on the air [W], by cause, shape (...).
 
+    Theory: equation ``power-by-cause``.
+
     Attributes
     ----------
     profile : power against the lift and drag of the strips, at their velocity relative to the air at the wings. If
@@ -93,7 +95,10 @@ class _AirResistance(NamedTuple):
 
     @property
     def added_mass(self) -> CoordinateMatrix:
-        """The generalised added mass of the air at both wings, shape (5, 5)."""
+        """The generalised added mass of the air at both wings, shape (5, 5).
+
+        Theory: equation ``air-inertia``.
+        """
         return 2.0 * (
             jnp.einsum("n,ni,nj->ij", self.mass, self.lever, self.lever)
             + jnp.einsum("n,ni,nj->ij", self.inertia, self.turn, self.turn)
@@ -142,6 +147,8 @@ def air_forces_on(
     q_acceleration: Coordinates | None = None,
 ) -> AirForces:
     """Return the air loads from the motion of the wing points at one instant.
+
+    Theory: equations ``strip-velocity``, ``generalised-air-loads`` and ``air-power``.
 
     Parameters
     ----------

@@ -49,6 +49,8 @@ def strip_loads(
     The velocity of the quarter chord determines the angle of attack, wherever the force acts. The loads are along
     the chord and the normal of the unpitched strip.
 
+    Theory: equations ``strip-velocity`` and ``strip-velocity-stroke``.
+
     Parameters
     ----------
     kernel : of the coefficient model.
@@ -88,6 +90,8 @@ def wing_loads(
 ) -> BodyLoads:
     """Return the air loads on both wings, in stroke axes, for a body that does not accelerate.
 
+    Theory: equation ``wing-loads``.
+
     Parameters
     ----------
     kernel, density, motion, velocity, pitch_rate : as in `strip_loads`.
@@ -115,12 +119,17 @@ def wing_loads(
 
 
 def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStrip:
-    """Return how far the centre of pressure lies ahead of the quarter chord [m]."""
+    """Return how far the centre of pressure lies ahead of the quarter chord [m].
+
+    Theory: equation ``force-point``.
+    """
     return chord * (0.25 - kernel.centre_of_pressure(alpha))
 
 
 def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = jnp) -> Pair:
     """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
+
+    Theory: equation ``body-drag``.
 
     Parameters
     ----------
@@ -161,6 +170,8 @@ def body_air(
 
     All forces on the body other than those of the wings are added here. The tail's velocity relative to the air
     comes from the body's velocity and pitch rate; the flow that the wings induce does not reach the tail.
+
+    Theory: equation ``tail-velocity``.
 
     Parameters
     ----------
@@ -228,6 +239,8 @@ def missing_loads(
     They act in addition to the air loads and gravity. Each is the left side minus the right side of an equation of
     `accelerations`.
 
+    Theory: equation ``missing-loads``.
+
     Parameters
     ----------
     vehicle, gravity, motion, attitude, pitch_rate : as in `accelerations`.
@@ -256,6 +269,8 @@ def accelerations(
     The three equations are linear in psi'' and the acceleration a in stroke axes: ``M a + psi'' E S = F + M g +
     psi'^2 S - 2 psi' E S' - S''`` and ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``. S is the wings'
     first moment, I the pitch inertia of body and wings, K the wings' acceleration moment.
+
+    Theory: equations ``body-balance`` and ``body-accelerations``.
 
     Parameters
     ----------
@@ -292,6 +307,8 @@ def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Tri
 
     Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions of
     a derivative; without them a flight takes 1.2 times as long.
+
+    Theory: equation ``body-inertia``.
     """
     (a, b, c), (d, e), (f,) = fusion_barrier(rows)
     x, y, z = fusion_barrier(right)

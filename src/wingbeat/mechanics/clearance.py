@@ -29,6 +29,8 @@ def lateral_corners(
 ) -> tuple[PerStrip, PerStrip]:
     """Return the distance of the left wing's strip corners to the left of the plane of symmetry [m].
 
+    Theory: equation ``strip-corners``.
+
     Parameters
     ----------
     vehicle : gives the wing.

@@ -54,6 +54,10 @@ def _point_masses(model: FlightModel) -> PerStrip:
 def _terms(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
 ) -> EquationsOfMotion:
+    """Return the terms at one instant.
+
+    Theory: equations ``mass-matrix``, ``velocity-matrix`` and ``gravity-force``.
+    """
     body, mass = model.vehicle.body, _point_masses(model)
     partial = partial_velocities(model, wingbeat, q, time).mass
     partial_rate, drift_rate = bias_accelerations(model, wingbeat, q, q_dot, time)
@@ -71,6 +75,8 @@ def accelerations_from_torques(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, torques: Pair
 ) -> Coordinates:
     """Return q'' of a vehicle whose hinges are driven by torques, at one instant, shape (5,) [m/s2, rad/s2].
+
+    Theory: equation ``torque-driven``.
 
     Parameters
     ----------
@@ -134,6 +140,8 @@ def equations_of_motion(
 
     Source: Su et al. 2023 (doi 10.48550/arXiv.2302.09602); h is added for prescribed span, fold, sweep and twist.
 
+    Theory: equation ``equations-of-motion``.
+
     Parameters
     ----------
     model : the flight model.
@@ -188,6 +196,8 @@ def generalised_torques(
     time: Phases,
 ) -> Coordinates:
     """Return the generalised force that must act on the coordinates, ``tau = D q'' + C q' + h + g - f_aero``.
+
+    Theory: equation ``generalised-torques``.
 
     Parameters
     ----------

@@ -99,6 +99,8 @@ class Loads(NamedTuple):
 def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 
+    Theory: equations ``energies`` and ``energy-identity``.
+
     Parameters
     ----------
     model : the flight model.
@@ -216,7 +218,10 @@ def _loads(
 def _whole_body(
     model: FlightModel, q: Coordinates, q_dot: Coordinates, points: MassPoints, velocity: MassPoints, mass: PerStrip
 ) -> dict[str, Any]:
-    """Return centre of mass, momenta and energies of body and both wings."""
+    """Return centre of mass, momenta and energies of body and both wings.
+
+    Theory: equation ``centre-of-mass``.
+    """
     body = model.vehicle.body
     plane = jnp.asarray([0, 2])
     total = model.vehicle.mass

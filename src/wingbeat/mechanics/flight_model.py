@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 class State(NamedTuple):
     """The body's state in the world, numbers or arrays of one shape.
 
+    Theory: equation ``body-state``.
+
     Attributes
     ----------
     x, z : position, forward and up [m].
@@ -162,6 +164,8 @@ def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any 
     The wings carry the weight and balance the body's drag at the mean velocity. The tail's lift and drag are left
     out: they depend on the attitude, which is not known beforehand, and they are a small share of the weight.
 
+    Theory: equation ``mean-force``.
+
     Parameters
     ----------
     vehicle, air : the vehicle, and the air in which it flies.
@@ -273,6 +277,8 @@ def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) 
     """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...) [rad/s, m/s2, m/s2, rad/s2].
 
     The position of the body has no effect.
+
+    Theory: equation ``state-rates``.
 
     Parameters
     ----------

@@ -39,6 +39,8 @@ _VECTOR = 8
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
     """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated exactly at this phase.
 
+    Theory: equation ``state-rates``.
+
     Parameters
     ----------
     model, wingbeat : what flies.

@@ -19,13 +19,19 @@ if TYPE_CHECKING:
 
 
 def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
-    """Return the world components (x, z) of an in-plane vector given in axes pitched nose-up by `attitude`."""
+    """Return the world components (x, z) of an in-plane vector given in axes pitched nose-up by `attitude`.
+
+    Theory: equation ``body-axes``.
+    """
     c, s = cos(attitude), sin(attitude)
     return c * forward - s * up, s * forward + c * up
 
 
 def from_world(attitude: Component, x: Component, z: Component) -> Pair:
-    """Return the components of an in-plane world vector in axes pitched nose-up by `attitude`."""
+    """Return the components of an in-plane world vector in axes pitched nose-up by `attitude`.
+
+    Theory: equation ``body-axes``.
+    """
     c, s = cos(attitude), sin(attitude)
     return c * x + s * z, c * z - s * x
 
@@ -35,6 +41,8 @@ def stroke_pitch(stroke_plane_angle: Component) -> Component:
 
     The first stroke axis is ``e_c0 = (sin beta, 0, cos beta)``; the third is ``d_up = (-cos beta, 0, sin beta)``.
 
+    Theory: equation ``stroke-axes``.
+
     Parameters
     ----------
     stroke_plane_angle : beta, from the body axis [rad].
@@ -43,7 +51,10 @@ def stroke_pitch(stroke_plane_angle: Component) -> Component:
 
 
 def quarter_turn(pair: Pair) -> Pair:
-    """Turn an in-plane vector nose-up by a right angle."""
+    """Turn an in-plane vector nose-up by a right angle.
+
+    Theory: equation ``quarter-turn``.
+    """
     return -pair[1], pair[0]
 
 

@@ -223,6 +223,9 @@ def hinge_loads(
 ) -> HingeLoads:
     """Return hinge torques and powers of a flight.
 
+    Theory: equations ``generalised-force``, ``hinge-torques``, ``hinge-power``, ``actuator-power`` and
+    ``power-parts``.
+
     Parameters
     ----------
     model : the flight model.

@@ -69,6 +69,8 @@ class StripMotion(NamedTuple):
 def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: PerStripBroadcast) -> StripMotion:
     """Return how the strips move.
 
+    Theory: equation ``chord-turning``.
+
     Parameters
     ----------
     shape, rate, second : of the wing, and its first and second time derivatives.
@@ -191,6 +193,8 @@ class UnsteadyLoad(NamedTuple):
 
     def load(self, density: Scalar, velocity: Triple, acceleration: Triple | None, airspeed: PerStrip) -> Phases:
         """Return the generalised force of the air on the motion.
+
+        Theory: equation ``unsteady-load``.
 
         Parameters
         ----------

@@ -88,6 +88,8 @@ def strips_of(wing: Wing, count: int) -> Strips:
 
     The mass of a strip is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
 
+    Theory: equation ``strip-mass``.
+
     Parameters
     ----------
     wing : gives chord, mass and mass exponent p.
@@ -100,7 +102,10 @@ def strips_of(wing: Wing, count: int) -> Strips:
 
 
 def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
-    """Return the chord [m] at span fractions, linear between the stations of the wing."""
+    """Return the chord [m] at span fractions, linear between the stations of the wing.
+
+    Theory: equation ``strip-chord``.
+    """
     stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
     if stations.size == 1:
         return jnp.broadcast_to(stations, span_fraction.shape)
@@ -109,6 +114,8 @@ def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
 
 def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
     """Return the chord that meets the air [m]: the full chord times the wingbeat's chord law.
+
+    Theory: equation ``chord-law``.
 
     Parameters
     ----------
@@ -121,7 +128,7 @@ def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> Pe
 
 
 def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
-    """Return the angle of the stroke plane from the body axis [rad]."""
+    """Return the angle of the stroke plane from the body axis [rad]. Theory: equation ``stroke-plane``."""
     if at_default(wingbeat, "stroke_plane_tilt"):
         return wing.stroke_plane_angle
     return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
@@ -135,7 +142,10 @@ def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
 
 
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
-    """Return the nose-up pitch of stroke axes relative to world axes [rad]."""
+    """Return the nose-up pitch of stroke axes relative to world axes [rad].
+
+    Theory: equation ``stroke-attitude``.
+    """
     attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
     return attitude if motion.tilt is None else attitude - motion.tilt
 
@@ -157,7 +167,10 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``."""
+    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``.
+
+    Theory: equation ``strip-angles``.
+    """
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
@@ -167,6 +180,8 @@ def wing_shape(
     """Place the left wing's strips at given flap and pitch angles; the phase gives span, fold, sweep and twist.
 
     Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
+
+    Theory: equations ``strip-angles``, ``shoulder-place`` and ``strip-place``.
 
     Parameters
     ----------
@@ -210,7 +225,7 @@ def wing_shape(
 
 
 def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> WingShape:
-    """Place the strips at a phase of the prescribed wingbeat."""
+    """Place the strips at a phase of the prescribed wingbeat. Theory: equation ``strip-place``."""
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
 
@@ -220,6 +235,8 @@ def mass_points(shape: WingShape, strips: Strips) -> Triple:
 
     Each has half the mass of its strip. Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform
     strip.
+
+    Theory: equation ``mass-points``.
     """
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
     x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
@@ -228,6 +245,8 @@ def mass_points(shape: WingShape, strips: Strips) -> Triple:
 
 def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar) -> tuple[Any, Any, Any]:
     """Return a function of phase with its first and second time derivatives, by automatic differentiation.
+
+    Theory: equations ``phase`` and ``flap-vector-rates``.
 
     Parameters
     ----------
@@ -260,6 +279,8 @@ def wing_motion(
     unsteady: bool = False,
 ) -> WingMotion:
     """Tabulate the wing's motion at given phases in one pass, as air loads and body dynamics need it.
+
+    Theory: equations ``wing-moments`` and ``rod-moment``.
 
     Parameters
     ----------

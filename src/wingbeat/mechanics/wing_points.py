@@ -59,6 +59,8 @@ def _in_world(attitude: Component, vector: Triple) -> Vectors:
 def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
     """Place the left wing in the world.
 
+    Theory: equations ``world-place`` and ``coordinates``.
+
     Parameters
     ----------
     model, wingbeat : the wing, and its laws of span, fold, sweep and twist.
@@ -157,12 +159,18 @@ def surface_points(
 
 
 def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return the partial velocities ``dr/dq`` of all wing points, with a last axis of five."""
+    """Return the partial velocities ``dr/dq`` of all wing points, with a last axis of five.
+
+    Theory: equation ``partial-velocities``.
+    """
     return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
 
 
 def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist."""
+    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist.
+
+    Theory: equation ``drift``.
+    """
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 
@@ -170,6 +178,8 @@ def bias_accelerations(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
 ) -> tuple[MassPoints, MassPoints]:
     """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``.
+
+    Theory: equations ``time-force`` and ``frozen-motion``.
 
     Parameters
     ----------
@@ -213,6 +223,8 @@ def point_motion(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
 ) -> PointMotion:
     """Return the wing points and all their derivatives for a given motion.
+
+    Theory: equation ``point-rates``.
 
     Parameters
     ----------

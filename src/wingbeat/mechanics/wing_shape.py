@@ -31,6 +31,8 @@ class WingShape(NamedTuple):
     Flap turns a strip about the first axis. Sweep then turns the strip's span forward, in the plane of that
     axis and the span. Pitch turns the strip about its own span, which runs along the quarter chords.
 
+    Theory: equation ``flap-vectors``.
+
     Attributes
     ----------
     ahead, left, above : position of the quarter chord relative to the body's centre of mass [m].
@@ -58,7 +60,10 @@ class WingShape(NamedTuple):
 
     @property
     def unpitched(self) -> Triple:
-        """Unit vector along the chord of the unpitched strip."""
+        """Unit vector along the chord of the unpitched strip.
+
+        Theory: equation ``strip-axes``.
+        """
         if self.sweep_sine is None:
             return 1.0, 0.0, 0.0
         inward = -self.sweep_sine
@@ -66,21 +71,30 @@ class WingShape(NamedTuple):
 
     @property
     def spanwise(self) -> Triple:
-        """Unit vector towards the tip."""
+        """Unit vector towards the tip.
+
+        Theory: equation ``strip-axes``.
+        """
         if self.sweep_sine is None:
             return jnp.zeros_like(self.flap_sine), self.flap_cosine, self.flap_sine
         return self.sweep_sine, self.sweep_cosine * self.flap_cosine, self.sweep_cosine * self.flap_sine
 
     @property
     def chordwise(self) -> Triple:
-        """Unit vector to the leading edge."""
+        """Unit vector to the leading edge.
+
+        Theory: equation ``strip-axes``.
+        """
         if self.sweep_sine is not None:
             return self._pitched(self.pitch_cosine, self.pitch_sine)
         return self.pitch_cosine, -self.pitch_sine * self.flap_sine, self.pitch_sine * self.flap_cosine
 
     @property
     def normal(self) -> Triple:
-        """Unit vector normal to chord and span, up at rest."""
+        """Unit vector normal to chord and span, up at rest.
+
+        Theory: equation ``strip-axes``.
+        """
         if self.sweep_sine is not None:
             return self._pitched(-self.pitch_sine, self.pitch_cosine)
         return -self.pitch_sine, -self.pitch_cosine * self.flap_sine, self.pitch_cosine * self.flap_cosine

@@ -125,6 +125,8 @@ class OptimumSlopes:
     def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
         """Return the derivatives by one parameter.
 
+        Theory: equations ``envelope`` and ``optimum-slope``.
+
         Parameters
         ----------
         parameter : one of `parameters_of` the problem, or of those that are `active`.

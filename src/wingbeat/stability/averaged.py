@@ -30,6 +30,8 @@ def _rates_by_state(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path
 def averaged_jacobian(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
     """Return the mean over the beat of the derivatives of the four rates (rows) by the four states, shape (4, 4).
 
+    Theory: equation ``averaged-model``.
+
     Parameters
     ----------
     model, wingbeat : what flies.

@@ -108,6 +108,8 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = DEFAULTS) -> 
 def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
     """Return how fast the eigenvalues of a matrix move, in the order of `multipliers_of`, shape (4,).
 
+    Theory: equation ``multiplier-slope``.
+
     Parameters
     ----------
     stroke_map : the matrix, shape (4, 4).

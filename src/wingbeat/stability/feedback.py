@@ -179,6 +179,8 @@ def feedback(
 ) -> Feedback:
     """Compute the linear feedback that holds an orbit by changes of the wingbeat from beat to beat.
 
+    Theory: equation ``quadratic-cost``.
+
     Parameters
     ----------
     orbit : a certified orbit.

@@ -19,6 +19,8 @@ class FeedbackController:
     It may fly one flight after another: at its first beat it forgets the flight before. The height is measured
     from the start, relative to the path that climbs as the orbit does; the distance x is not used.
 
+    Theory: equation ``feedback-law``.
+
     Attributes
     ----------
     feedback : the feedback that it flies.

@@ -136,6 +136,8 @@ def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
 def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     """Return the harmonics that keep the wing's position and velocity at phase 0 while inputs change.
 
+    Theory: equation ``compensation``.
+
     Parameters
     ----------
     wingbeat : the wingbeat.

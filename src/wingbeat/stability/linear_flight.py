@@ -162,6 +162,8 @@ def linearise(
 ) -> LinearFlight:
     """Linearise a certified orbit from one beat to the next.
 
+    Theory: equation ``beat-map``.
+
     Parameters
     ----------
     orbit : a certified orbit.
@@ -239,7 +241,10 @@ def _accurate_map(
 def _matrices(
     flown: StrokeMap, harmonics: Compensation, count: int, dt: float, height: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B of `count` inputs, and G, with or without the height."""
+    """Return A, B of `count` inputs, and G, with or without the height.
+
+    Theory: equation ``gust-map``.
+    """
     by_inputs = flown.by_parameters[:, :count]
     if harmonics.names:
         by_inputs = by_inputs + flown.by_parameters[:, count:] @ harmonics.shares
@@ -252,7 +257,10 @@ def _matrices(
 
 
 def averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np.ndarray) -> list[Mode]:
-    """Return the modes of steady rates whose derivatives by the state are `rates`, shape (4, 4) [per s]."""
+    """Return the modes of steady rates whose derivatives by the state are `rates`, shape (4, 4) [per s].
+
+    Theory: equation ``averaged-model``.
+    """
     from scipy.linalg import expm
 
     transition = np.stack([expm(rates * phase / frequency) for phase in np.linspace(0.0, 1.0, samples)])

@@ -18,6 +18,8 @@ class ManoeuvreController:
 
     It may fly one flight after another. After the last beat of the manoeuvre it holds the last steady flight.
 
+    Theory: equation ``manoeuvre-law``.
+
     Attributes
     ----------
     manoeuvre : the manoeuvre that it flies.

@@ -60,6 +60,8 @@ class Mode:
 def modes_of(monodromy: np.ndarray, frequency: float, transition: np.ndarray, scales: np.ndarray) -> list[Mode]:
     """Return the modes of a map from beat to beat, the fastest growing first.
 
+    Theory: equation ``mode-rates``.
+
     Parameters
     ----------
     monodromy : derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape (4, 4).
@@ -104,7 +106,10 @@ def _mode(multiplier: complex, frequency: float, disturbance: np.ndarray, shares
 
 
 def _shares(multiplier: complex, path: np.ndarray, scales: np.ndarray) -> dict[str, float]:
-    """Return the mean size of each number over the beat, without growth and decay, as a share of their sum."""
+    """Return the mean size of each number over the beat, without growth and decay, as a share of their sum.
+
+    Theory: equation ``mode-shares``.
+    """
     decay = cmath.log(multiplier) if multiplier else 0.0
     steady = path * np.exp(-decay * np.linspace(0.0, 1.0, len(path)))[:, None]
     sizes = np.abs(steady / scales)[:-1].mean(axis=0)

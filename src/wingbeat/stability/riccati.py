@@ -39,6 +39,8 @@ class Reach(NamedTuple):
 def reaches(A: np.ndarray, B: np.ndarray, inputs: tuple[str, ...], kinds: dict[complex, str]) -> tuple[Reach, ...]:
     """Return what inputs do to each mode, the fastest growing first.
 
+    Theory: equation ``reach``.
+
     Parameters
     ----------
     A, B : of the map, in units, shapes (n, n) and (n, inputs).
@@ -83,6 +85,8 @@ def sufficient(modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) 
 def delayed(A: np.ndarray, B: np.ndarray, delay: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the map whose inputs act some beats later; its state has the pending inputs behind, the oldest first.
 
+    Theory: equation ``delayed-map``.
+
     Parameters
     ----------
     A, B : of the map without delay, shapes (n, n) and (n, m).
@@ -108,6 +112,8 @@ def linear_quadratic(
     P gives the cost to go, ``x' P x``. The cost of a beat is ``x' Q x + y' R y``; P solves the discrete algebraic
     Riccati equation.
 
+    Theory: equation ``riccati``.
+
     Parameters
     ----------
     A, B : of the map, shapes (n, n) and (n, m).
@@ -126,6 +132,8 @@ def periodic_linear_quadratic(
     """Return gains of each of M maps that follow each other periodically, shape (M, m, n).
 
     The Riccati equation is stepped back through the maps until the cost to go repeats itself.
+
+    Theory: equation ``periodic-riccati``.
 
     Parameters
     ----------
@@ -155,6 +163,8 @@ def gains_along(
 
     The last map has the gains of `linear_quadratic`; the Riccati equation is stepped back from its cost to go.
 
+    Theory: equation ``riccati-along``.
+
     Parameters
     ----------
     A, B : of the maps without delay, shapes (n, n) and (n, m) each.
@@ -177,6 +187,8 @@ def gains_along(
 
 def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:
     """Return the map of the state and all pending inputs with feedback.
+
+    Theory: equation ``closed-loop``.
 
     Parameters
     ----------

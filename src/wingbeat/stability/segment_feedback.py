@@ -164,6 +164,8 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
 def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
     """Return the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
 
+    Theory: equation ``bump``.
+
     Parameters
     ----------
     segments : of a beat.

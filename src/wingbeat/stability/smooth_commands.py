@@ -91,6 +91,8 @@ def parameters_of(
 ) -> Parameters:
     """Return inputs and harmonics of a changed wingbeat, shape (inputs + harmonics, ...).
 
+    Theory: equation ``exact-compensation``.
+
     Parameters
     ----------
     wingbeat : the undisturbed wingbeat.

@@ -48,6 +48,8 @@ def steady_flight(
     The conditions are those of an orbit: the beat ends in the state in which it began, has the speed, and keeps the
     height above the path. Gauss and Newton's method with exact derivatives finds inputs and state.
 
+    Theory: equation ``steady-flight``.
+
     Parameters
     ----------
     beat : the map of a beat.

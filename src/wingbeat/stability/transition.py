@@ -44,6 +44,8 @@ def transition(beat: BeatMap, states: np.ndarray, changes: np.ndarray, options: 
     fro around the minimum, because they leave out the curvature of the constraint. So after some steps the step
     itself costs more and more: the constraint is met exactly, the minimum to some percent.
 
+    Theory: equation ``transition``.
+
     Parameters
     ----------
     beat : the map of a beat.

@@ -135,6 +135,8 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
 
     Unlike the mean of the samples' positive parts, it is differentiable when a sample passes through zero. `xp` is
     the array module of the samples.
+
+    Theory: equation ``mean-positive``.
     """
     before, after = values[:-1], values[1:]
     crosses = before * after < 0.0

@@ -50,6 +50,8 @@ def certify(
 ) -> Certificate:
     """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
 
+    Theory: equation ``certificate``.
+
     Parameters
     ----------
     model, wingbeat : the flight model and its wingbeat.

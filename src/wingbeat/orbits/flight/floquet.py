@@ -82,6 +82,8 @@ def multipliers_of(matrix: np.ndarray) -> np.ndarray:
     """Return the eigenvalues of a monodromy matrix, largest modulus first, shape (4,).
 
     They are not-a-number if the matrix is.
+
+    Theory: equation ``multipliers``.
     """
     if not np.isfinite(matrix).all():
         return np.full(4, np.nan + 0j)
@@ -93,6 +95,8 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
     """Return the derivative of (body_pitch, u, w, pitch_rate) at the end of a period by those at its start.
 
     Its shape is (4, 4). It is not-a-number if the flight diverges.
+
+    Theory: equation ``monodromy``.
 
     Parameters
     ----------

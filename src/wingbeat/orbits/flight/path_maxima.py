@@ -31,6 +31,8 @@ def peaks(series: SampledSeries) -> Quarters:
     The curve between two samples is a Catmull-Rom cubic. The highest sample would not do: as a function of the
     unknowns, it has a kink where two samples are equal. A search that lowers a peak, or that is at a bound of the
     path, would end in this kink.
+
+    Theory: equation ``peaks``.
     """
     samples = _taken(series, _samples_around(series, jnp), jnp)
     return jnp.sum(jax.lax.stop_gradient(_weights(samples, jnp)) * samples, axis=0)

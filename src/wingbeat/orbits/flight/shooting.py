@@ -175,6 +175,8 @@ def _chain(
     """Compose the tangents of all stages into those of the steps, and these into those of the period.
 
     Directions are the first axis, components the next, steps the last.
+
+    Theory: equation ``step-chain``.
     """
     states, rates = flight.states, flight.rates
     by_free = jnp.concatenate([jnp.zeros((4, *by_free.shape[1:])), by_free])
@@ -222,6 +224,8 @@ def fly_part(
 
     The part that starts at phase 0 also returns the least distances of the stroke from its limits over the whole
     beat, because a separate program for them would double the cost.
+
+    Theory: equation ``runge-kutta``.
     """
 
     def by_values(at: Any) -> Any:

@@ -39,6 +39,8 @@ def stroke_map(
 ) -> StrokeMap:
     """Differentiate one beat, exactly for its fixed steps.
 
+    Theory: equation ``stroke-map``.
+
     Parameters
     ----------
     model, wingbeat : what flies.

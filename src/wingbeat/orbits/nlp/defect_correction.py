@@ -36,6 +36,8 @@ class Corrected:
         """Whether the candidate closes, keeps to its limits along the path, and is an optimum.
 
         The default tolerance is that of a certificate.
+
+        Theory: equation ``certificate``.
         """
         options = self.programme.options
         closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance

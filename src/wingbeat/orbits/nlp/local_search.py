@@ -240,6 +240,8 @@ def optimality(programme: Transcription, scaled: np.ndarray) -> float:
 
     The multipliers are those that fit best in least squares. Multipliers of the closure are free; those of active
     bounds have the right sign.
+
+    Theory: equation ``optimality-conditions``.
     """
     tolerance = programme.options.search.bound_tolerance
     closure = programme.closure_jacobian(scaled)

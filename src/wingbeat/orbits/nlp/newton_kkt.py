@@ -113,6 +113,8 @@ class NewtonKKT:
 
         The method ends when a step is shorter than the tolerance (by default that of the options), or when
         residuals and gradient are as small as rounding permits.
+
+        Theory: equation ``newton-step``.
         """
         still = self._options.step_tolerance if step_tolerance is None else step_tolerance
         for here, step in self._steps(programme, scaled):

@@ -237,7 +237,10 @@ class Transcription:
         return values, np.concatenate([self.closure_jacobian(scaled), by_inequalities])
 
     def linearised_at(self, scaled: np.ndarray, blocks: int) -> Transcription:
-        """Return the programme, corrected to values and derivatives of a flight with more blocks at this point."""
+        """Return the programme, corrected to values and derivatives of a flight with more blocks at this point.
+
+        Theory: equation ``defect-correction``.
+        """
         here, unknowns = self.point(scaled), self.physical(scaled)
         fine = self._fly(unknowns, blocks)
         return self._corrected(
@@ -252,7 +255,10 @@ class Transcription:
         )
 
     def matched_to(self, scaled: np.ndarray, certificate: Certificate) -> Transcription:
-        """Return the programme, corrected to the certifier's values of closure, path and outputs at this point."""
+        """Return the programme, corrected to the certifier's values of closure, path and outputs at this point.
+
+        Theory: equation ``defect-correction``.
+        """
         unknowns, by = self.physical(scaled), self._correction
         residual = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         path_offset = by.path_offset.copy()

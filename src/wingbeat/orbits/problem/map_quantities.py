@@ -78,6 +78,8 @@ def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
     positive (Lienard and Chipart). These five numbers are smooth where two multipliers meet; each multiplier by
     itself has an infinite derivative there. If the five are positive, b1 is positive too. It has no row of its own,
     because the conditions would then be dependent where two multipliers meet at 1.
+
+    Theory: equation ``stability-conditions``.
     """
     a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
     b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
@@ -92,6 +94,8 @@ def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
 
     The covariance P of the disturbances solves ``P = A P A' + G G'`` with ``G = (I - A)[:, (u, w)]``. A is the
     stroke map.
+
+    Theory: equation ``gust-response``.
     """
     radius = _moduli(stroke_map)[-1]
     steady = stroke_map * jnp.minimum(1.0, _STEADY / jax.lax.stop_gradient(radius))

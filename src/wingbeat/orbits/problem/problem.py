@@ -322,7 +322,7 @@ class OrbitProblem:
         return self.species.wingbeat.frequency
 
     def closure(self, end: np.ndarray, unknowns: np.ndarray, frequency: float) -> np.ndarray:
-        """Return how far the end of the period is from closing the orbit, shape (6,) [m, m, rad, m/s, m/s, rad/s].
+        """Return the residual of closure, shape (6,) [m, m, rad, m/s, m/s, rad/s]. Theory: equation ``closure``.
 
         Parameters
         ----------

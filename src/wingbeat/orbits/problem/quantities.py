@@ -215,6 +215,8 @@ _SPRING_POWER = re.compile(rf"spring_power\(({NUMBER})(?:,\s*({NUMBER}))?\)")
 def named_quantity(name: str) -> Quantity:
     """Return the quantity of this name.
 
+    Theory: equation ``quantities``.
+
     Raises
     ------
     InvalidInputError : no quantity has this name.

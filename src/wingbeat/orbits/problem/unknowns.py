@@ -14,6 +14,8 @@ from wingbeat.vehicle import Vehicle
 class Unknowns:
     """Names, bounds and scales of the unknowns: the pitch state at phase 0, then the free parameters.
 
+    Theory: equation ``unknowns``.
+
     Parameters
     ----------
     names : of the unknowns.

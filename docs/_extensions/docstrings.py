@@ -33,8 +33,19 @@ def meanings_below(lines: list[str]) -> list[str]:
     return found
 
 
+_CITED = re.compile(r"(?<=Theory: )equations? [^.]+(?=\.)")
+_LABEL = re.compile(r"``([a-z0-9-]+)``")
+
+
+def equations_linked(lines: list[str]) -> list[str]:
+    """Return the lines of a docstring with links to the equations that it names."""
+    text = "\n".join(lines)
+    linked = _CITED.sub(lambda cited: _LABEL.sub(r"\1 :eq:`\1`", cited[0]), text)
+    return linked.split("\n")
+
+
 def _process(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
-    lines[:] = meanings_below(lines)
+    lines[:] = equations_linked(meanings_below(lines))
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

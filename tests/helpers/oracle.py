@@ -168,8 +168,8 @@ class Wing:
 
     def air_loads(self, air, coefficients, force_at_cp, full_airspeed):
         """(place, velocity, force, alpha, lift, drag) per strip of one wing."""
-        # Theory: equations ``strip-velocity``, ``angle-of-attack``, ``lift-drag``, ``strip-force`` and ``force-
-        # point``.
+        # Theory: equations ``strip-velocity``, ``angle-of-attack``, ``lift-drag``, ``strip-force`` and
+        # ``force-point``.
         _, v, _ = self.point(0.0)
         xi, alpha, lift, drag = np.zeros((4, len(v)))
         force = np.zeros(v.shape)

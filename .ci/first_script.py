@@ -1,0 +1,20 @@
+"""What a new user's first script does. `.ci/try_release` runs it in an environment that has the built package alone."""
+
+from pathlib import Path
+
+import wingbeat as wb
+
+assert "site-packages" in wb.__file__, f"not the installed package: {wb.__file__}"
+assert wb.__version__
+
+pigeon = wb.load_species("pigeon")
+orbit = wb.solve_orbit(wb.OrbitProblem(pigeon, speed=12.0), starts=1, seed=0)
+assert orbit.status.value == "converged", orbit.message
+orbit.save("first.nc")
+again = wb.load_orbit("first.nc")
+assert again.record()["frequency"] == orbit.record()["frequency"]
+assert Path("first.nc").stat().st_size > 0
+
+curve = wb.solve_curve(wb.OrbitProblem(pigeon, speed=12.0), speeds=[11.0, 12.0], starts=1)
+assert [float(speed) for speed in curve.dataset["speed"]] == [11.0, 12.0]
+assert wb.linearise(orbit).multipliers.size > 0

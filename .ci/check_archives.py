@@ -1,4 +1,4 @@
-"""Check wheel and source archive of a folder: what they hold, what their metadata say, that the description renders.
+"""Check wheel and source archive of a folder: contents, metadata, and that the description renders.
 
 `.ci/try_release` runs this with twine installed. Exit code 1 and a list of faults if something is wrong.
 """
@@ -12,7 +12,7 @@ from email.message import Message
 from pathlib import Path
 
 MOST_BYTES = 3_000_000
-"""Largest archive; the wheel of 0.1.0 has 1.6 MB, a third of it measured wing motions that `wingbeat validate` reads."""
+"""Largest archive; the wheel of 0.1.0 has 1.6 MB. A third are wing motions that `wingbeat validate` reads."""
 
 NEEDED = ["py.typed", "viewer/viewer.js", "app/page.css", "data/pigeon.toml", "data/whole_flights/pigeon.toml"]
 CLASSIFIERS = [f"Programming Language :: Python :: {version}" for version in ("3.11", "3.12", "3.13")]

@@ -1,4 +1,4 @@
-"""What a new user's first script does. `.ci/try_release` runs it in an environment that has the built package alone."""
+"""What a new user's first script does. `.ci/try_release` runs it where only the built package is installed."""
 
 from pathlib import Path
 

@@ -12,7 +12,7 @@ orbit = wb.solve_orbit(wb.OrbitProblem(pigeon, speed=12.0), starts=1, seed=0)
 assert orbit.status.value == "converged", orbit.message
 orbit.save("first.nc")
 again = wb.load_orbit("first.nc")
-assert again.record()["frequency"] == orbit.record()["frequency"]
+assert again.wingbeat.frequency == orbit.wingbeat.frequency
 assert Path("first.nc").stat().st_size > 0
 
 assert wb.linearise(orbit).multipliers.size > 0

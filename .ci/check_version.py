@@ -42,9 +42,8 @@ def faults(version_file: str, citation: str, changelog: str, tag: str | None = N
     for key, value in (("version", package[0]), ("date-released", newest["date"])):
         stated = re.findall(rf"^{key}: *[\"']?([^\"'\n]*?)[\"']?$", citation, re.M)
         if stated != ([] if value is None else [value]):
-            wrong.append(
-                f"CITATION.cff: {key} is {stated or 'absent'}, not {value or 'absent: nothing is released'}"
-            )
+            wanted = value or "absent, because this version is not released"
+            wrong.append(f"CITATION.cff: {key} must be {wanted}; it is {' and '.join(stated) or 'absent'}")
     if tag is not None and tag != package[0]:
         wrong.append(f"the tag says {tag}, but the package has version {package[0]}")
     if tag is not None and newest["date"] is None:

@@ -1,0 +1,50 @@
+"""
+How fast should a swift fly to go far?
+======================================
+
+The flight of least power keeps the bird in the air for longest. The flight of least power divided by speed takes it
+farthest on its fat. How fast are these two flights of a common swift, and how fast do live swifts fly?
+"""
+
+# %%
+# The swift has feathered wings, induced flow and body drag. ``solve_curve`` finds the orbits of least positive power
+# along speed, and the two characteristic speeds.
+import csv
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+import wingbeat as wb
+from wingbeat.style import BLUE, GREEN, VERMILION
+
+swift = wb.load_species("common-swift").with_alternative("body-drag")
+air = wb.aero.BladeElement("feathered", inflow="momentum")
+problem = wb.OrbitProblem(swift, speed=8.0, aero=air, minimise="mean_positive_power")
+curve = wb.solve_curve(problem, [6.0, 8.0, 10.0, 12.0, 14.0], starts=1)
+assert not curve.gaps
+best = curve.characteristic_speeds
+
+# %%
+# Radar measured the airspeed of migrating swifts (Alerstam et al. 2007, doi 10.1371/journal.pbio.0050197).
+with Path("..", "..", "data", "alerstam.csv").open(encoding="utf-8") as table:
+    measured = next(row for row in csv.DictReader(table) if row["species"] == "Apus apus")
+radar, spread = float(measured["airspeed"]), float(measured["airspeed_sd"])
+
+# %%
+# Power against speed, with the two speeds and the measured one.
+power = curve.dataset["mean_positive_power"].sel(optimum=0)
+figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
+axes.axvspan(radar - spread, radar + spread, color=GREEN, alpha=0.25, linewidth=0, label="live swifts, radar")
+axes.plot(power["speed"], power, color=BLUE, marker="o", label="least power")
+for name, color, line in (("minimum_power", "k", ":"), ("maximum_range", VERMILION, "--")):
+    axes.axvline(best[name]["speed"], color=color, linestyle=line, label=name.replace("_", " "))
+axes.set(xlabel="flight speed [m/s]", ylabel="mean positive power [W]", ylim=(0, None))
+axes.legend(frameon=False, loc="upper left")
+
+# %%
+# The answer:
+print(
+    f"To go far, this swift should fly at {best['maximum_range']['speed']:.1f} m/s; it stays up for longest at "
+    f"{best['minimum_power']['speed']:.1f} m/s. Live swifts migrate at {radar:.1f} m/s."
+)
+assert best["minimum_power"]["speed"] < best["maximum_range"]["speed"]

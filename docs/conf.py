@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from sphinx_gallery.sorting import FileNameSortKey
+from pygments.lexers.special import TextLexer
+from sphinx.highlighting import lexers
 
 import wingbeat
 
@@ -41,13 +42,14 @@ myst_dmath_double_inline = True
 myst_links_external_new_tab = False
 # Code fences name languages for `tests/repository/test_docs.py`; `py` is Python that the tests do not run.
 highlight_language = "none"
+lexers["csv"] = TextLexer()
 
-default_role = "py:obj"
+default_role = "code"
 autosummary_generate = True
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_member_order = "bysource"
-autodoc_default_options = {"members": True, "show-inheritance": False}
+autodoc_default_options = {"members": True}
 maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
 napoleon_google_docstring = False
@@ -59,7 +61,7 @@ sphinx_gallery_conf = {
     "examples_dirs": ["../examples/gallery"],
     "gallery_dirs": ["gallery"],
     "filename_pattern": "plot_",
-    "within_subsection_order": FileNameSortKey,
+    "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,
     "show_memory": False,

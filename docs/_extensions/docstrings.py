@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+import wingbeat as wb
+
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
@@ -44,8 +46,18 @@ def equations_linked(lines: list[str]) -> list[str]:
     return linked.split("\n")
 
 
+_NAME = re.compile(r"(?<![`:\w])`([A-Za-z_][\w.]*)`(?!`)")
+
+
+def names_linked(lines: list[str]) -> list[str]:
+    """Return the lines of a docstring with links to public names of wingbeat; other names are code."""
+    public = set(wb.__all__)
+    link = "\n".join(lines)
+    return _NAME.sub(lambda m: f":py:obj:`~wingbeat.{m[1]}`" if m[1] in public else f"``{m[1]}``", link).split("\n")
+
+
 def _process(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
-    lines[:] = equations_linked(meanings_below(lines))
+    lines[:] = names_linked(equations_linked(meanings_below(lines)))
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -37,9 +37,7 @@ def with_wings(length, chord):
 lengths, chords = [0.22, 0.25, 0.28, 0.31], [0.06, 0.075, 0.09]
 pairs = [(length, chord) for chord in chords for length in lengths]
 problems = [
-    wb.OrbitProblem(
-        with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"]
-    )
+    wb.OrbitProblem(with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"])
     for pair in pairs
 ]
 orbits = wb.solve_orbits(problems, starts=2)

@@ -25,7 +25,11 @@ known = wb.solve_orbit(wb.OrbitProblem(bat, speed=6.0), starts=2)
 assert known.status is wb.Status.CONVERGED
 film = synthetic_film(known.wingbeat, frames=80, noise_deg=1.0, seed=1, columns=("flap_deg", "pitch_deg"))
 seen = known.dataset.interp(phase=film.phase)
-body = {"body_x_m": seen["x"].values, "body_z_m": seen["z"].values, "body_pitch_deg": np.degrees(seen["body_pitch"])}
+body = {
+    "body_x_m": seen["x"].values,
+    "body_z_m": seen["z"].values,
+    "body_pitch_deg": np.degrees(seen["body_pitch"]),
+}
 film = replace(film, columns={**film.columns, **{name: np.array(values) for name, values in body.items()}})
 
 # %%

@@ -11,7 +11,6 @@ from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 from sphinx.util.math import get_node_equation_number
 
-
 _BOLD = re.compile(r'<mi mathvariant="bold">(\w)</mi>')
 
 

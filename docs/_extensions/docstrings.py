@@ -1,7 +1,8 @@
 """Docstrings of wingbeat as Sphinx reads them.
 
 A parameter stands as ``name : meaning``. In numpydoc's form, a type stands after the colon. Here types stand in the
-signature, so the meaning moves to the line below.
+signature, so the meaning moves to the line below. Text and examples after the last section get headings of their own,
+because a section of numpydoc ends only at the next heading.
 """
 
 from __future__ import annotations
@@ -14,50 +15,50 @@ import wingbeat as wb
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
-
 _SECTIONS = ("Parameters", "Returns", "Raises", "Attributes", "Yields")
 _ENTRY = re.compile(r"^(\S[^:]*?) : (.+)$")
-
-
-def meanings_below(lines: list[str]) -> list[str]:
-    """Return the lines of a docstring with each meaning below its name."""
-    found: list[str] = []
-    inside = False
-    for i, line in enumerate(lines):
-        underlined = i + 1 < len(lines) and set(lines[i + 1]) == {"-"}
-        if underlined:
-            inside = line.strip() in _SECTIONS
-        entry = _ENTRY.match(line) if inside else None
-        if entry:
-            found += [entry[1], f"    {entry[2]}"]
-        else:
-            found.append(line)
-    return found
-
-
 _CITED = re.compile(r"(?<=Theory: )equations? [^.]+(?=\.)")
 _LABEL = re.compile(r"``([a-z0-9-]+)``")
+_NAME = re.compile(r"(?<![`:\w])`([A-Za-z_][\w.]*)`(?!`)")
+
+
+def in_numpydoc_form(lines: list[str]) -> list[str]:
+    """Return the lines of a docstring with each meaning below its name, and headings after the last section."""
+    found: list[str] = []
+    inside, before = False, ""
+    for line, below in zip(lines, [*lines[1:], ""], strict=True):
+        entry = _ENTRY.match(line) if inside else None
+        if below and set(below) == {"-"}:
+            inside = line.strip() in _SECTIONS
+        elif line.startswith(">>>") and not before and found:
+            found += ["Examples", "--------"]
+            inside = False
+        elif inside and not before and line and not line.startswith(" ") and not entry and set(line) != {"-"}:
+            found += ["Notes", "-----"]
+            inside = False
+        found += [entry[1], f"    {entry[2]}"] if entry else [line]
+        before = line
+    return found
 
 
 def equations_linked(lines: list[str]) -> list[str]:
     """Return the lines of a docstring with links to the equations that it names."""
-    text = "\n".join(lines)
-    linked = _CITED.sub(lambda cited: _LABEL.sub(r"\1 :eq:`\1`", cited[0]), text)
+    linked = _CITED.sub(lambda cited: _LABEL.sub(r"\1 :eq:`\1`", cited[0]), "\n".join(lines))
     return linked.split("\n")
-
-
-_NAME = re.compile(r"(?<![`:\w])`([A-Za-z_][\w.]*)`(?!`)")
 
 
 def names_linked(lines: list[str]) -> list[str]:
     """Return the lines of a docstring with links to public names of wingbeat; other names are code."""
     public = set(wb.__all__)
-    link = "\n".join(lines)
-    return _NAME.sub(lambda m: f":py:obj:`~wingbeat.{m[1]}`" if m[1] in public else f"``{m[1]}``", link).split("\n")
+
+    def link(name: re.Match[str]) -> str:
+        return f":py:obj:`~wingbeat.{name[1]}`" if name[1] in public else f"``{name[1]}``"
+
+    return _NAME.sub(link, "\n".join(lines)).split("\n")
 
 
 def _process(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
-    lines[:] = names_linked(equations_linked(meanings_below(lines)))
+    lines[:] = names_linked(equations_linked(in_numpydoc_form(lines)))
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

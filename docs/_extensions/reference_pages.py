@@ -210,9 +210,9 @@ def functions() -> str:
     """Return what computes the equations of the theory, from the pages of theory."""
     pages = sorted((Path(__file__).parents[1] / "theory").glob("*.md"))
     cited = "".join(page.read_text(encoding="utf-8") for page in pages)
-    kinds = {"func": "autofunction", "meth": "automethod", "class": "autoclass", "attr": "autoproperty"}
+    kinds = {"func": "autofunction", "meth": "automethod", "class": "autofunction", "attr": "autoproperty"}
     kind_of = {path: kind for kind, path in re.findall(r"\{py:(\w+)\}`(wingbeat[\w.]+)`", cited)}
-    entries = [f".. {kinds[kind]}:: {path}\n   :no-members:\n" for path, kind in sorted(kind_of.items())]
+    entries = [f".. {kinds[kind]}:: {path}\n" for path, kind in sorted(kind_of.items())]
     return (
         "# What computes the equations\n\nThese functions compute the equations of the "
         "[theory](../theory/index.md). They are not part of the interface, and may change.\n\n```{eval-rst}\n"

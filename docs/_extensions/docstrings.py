@@ -1,8 +1,8 @@
 """Docstrings of wingbeat as Sphinx reads them.
 
-A parameter stands as ``name : meaning``. In numpydoc's form, a type stands after the colon. Here types stand in the
-signature, so the meaning moves to the line below. Text and examples after the last section get headings of their own,
-because a section of numpydoc ends only at the next heading.
+A parameter stands as ``name : meaning``. In numpydoc's form, a type stands after the colon. Here types stand in
+the signature, so the meaning moves to the line below. Text and examples after the last section get headings of
+their own, because a section of numpydoc ends only at the next heading.
 """
 
 from __future__ import annotations

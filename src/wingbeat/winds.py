@@ -84,8 +84,8 @@ class DrydenTurbulence:
         304.8 m, a seed that is not a whole number.
 
     The spectra over the wave number W [rad/m] are ``s_u^2 (2 L_u / pi) / (1 + (L_u W)^2)`` and
-    ``s_w^2 (L_w / pi) (1 + 3 (L_w W)^2) / (1 + (L_w W)^2)^2``, with scales and intensities of the low-altitude model of MIL-F-8785C
-    (1980), section 3.7.3.
+    ``s_w^2 (L_w / pi) (1 + 3 (L_w W)^2) / (1 + (L_w W)^2)^2``, with scales and intensities of the low-altitude
+    model of MIL-F-8785C (1980), section 3.7.3.
 
     >>> air = DrydenTurbulence(airspeed=12.0, level="moderate", altitude=30.0, seed=1)
     >>> round(air.intensities[1], 2), round(air.scales[1], 1)

@@ -21,6 +21,6 @@ class NotebookFigure(Figure):
 
     def _repr_png_(self) -> bytes:
         out = io.BytesIO()
-        with rc_context(LONG_LINES):
+        with rc_context(LONG_LINES):  # type: ignore[arg-type]
             self.savefig(out, format="png", dpi=_DPI)
         return out.getvalue()

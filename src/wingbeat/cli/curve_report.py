@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wingbeat.cli.report import print_report
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.streams import plain_console
 from wingbeat.paper.measured_powers import published_for
 from wingbeat.results.curve_report import curve_report

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.cli.printing import print_report
 from wingbeat.datasets import KIND, STATE_NAMES
 from wingbeat.errors import FileError
-from wingbeat.reports import Report, Tone, grouped
-from wingbeat.reports.text import lines_of
+from wingbeat.reports import grouped
 from wingbeat.results.orbit_report import orbit_report, status_line
 from wingbeat.results.rows import power_rows, state_rows, wingbeat_rows
 from wingbeat.results.storage import load_dataset
@@ -20,14 +20,6 @@ from wingbeat.results.storage import load_dataset
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
-
-_STYLES: dict[Tone, str] = {
-    "title": "bold",
-    "good": "bold green",
-    "doubtful": "bold yellow",
-    "bad": "bold red",
-    "warning": "yellow",
-}
 
 
 def read_result(path: str | PathLike[str]) -> xr.Dataset:
@@ -86,14 +78,3 @@ def print_flight(summary: dict[str, Any], console: Console) -> None:
     }
     status = status_line(*(("flown", message, "good") if completed else ("not finished", message, "bad")))
     print_report([status, grouped(groups)], console)
-
-
-def print_report(report: Report, console: Console) -> None:
-    """Print a report; its text is that of `summary`, with colours on a terminal."""
-    from rich.text import Text
-
-    for line in lines_of(report, console.width):
-        styled = Text(line.text)  # as Text, for names come from files
-        if line.toned:
-            styled.stylize(_STYLES[line.tone], 0, line.toned)
-        console.print(styled, soft_wrap=True)

@@ -254,7 +254,7 @@ class OrbitProblem(ReportedProblem):
                 if not pair[0] < pair[1]:
                     faults.add(f"bounds.{name}", pair, "lower must be below upper")
                 if name not in PATH_NAMES:
-                    self._check_reach(faults, name, pair)
+                    self._check_reach(faults, name, (pair[0], pair[1]))
         faults.raise_if_any()
 
     def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:

@@ -1,4 +1,4 @@
-"""What a notebook asks of a result: a well-formed table that loads nothing, suits dark pages and repeats its text."""
+"""What a notebook asks of a result: well-formed, no requests, right on dark pages, with the words of the text."""
 
 import re
 from collections import Counter
@@ -29,11 +29,15 @@ class _Page(HTMLParser):
             assert not re.search(
                 r"url\(|@import|rgb|#[0-9a-f]{3}|(?<![\w-])(color|background):(?!inherit|trans)", value
             )
-        if tag != "br":
+        if tag == "br":
+            self.texts.append(" ")
+        else:
             self.open.append(tag)
 
     def handle_endtag(self, tag):
         assert self.open.pop() == tag
+        if tag != "span":
+            self.texts.append(" ")
 
     def handle_data(self, data):
         self.texts.append(data)
@@ -47,8 +51,8 @@ def words_of(text):
 def check_table(result):
     """Check the table that a notebook shows of a result, and return its words."""
     page = _Page(result._repr_html_())
-    assert words_of(" ".join(page.texts)) == words_of(result.summary(10_000))
-    return " ".join(" ".join(page.texts).split())
+    assert words_of("".join(page.texts)) == words_of(result.summary(10_000))
+    return " ".join("".join(page.texts).split())
 
 
 def check_figure(figure):

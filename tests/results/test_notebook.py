@@ -48,7 +48,7 @@ def test_the_summary_is_what_the_commands_print(capsys, monkeypatch, tmp_path):
 def test_an_orbit_shows_its_record(orbit):
     shown = check_table(orbit)
     assert f"{orbit.wingbeat.frequency:.4g} Hz" in shown
-    assert "certified : closes to" in shown
+    assert "certified: closes to" in shown
     assert all(" ".join(warning.split()) in shown for warning in orbit.record()["warnings"])
 
 

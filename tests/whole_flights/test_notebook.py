@@ -10,9 +10,7 @@ def test_a_prediction_shows_flights_and_measurements():
     values = {"frequency": 6.25, "flap_amplitude_deg": 41.5, "positive_power_per_mass": 33.0, "strouhal": 0.2}
     flown = [Flown(speed, "converged", "", values) for speed in flights.speeds[1:]]
     none = Flown(flights.speeds[0], "infeasible", "", {})
-    found = wb.Prediction(
-        flights, "animal", "positive_power", (Flown(flights.speeds[0], "infeasible", "", {}), *flown)
-    )
+    found = wb.Prediction(flights, "animal", "positive_power", (none, *flown))
     shown = check_table(found)
     assert f"{flights.speeds[1]:g} 6.25 41.5 33 0.2" in shown
     assert "infeasible" in shown

@@ -71,7 +71,7 @@ def _lines(line: Line, width: int) -> Iterator[Printed]:
     for part in parts:
         toned = min(left, len(part)) if line.tone else 0
         yield Printed(part, line.tone, toned)
-        left -= toned + 1 if toned else 0  # a blank ends at the break
+        left = max(left - len(part) - 1, 0)  # a blank ends at the break
 
 
 def _wrapped(text: str, width: int) -> list[str]:

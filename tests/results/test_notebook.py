@@ -20,13 +20,13 @@ def orbit(problem):
 
 @pytest.fixture(scope="module")
 def curve():
-    return wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=8.0), [8.0, 10.0, 60.0], starts=1)
+    return wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=8.0), [8.0, 10.0], starts=1)
 
 
 @pytest.fixture(scope="module")
-def front(orbit):
+def front():
     problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0)
-    return wb.pareto_front(problem, "spectral_radius", [1.2, 0.01], starts=1)
+    return wb.pareto_front(problem, "spectral_radius", [1.2, 1.1], starts=1)
 
 
 @pytest.fixture(scope="module")
@@ -70,9 +70,9 @@ def test_a_curve_shows_each_speed(curve):
     shown = check_table(curve)
     best = curve.record()["points"][1]["optima"][0]
     assert f"10 {best['frequency']:.4g} {best['mean_positive_power']:.4g}" in shown
-    assert "2 of 3 speeds certified" in shown
+    assert "2 of 2 speeds certified" in shown
     table = curve.to_dataframe()
-    assert table["speed"].tolist() == [8.0, 10.0, 60.0]
+    assert table["speed"].tolist() == [8.0, 10.0]
     assert table["frequency"].iloc[1] == best["frequency"]
     assert {"frequency", "mean_positive_power", "flap_amplitude"} <= set(table.columns) & set(NOMENCLATURE)
 
@@ -82,8 +82,8 @@ def test_a_front_shows_each_limit(front):
     assert "1.2" in shown
     assert "dominated" in shown or "unstable" in shown
     table = front.to_dataframe()
-    assert table["frequency"].tolist()[:2] == [orbit.wingbeat.frequency for orbit in front.orbits[:2]]
-    assert table["status"].iloc[-1] != "converged"
+    assert table["frequency"].tolist() == [orbit.wingbeat.frequency for orbit in front.orbits]
+    assert table["limit"].iloc[1:].tolist() == [1.2, 1.1]
 
 
 def test_sensitivities_are_ranked(found):

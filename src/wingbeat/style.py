@@ -56,10 +56,10 @@ def drawing(font: float = FONT) -> Iterator[None]:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """Return an empty figure of a width and a height [mm]."""
-    from matplotlib.figure import Figure
+    """Return an empty figure of a width and a height [mm]; a notebook shows it as the last value of a cell."""
+    from wingbeat.notebook_figure import NotebookFigure
 
-    return Figure(figsize=(width / INCH, height / INCH), layout="constrained")
+    return NotebookFigure(figsize=(width / INCH, height / INCH), layout="constrained")
 
 
 def dress(axes: Axes, xlabel: str, ylabel: str) -> None:

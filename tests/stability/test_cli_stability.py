@@ -8,8 +8,8 @@ import pytest
 import wingbeat as wb
 from wingbeat._jax.config import jnp
 from wingbeat.cli import main
-from wingbeat.cli.stability import headline
 from wingbeat.plots import stability_page
+from wingbeat.stability.linear_report import headline
 
 
 @pytest.fixture(scope="module")

@@ -6,20 +6,22 @@ import json as json_format
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
-from wingbeat.kinematics import ANGLES
 from wingbeat.plots import gust_page, save_figure
+from wingbeat.reports import Line
 from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute
+from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_report, survey_report
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
 from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.winds import Wind
@@ -27,14 +29,6 @@ from wingbeat.winds import Wind
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
 _GUST = ["w=2", "duration=0.3"]
-# Units in which the state is printed, and the size of each in SI units.
-_UNITS = {
-    "z": ("z [m]", 1.0),
-    "body_pitch": ("pitch [deg]", math.radians(1.0)),
-    "u": ("u [m/s]", 1.0),
-    "w": ("w [m/s]", 1.0),
-    "pitch_rate": ("rate [rad/s]", 1.0),
-}
 
 
 def feedback(
@@ -95,7 +89,7 @@ def feedback(
         faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
     faults.whole("--beats", beats, 1, 10_000)
     faults.whole("--survey", survey, 0, MOST_FLIGHTS)
-    errors = named_numbers(faults, "--noise", noise, tuple(_UNITS), "body_pitch=0.01")
+    errors = named_numbers(faults, "--noise", noise, tuple(STATE_UNITS), "body_pitch=0.01")
     faults.raise_if_any()
     check_outputs(plot)
     orbit = load_orbit(source)
@@ -135,62 +129,14 @@ def _fly(
 
 
 def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None) -> None:
-    from rich.table import Table
-
     console = plain_console()
-    record = held.record()
-    console.print(headline(record), soft_wrap=True)
-    console.print()
-    console.print("change of the inputs per unit of")
-    table = Table("", *(label for label, _ in _UNITS.values()), box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name, row in zip(held.inputs, -held.gains, strict=True):
-        unit, size = ("deg", math.radians(1.0)) if name in ANGLES else ("Hz" if name == "frequency" else "-", 1.0)
-        shown = [f"{gain * one / size:.3g}" for gain, (_, one) in zip(row, _UNITS.values(), strict=False)]
-        table.add_row(f"{name} [{unit}]", *shown)
-    console.print(table)
-    if held.delay:
-        last = "beat" if held.delay == 1 else f"{held.delay} beats"
-        console.print(f"and of the inputs of the last {last}: see --json", soft_wrap=True)
-    console.print()
-    console.print("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), soft_wrap=True)
-    console.print("multipliers with feedback:    " + _numbers(record["multipliers"]), soft_wrap=True)
-    alone = ", ".join(held.sufficient) or "none"
-    console.print(f"inputs that suffice alone:    {alone}", soft_wrap=True)
-    console.print()
+    print_report([*feedback_report(held.record()), Line("")], console)
     for name, one in flights.items():
         console.print(
-            _outcome(name if name == FREE or not late else f"{name}, {_beats(late)} late", one), soft_wrap=True
+            _outcome(name if name == FREE or not late else f"{name}, {beats_of(late)} late", one), soft_wrap=True
         )
     if survey is not None:
-        console.print()
-        shares = ", ".join(f"{survey.share(name):.1%} {_with(name)}" for name in survey.survived)
-        console.print(f"of {len(survey.size)} gusts of up to 5 m/s survived: {shares}", soft_wrap=True)
-
-
-def headline(record: dict[str, Any]) -> str:
-    """Return what a feedback does to an orbit in a line."""
-    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
-    acting = "in the same beat" if not record["delay"] else f"{_beats(record['delay'])} later"
-    return (
-        f"{where}: spectral radius {record['open_loop']['spectral_radius']:.3f} without feedback, "
-        f"{record['spectral_radius']:.3f} with feedback that acts {acting}"
-    )
-
-
-def _beats(count: int) -> str:
-    return f"{count} beat" if count == 1 else f"{count} beats"
-
-
-def _with(name: str) -> str:
-    return "without feedback" if name == FREE else "with feedback"
-
-
-def _numbers(pairs: list[list[float]]) -> str:
-    """Return the multipliers, one of each complex pair, without those near 0, which belong to pending inputs."""
-    shown = [
-        (real, imaginary) for real, imaginary in pairs if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
-    ]
-    return ", ".join(f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "") for real, imaginary in shown)
+        print_report([Line(""), *survey_report(survey.record())], console)
 
 
 def _outcome(name: str, one: GustFlight) -> str:
@@ -198,7 +144,7 @@ def _outcome(name: str, one: GustFlight) -> str:
     if not one.survived:
         return f"{name}: lost"
     settled = record["settled_beats"]
-    ending = "not settled at the end" if settled is None else f"settled after {_beats(settled)}"
+    ending = "not settled at the end" if settled is None else f"settled after {beats_of(settled)}"
     return (
         f"{name}: survived, body pitch within {math.degrees(record['largest_pitch']):.1f} deg of the orbit's, "
         f"height {record['lowest']:+.2f} to {record['highest']:+.2f} m, {ending}"

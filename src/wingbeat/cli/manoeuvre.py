@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json as json_format
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import Climb, Seed, Settings, Whole, check_files, check_outputs, unpacking
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, wind_of
@@ -23,6 +24,7 @@ from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit
 from wingbeat.stability.manoeuvre import Manoeuvre
 from wingbeat.stability.manoeuvre import manoeuvre as find
+from wingbeat.stability.manoeuvre_report import manoeuvre_report
 
 
 def manoeuvre(
@@ -107,27 +109,10 @@ def _solved(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
 
 
 def _print(plan: Manoeuvre, flights: dict[str, Flight]) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
     console = plain_console()
-    record = plan.record()
-    console.print(f"{record['species']} from {record['speed']:g} m/s: {record['message']}", soft_wrap=True)
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for heading in ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"):
-        table.add_column(Text(heading), justify="right")
-    for end in record["ends"]:
-        table.add_row(*map(Text, _row(end)))
-    console.print(table)
-    if flights:
-        console.print(f"{record['time'][-1]:.2f} s, {record['distance']:.1f} m", soft_wrap=True)
+    print_report(manoeuvre_report(plan.record()), console)
     for name, flight in flights.items():
         console.print(f"{name}: {_outcome(plan, flight)}", soft_wrap=True)
-
-
-def _row(end: dict[str, Any]) -> tuple[str, str, str, str]:
-    free = end["free_frequency"]
-    return f"{end['speed']:g}", f"{end['beats']}", f"{end['frequency']:.4g}", "" if free is None else f"{free:.4g}"
 
 
 def _outcome(plan: Manoeuvre, flight: Flight) -> str:

@@ -19,7 +19,6 @@ from wingbeat.cli.filmed import (
     spread_lines,
     spread_record,
 )
-from wingbeat.cli.influence import print_influence
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     SPECIES,
@@ -39,6 +38,7 @@ from wingbeat.cli.options import (
     unpacking,
     with_stability,
 )
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
@@ -47,6 +47,8 @@ from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Line
+from wingbeat.results.influence_report import influence_report
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.power import power_account
 from wingbeat.results.sensitivities import Sensitivities
@@ -192,7 +194,7 @@ def orbit(
     else:
         print_orbit(record, Console())
         if influence and sensitivities:
-            print_influence(influence, bars, Console())
+            print_report([Line(""), *influence_report(influence, bars)], Console())
         for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
             print(line)
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json as json_format
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -21,14 +21,14 @@ from wingbeat.cli.options import (
     check_files,
     check_outputs,
 )
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
-from wingbeat.nomenclature import for_people
 from wingbeat.plots import pareto_page, save_figure
 from wingbeat.results.pareto import pareto_front
+from wingbeat.results.pareto_report import pareto_report
 
 
 def pareto(
@@ -94,37 +94,5 @@ def pareto(
     if json:
         print(json_format.dumps(record, indent=2, allow_nan=False))
     else:
-        _print(record)
+        print_report(pareto_report(record), plain_console())
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
-
-
-def _print(record: dict[str, Any]) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    console = plain_console()
-    minimised, limited = (record[kind].replace("_", " ") for kind in ("objective", "quantity"))
-    where = f"{record['species']} at {record['speed']:g} m/s{climb_text(record['climb'])}"
-    console.print(f"{where}: least {minimised} for each limit of the {limited}", soft_wrap=True)
-    factor, unit = for_people(record["quantity_unit"])
-    limit = f"limit [{unit or '-'}]"
-    objective_factor, objective_unit = for_people(record["objective_unit"])
-    headings = (limit, "reached", f"{minimised} [{objective_unit or '-'}]", "rise [%]", "f [Hz]", "P+ [W]", "")
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for heading in headings:
-        table.add_column(Text(heading), justify="left" if not heading else "right")
-    for point in record["points"]:
-        shown = "none" if point["limit"] is None else f"{factor * point['limit']:.4g}"
-        if point["objective_value"] is None:
-            table.add_row(*map(Text, (shown, *[""] * 5, f"{point['status']}: {point['message']}")))
-            continue
-        note = "dominated" if point["dominated"] else ("stable" if point["stable"] else "unstable")
-        numbers = (
-            f"{factor * point['quantity_value']:.4g}",
-            f"{objective_factor * point['objective_value']:.4g}",
-            "" if point["rise"] is None else f"{100 * point['rise']:.2f}",
-            f"{point['frequency']:.4g}",
-            f"{point['mean_positive_power']:.4g}",
-        )
-        table.add_row(*map(Text, (shown, *numbers, note)))
-    console.print(table)

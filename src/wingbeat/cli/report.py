@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.cli.power_report import power_groups
+from wingbeat.cli.printing import print_report
 from wingbeat.datasets import KIND, STATE_NAMES
 from wingbeat.errors import FileError
-from wingbeat.results.plausibility import statements
-from wingbeat.results.rows import Rows, orbit_groups, power_rows, state_rows, wingbeat_rows
+from wingbeat.reports import grouped
+from wingbeat.results.orbit_report import orbit_report, status_line
+from wingbeat.results.rows import power_rows, state_rows, wingbeat_rows
 from wingbeat.results.storage import load_dataset
 
 if TYPE_CHECKING:
@@ -37,18 +38,7 @@ def read_result(path: str | PathLike[str]) -> xr.Dataset:
 
 def print_orbit(record: dict[str, Any], console: Console) -> None:
     """Print an orbit record: closure, plausibility, every group of its numbers, and warnings."""
-    if record.get("status") == "converged":
-        said = statements(record)
-        # The words are green only if both statements hold; each statement is printed on its own.
-        _print_status("certified", "green" if said.good else "", said.closes, console)
-        _print_status("plausible", "green" if said.good else "yellow", said.plausible, console)
-    else:
-        message = str(record.get("message", ""))
-        _print_status(f"not certified, {record.get('status')}", "red", message, console)
-    groups = orbit_groups(record)
-    certificate = {title: groups.pop(title) for title in ("certificate", "stability")}
-    _print_groups({**groups, **power_groups(record.get("power_account")), **certificate}, console)
-    _print_warnings(record.get("warnings") or [], console)
+    print_report(orbit_report(record), console)
 
 
 def flight_summary(dataset: xr.Dataset, path: str | PathLike[str]) -> dict[str, Any]:
@@ -80,49 +70,11 @@ def print_flight(summary: dict[str, Any], console: Console) -> None:
     """Print the summary of a flight."""
     completed = summary["completed"]
     message = f"{summary['beats']:.4g} beats" + ("" if completed else ", then the vehicle tumbled")
-    _print_status("flown" if completed else "not finished", "green" if completed else "red", message, console)
     groups = {
         "wingbeat": wingbeat_rows(summary["wingbeat"]),
         "state at the start": state_rows(summary["start"] or {}),
         "state at the end": state_rows(summary["end"] or {}),
         "power, both wings": power_rows(summary),
     }
-    _print_groups(groups, console)
-
-
-def _print_status(status: str, color: str, message: str, console: Console) -> None:
-    from rich.text import Text
-
-    message = message.removeprefix(f"{status}: ")
-    console.print(Text.assemble((status, f"bold {color}".strip()), ": " if message else "", message))
-
-
-def _print_groups(groups: dict[str, Rows], console: Console) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    # One table, so that all numbers stand in one column; as Text, for names come from files.
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(no_wrap=False, min_width=min(33, console.width // 2))
-    table.add_column(overflow="fold")
-    for title, rows in groups.items():
-        if rows:
-            table.add_row()
-            table.add_row(Text(title, style="bold"))
-        for label, value in rows:
-            table.add_row(Text(f"  {label}"), Text(value))
-    console.print(table)
-
-
-def _print_warnings(warnings: list[str], console: Console) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    if not warnings:
-        return
-    table = Table.grid(padding=(0, 1, 0, 0))
-    for warning in warnings:
-        table.add_row(Text("-"), Text(warning, style="yellow"))
-    console.print()
-    console.print(Text("warnings", style="bold"))
-    console.print(table)
+    status = status_line(*(("flown", message, "good") if completed else ("not finished", message, "bad")))
+    print_report([status, grouped(groups)], console)

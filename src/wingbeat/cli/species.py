@@ -65,7 +65,10 @@ def show(
     if json:
         _print_json(chosen.as_dict())
     else:
-        _print_species(chosen)
+        from wingbeat.cli.printing import print_report
+        from wingbeat.species.report import species_report
+
+        print_report(species_report(chosen), plain_console())
 
 
 @species.command
@@ -191,68 +194,3 @@ def _print_list(everyone: list[Species]) -> None:
     console.print(
         "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."
     )
-
-
-def _print_species(animal: Species) -> None:
-    console = plain_console()
-    names = [name for name in (animal.common_name, animal.scientific_name, animal.kind) if name]
-    console.print(f"{animal.name}{': ' if names else ''}{', '.join(names)}")
-    sources: dict[str, int] = {}
-    console.print(_numbers_table("numbers", animal.numbers, sources))
-    console.print(_free_table(animal))
-    if animal.plausible:
-        console.print(_plausible_table(animal, sources))
-    for name, other in animal.alternatives.items():
-        console.print(_numbers_table(f"alternative {name}: {other.reason}", other.numbers, sources))
-    console.print("sources")
-    for source, number in sources.items():
-        console.print(f"[{number}] {source}")
-    for warning in animal.warnings:
-        console.print(f"warning: {warning}", style="yellow")
-
-
-def _numbers_table(title: str, numbers: Any, sources: dict[str, int]) -> Table:
-    """Return a table of numbers; their sources are long and shared, so they are numbered and listed below."""
-    from wingbeat.species_schema import display
-
-    table = _table(title, "number", "value>r", "unit", "plausible>r", "source>r")
-    for path, number in numbers.items():
-        name, shown = display(path, number)
-        limits = f"{shown.range[0]:g} to {shown.range[1]:g}" if shown.range else ""
-        value = shown.value if isinstance(shown.value, tuple) else (shown.value,)
-        mark = f"[{sources.setdefault(shown.source, len(sources) + 1)}]" if shown.source else ""
-        unit = "" if shown.unit == "1" else shown.unit
-        name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
-        table.add_row(name, ", ".join(f"{each:g}" for each in value), unit, limits, mark)
-    return table
-
-
-def _plausible_table(animal: Species, sources: dict[str, int]) -> Table:
-    """Return a table of the plausible ranges of a beat's quantities; those of parameters are in the other table."""
-    from wingbeat.nomenclature import cf, for_people
-
-    table = _table("plausible ranges", "quantity", "minimum>r", "maximum>r", "unit", "at [m/s]>r", "source>r")
-    for name, known in animal.plausible.items():
-        factor, unit = for_people(cf(known.unit))
-        ends = ["" if end is None else f"{factor * end:g}" for end in known[:2]]
-        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
-        mark = f"[{sources.setdefault(known.source, len(sources) + 1)}]" if known.source else ""
-        table.add_row(name, *ends, unit, speeds, mark)
-    return table
-
-
-def _free_table(animal: Species) -> Table:
-    from wingbeat.nomenclature import plain_unit
-    from wingbeat.species_schema import Number, display
-
-    title = "free parameters, and limits that hold throughout the wingbeat"
-    table = _table(title, "quantity", "bounds>r", "unit", "reason")
-    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
-    for path, limits in (bounds | animal.path_bounds).items():
-        name, shown = display(path, Number(0.0, plain_unit(path), range=limits))
-        low, high = shown.range or limits
-        short = path.removeprefix("wingbeat.")
-        guess = "guess: " if short in animal.guessed_bounds else ""
-        reason = animal.reasons[short].removeprefix("guess: ")
-        table.add_row(name, f"{low:g} to {high:g}", shown.unit, guess + reason)
-    return table

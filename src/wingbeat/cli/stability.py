@@ -26,19 +26,21 @@ from wingbeat.cli.options import (
     given_beside,
     unpacking,
 )
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
-from wingbeat.cli.stability_causes import print_causes
 from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList
 from wingbeat.orbits.status import Status
 from wingbeat.plots import save_figure, stability_page
-from wingbeat.plots.stability_page import MOVING
+from wingbeat.reports import Line
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit, solve_orbits
 from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities
+from wingbeat.stability.causes_report import causes_report
 from wingbeat.stability.inputs import check_inputs
 from wingbeat.stability.linear_flight import linearise
+from wingbeat.stability.linear_report import linear_report
 
 _OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "mode", "output", "json", "plot")
 
@@ -167,54 +169,8 @@ def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit
 
 
 def _print(found: Sequence[dict[str, Any]], causes: Sequence[StabilitySensitivities | None]) -> None:
-    from rich.table import Table
-
     console = plain_console()
     for record, cause in zip(found, causes, strict=True):
-        console.print(headline(record), soft_wrap=True)
-        table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-        for mode in record["modes"]:
-            table.add_row()
-            table.add_row(mode["kind"])
-            for label, text in _rows(mode, record["dt"]):
-                table.add_row(f"  {label}", text)
-        console.print(table)
-        console.print()
-        console.print(_averaged(record), soft_wrap=True)
-        console.print()
+        print_report([*linear_report(record), Line("")], console)
         if cause is not None:
-            print_causes(cause, console)
-
-
-def headline(record: dict[str, Any]) -> str:
-    """Return the verdict on one orbit in a line."""
-    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
-    seconds = record["modes"][0]["time_to_double"]
-    if record["stable"] or seconds is None:
-        verdict = "stable" if record["stable"] else "unstable"
-        return f"{where}: {verdict}, spectral radius {record['spectral_radius']:.3f}"
-    return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
-
-
-def _averaged(record: dict[str, Any]) -> str:
-    averaged = record["averaged"]
-    kind = averaged["modes"][0]["kind"]
-    return (
-        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kind}) in place of "
-        f"{record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
-    )
-
-
-def _rows(mode: dict[str, Any], dt: float) -> list[tuple[str, str]]:
-    """Return what is printed of a mode."""
-    real, imaginary = mode["multiplier"]
-    rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if mode["kind"] == "oscillation" else ""))]
-    for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
-        if mode[name] is not None:
-            rows.append((label, f"{mode[name]:.3g} s ({mode[name] / dt:.3g} beats)"))
-    if mode["period"] is not None:
-        rows.append(("period", f"{mode['period']:.3g} s"))
-        rows.append(("damping ratio", "-" if mode["damping"] is None else f"{mode['damping']:.2g}"))
-    parts = sorted(mode["shares"].items(), key=lambda part: -part[1])
-    rows.append(("what moves", ", ".join(f"{MOVING[name]} {share:.0%}" for name, share in parts)))
-    return rows
+            print_report([*causes_report(cause.record()), Line("")], console)

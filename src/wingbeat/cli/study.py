@@ -18,12 +18,11 @@ from wingbeat.errors import FaultList, suggest
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Tally
     from wingbeat.studies.study import Study
-    from wingbeat.studies.summary import Summary
 
 study = App(name="study", help="Solve a grid or sample of problems; an interrupted study resumes.")
 
-# Failures that are listed by name.
-_LISTED = 10
+# Letters of a line: reasons are not broken, so that programs can search them.
+_WIDE = 10_000
 
 # What may follow the word `study` in place of a file.
 _COMMANDS = ("run", "status", "export", "plot", "salvage")
@@ -86,7 +85,7 @@ def run(
         with study_bar() as progress:
             tally = asked.run_on(engine, stop, retry_failed, progress)
         say(_told(tally))
-    _print_summary(asked, asked.status())
+    _print_summary(asked)
     if stop.level:
         return exit_of(stop)
     return EXIT_GOOD if tally.certified == tally.total or allow_failures else EXIT_NOT_CERTIFIED
@@ -96,7 +95,7 @@ def run(
 def status(file: File) -> None:
     """Print the number of points with each status, and why points have no certified orbit."""
     asked = _read(file)
-    _print_summary(asked, asked.status())
+    _print_summary(asked)
 
 
 @study.command
@@ -137,7 +136,7 @@ def salvage(file: File) -> None:
         print(f"the store {str(asked.store)!r} is not damaged; nothing was changed", file=sys.stderr)
     else:
         print(f"{kept} results kept; the damaged store was renamed to {str(aside)!r}", file=sys.stderr)
-    _print_summary(asked, asked.status())
+    _print_summary(asked)
 
 
 @contextmanager
@@ -174,25 +173,6 @@ def _told(tally: Tally) -> str:
     return f"{tally.here} points solved, {tally.rate:.1f} per second" if tally.here else "nothing left to solve"
 
 
-def _print_summary(asked: Study, summary: Summary) -> None:
+def _print_summary(asked: Study) -> None:
     """Print counts by status and the first points that are not certified, with their reasons."""
-    from wingbeat.studies.units import STATUSES
-
-    print(f"{summary.total} points in {asked.store}")
-    for name in (*STATUSES, "waiting"):
-        if count := summary.count(name):
-            print(f"  {name:<14}{count:>9}")
-    if summary.kept:
-        print(f"  {summary.kept} results of points that are no longer in the study are kept")
-    if summary.changed:
-        print("  the study has changed since its last run: this summary is of the previous points")
-    troubled = summary.count(*STATUSES[1:])
-    for row in asked.uncertified(_LISTED) if troubled else []:
-        where = ", ".join(
-            f"{name} = {value:.5g}" if isinstance(value, float) else f"{name} = {value}"
-            for name, value in row.items()
-            if name not in ("status", "reason")
-        )
-        print(": ".join(part for part in (row["status"], where, row["reason"]) if part))
-    if troubled > _LISTED:
-        print(f"... and {troubled - _LISTED} more; `wingbeat study export` lists all")
+    print(asked.summary(_WIDE))

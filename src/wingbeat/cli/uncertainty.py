@@ -10,7 +10,6 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.influence import in_words, ranked_in_words
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole
 from wingbeat.cli.progress import progress_bar
@@ -19,6 +18,7 @@ from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.status import Status
+from wingbeat.results.influence_report import in_words, ranked_in_words
 from wingbeat.results.sensitivities import QUANTITIES, Comparison, sensitivities, uncertainty_by_samples
 from wingbeat.results.solving import solve_orbit
 from wingbeat.workers.affinity import core_count

@@ -12,24 +12,17 @@ from cyclopts import Parameter
 from wingbeat.aero import EXTENSIONS
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole, check_files, check_outputs
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.whole_flights import is_whole_flights, validate_flights
 from wingbeat.errors import FaultList
 from wingbeat.files import write_atomically
-from wingbeat.measured_motion import Validation, ValidationRow, read_strip_case, shipped_cases
+from wingbeat.measured_motion import read_strip_case, shipped_cases
 from wingbeat.measured_motion import validate as validated
 from wingbeat.measured_motion.page import validation_text
+from wingbeat.measured_motion.report import validation_report
 from wingbeat.plots import save_figure, validation_page
 from wingbeat.whole_flights import measured_animals
-
-_NUMBERS = {
-    "mean": "mean_ratio",
-    "peak": "peak_ratio",
-    "rms": "rms",
-    "about\nmean": "rms_about_mean",
-    "corr.": "correlation",
-    "lag": "lag",
-}
 
 
 def validate(
@@ -135,7 +128,7 @@ def validate(
         print(json_format.dumps(said[0] if case is not None else listed, indent=2, allow_nan=False))
     else:
         for one in found:
-            _print(one)
+            print_report(validation_report(one), plain_console())
         if case is None:
             animals = ", ".join(measured_animals())
             plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")
@@ -148,51 +141,3 @@ def validate(
 def _slug(name: str) -> str:
     """Return a text reduced to letters and digits, as part of a file name."""
     return "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:80]
-
-
-def _print(found: Validation) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    console = plain_console()
-    console.print(Text(found.case.name, style="bold"))
-    for axis, label in (("fz", "upward force"), ("fx", "forward force")):
-        scores = [getattr(row, axis) for row in found.rows]
-        known = {h: key for h, key in _NUMBERS.items() if any(getattr(one, key) is not None for one in scores)}
-        if not known:
-            continue
-        table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
-        for head in (label, "terms"):
-            table.add_column(Text(head), no_wrap=True)
-        for head in (*known, "power\n[W]"):
-            table.add_column(Text(head), justify="right", no_wrap=True)
-        for row, one in zip(found.rows, scores, strict=True):
-            numbers = [getattr(one, key) for key in known.values()]
-            table.add_row(*_cells(row, numbers), style="bold green" if row.recommended else "")
-        console.print(table)
-    console.print(f"* marks the recommended row. {found.reason}")
-    said = found.to_dict()
-    for axis, label in (("fz", "upward force"), ("fx", "forward force")):
-        sine, noise = said["null_model"][axis], said["floor"][axis]
-        if sine["rms"] is not None:
-            fitted = f"{label}: the best sine (at the beat's frequency, fitted to the measured force)"
-            console.print(f"{fitted} differs from that force by an rms of {sine['rms']:.3f} of the weight")
-        if noise is not None:
-            console.print(f"{label}: the standard error of the measurement has an rms of {noise:.3f} of the weight")
-    for note in found.notes:
-        console.print(f"- {note}", style="yellow")
-    console.print(
-        "mean, peak: computed force / measured force\nrms: rms of the difference / weight\n"
-        "about mean: rms of the difference / rms of the measurement, after each force's mean is subtracted\n"
-        "lag: fraction of a beat, positive if the computed force is late\n"
-        "wake: thin-aerofoil with the lag of the wake\n"
-    )
-
-
-def _cells(row: ValidationRow, numbers: list[float | None]) -> list[str]:
-    aero = row.aero
-    name = ("* " if row.recommended else "  ") + aero.coefficients.name
-    terms = [term for term in (row.unsteady.removeprefix("thin-aerofoil-"), aero.inflow) if term != "none"]
-    shown = ["-" if value is None else f"{value:z.2f}" for value in numbers]
-    both = "both" if terms[:1] == ["thin-aerofoil"] else " + ".join(terms)
-    return [name, ("-", *terms, both)[len(terms) + (len(terms) > 1)], *shown, f"{row.aerodynamic_power:.3g}"]

@@ -9,6 +9,7 @@ from typing import Any
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import check_outputs
+from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.errors import FaultList, FileError
@@ -16,8 +17,8 @@ from wingbeat.files import read_text, toml_tables, write_atomically
 from wingbeat.plots import flights_page, save_figure
 from wingbeat.species import load_species
 from wingbeat.whole_flights import Prediction, compared, measured_animals, predict_flights, read_measured_flights
-from wingbeat.whole_flights.comparison import ends_of, name_of, words_of
 from wingbeat.whole_flights.page import flight_text
+from wingbeat.whole_flights.report import prediction_report
 from wingbeat.workers.affinity import core_count
 
 # So many draws are worth the start of another process.
@@ -56,7 +57,7 @@ def validate_flights(
     if json:
         print(json_format.dumps(plain_flights(found), indent=2, allow_nan=False))
     else:
-        _print(found)
+        print_report(prediction_report(found), plain_console())
     for path in (plot, output, picture):
         if path is not None:
             print(f"wrote {path}", file=sys.stderr)
@@ -73,29 +74,3 @@ def plain_flights(found: Prediction) -> dict[str, Any]:
     scores = [vars(score) | {"measurement": vars(score.measurement)} for score in compared(found)]
     about = {"species": found.flights.species, "minimum_power_speed": found.minimum_power_speed}
     return about | found.plain() | {"compared": scores}
-
-
-def _print(found: Prediction) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    console = plain_console()
-    about = f"{found.flights.species}: model {found.model}, minimum {found.objective.replace('_', ' ')}"
-    console.print(Text(about, style="bold"))
-    names = list(next((one.values for one in found.flown if one.values), {}))
-    flown = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
-    flown.add_column(Text("speed\n[m/s]"), justify="right")
-    for name in names:
-        flown.add_column(Text(name_of(name)), justify="right", max_width=16)
-    for one in found.flown:
-        cells = [f"{one.values[name]:.3g}" for name in names] if one.values else [one.status]
-        flown.add_row(f"{one.speed:g}", *cells)
-    console.print(flown)
-    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0))
-    for head in ("quantity", "basis", "measured", "predicted", "agrees"):
-        table.add_column(Text(head))
-    for score in compared(found):
-        told = score.measurement
-        ends = ends_of(told.values), ends_of(score.predicted)
-        table.add_row(Text(name_of(told.quantity)), told.basis, *ends, words_of(score))
-    console.print(table)

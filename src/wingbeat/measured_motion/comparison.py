@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,10 +21,16 @@ from wingbeat.measured_motion.choice import (
 )
 from wingbeat.measured_motion.ladder import THIN_AEROFOIL_WAKE, Rung, ladder
 from wingbeat.measured_motion.reading import read_strip_case
+from wingbeat.measured_motion.report import validation_report
 from wingbeat.measured_motion.scores import Score, floor, score, sine_score
 from wingbeat.measured_motion.strip_case import AXES, StripCase
 from wingbeat.measured_motion.strip_loads import StripLoads, momentum_inflow, strip_loads
 from wingbeat.measured_motion.strip_motion import StripMotion, strip_motion
+from wingbeat.reports import Report, Reported, drawn
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -65,7 +71,7 @@ class ValidationRow:
 
 
 @dataclass(frozen=True)
-class Validation:
+class Validation(Reported):
     """A measured motion, and the loads of every model and term on it.
 
     Attributes
@@ -95,6 +101,25 @@ class Validation:
         if self.case.period is None and any(row.unsteady == THIN_AEROFOIL_WAKE for row in self.rows):
             start = ("the motion does not repeat, so the wake at the first time is taken as that of steady flight",)
         return (*self.case.notes, *self.motion.notes, *start)
+
+    def _report(self) -> Report:
+        return validation_report(self)
+
+    def plot(self) -> Figure:
+        """Return a figure of the forces, of their residuals and of the angles of attack through time."""
+        return drawn("validation_page", self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a table of the rows, with the names of `ValidationRow.to_dict`: ``aero``, ``fz.rms`` and so on.
+
+        >>> from wingbeat.measured_motion import shipped_cases
+        >>> table = validate(shipped_cases()[0], aero=["dickinson"]).to_dataframe()
+        >>> table["recommended"].sum(), "fz.mean_ratio" in table
+        (np.int64(1), True)
+        """
+        import pandas as pd
+
+        return pd.json_normalize([row.to_dict() for row in self.rows])
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as JSON types; None where nothing was measured or a number has no meaning."""

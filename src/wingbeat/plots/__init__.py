@@ -7,6 +7,7 @@ from wingbeat.plots.fit_page import fit_page as fit_page
 from wingbeat.plots.flights_page import flights_page as flights_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.gust_page import gust_page as gust_page
+from wingbeat.plots.gust_page import survey_page as survey_page
 from wingbeat.plots.manoeuvre_page import manoeuvre_page as manoeuvre_page
 from wingbeat.plots.pareto_page import pareto_page as pareto_page
 from wingbeat.plots.power_page import power_page as power_page
@@ -38,6 +39,7 @@ __all__ = [
     "second_opinion_page",
     "stability_page",
     "study_page",
+    "survey_page",
     "terms_page",
     "tornado_page",
     "validation_page",

@@ -43,6 +43,22 @@ def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = Non
     return figure
 
 
+@drawing()
+def survey_page(survey: GustSurvey) -> Figure:
+    """Draw the share of gusts that are survived, by their size and by their direction.
+
+    Parameters
+    ----------
+    survey : from `survey_gusts`, with at most three feedbacks.
+    """
+    figure = new_page(PAGE, 62.0)
+    panels = figure.subplots(1, 2)
+    _draw_shares(panels[0], panels[1], survey)
+    letter_panels(figure.axes)
+    legend_below(figure, [panels[0]], columns=3)
+    return figure
+
+
 def _draw_flights(pitch: Axes, height: Axes, flights: Mapping[str, GustFlight]) -> None:
     for (name, one), line in zip(flights.items(), _LINES, strict=False):
         time = one.flight.time

@@ -14,8 +14,7 @@ if TYPE_CHECKING:
 
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 
-# The PNG writer draws lines in pieces, because a whole line of thousands of beats is too long for it.
-_SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat", "agg.path.chunksize": 20_000}
+_SAVING: dict[str, Any] = {"pdf.fonttype": 42, "svg.hashsalt": "wingbeat"}
 
 
 def check_figure_name(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
@@ -48,10 +47,12 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     """
     from matplotlib import rc_context
 
+    from wingbeat.notebook_figure import LONG_LINES
+
     faults = FaultList()
     check_figure_name(faults, "path", path)
     faults.raise_if_any()
     kind = os.path.splitext(path)[1][1:].lower()
     undated: dict[str, Any] = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
-    with rc_context(_SAVING), writing(path) as beside:  # type: ignore[arg-type]
+    with rc_context(_SAVING | LONG_LINES), writing(path) as beside:  # type: ignore[arg-type]
         figure.savefig(beside, format=kind, dpi=300, metadata=undated)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat.stability.linear_report import MOVING
 from wingbeat.style import (
     BLUE,
     GREEN,
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
 
 _KINDS = ("divergence", "oscillation", "subsidence", "flip")
 _LOOK = dict(zip(_KINDS, MARKED, strict=False))
-# What moves in a mode, as pages and screens name it.
-MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
 _PART_COLOURS = {"body_pitch": BLUE, "u": ORANGE, "w": GREEN, "pitch_rate": PURPLE}
 
 

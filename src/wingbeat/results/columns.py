@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import InvalidInputError
@@ -12,6 +13,7 @@ from wingbeat.nomenclature import cf, plain_unit
 from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 
@@ -41,6 +43,25 @@ def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]
 
 def _numeric(value: list[Any]) -> bool:
     return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
+
+
+def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
+    """Return a table of pandas with a row for each record, whose columns have the dotted names of `flat`.
+
+    A range that is None becomes two missing numbers, so that every row has the same columns.
+
+    Parameters
+    ----------
+    records : nested tables of the same form.
+
+    >>> table_of([{"price": {"frequency": 1.5}, "range": [0.0, 1.0]}]).columns.to_list()
+    ['price.frequency', 'range.0', 'range.1']
+    """
+    import pandas as pd
+
+    missing = [math.nan, math.nan]
+    whole = [{**one, "plausible": one["plausible"] or missing} if "plausible" in one else one for one in records]
+    return pd.DataFrame([dict(flat(record)) for record in whole])
 
 
 def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat.results.columns import leaves, result_unit
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 # The coordinate along which each kind of result has its rows.
@@ -54,6 +55,19 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     table.writerow(column.name for column in columns)
     table.writerows(zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True))
     return out.getvalue()
+
+
+def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
+    """Return the rows and columns of the CSV file as a table of pandas.
+
+    Parameters
+    ----------
+    dataset : that of an orbit, a flight, a curve or a glide polar.
+    """
+    import pandas as pd
+
+    columns = _columns(dataset, _ROWS[dataset.attrs["wingbeat_kind"]])
+    return pd.DataFrame({column.name: column.values for column in columns})
 
 
 def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:

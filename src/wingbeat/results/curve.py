@@ -21,8 +21,11 @@ from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.characteristic import characteristic_speeds
+from wingbeat.results.csv_table import frame_of
 from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
+from wingbeat.results.curve_report import curve_report
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
@@ -31,12 +34,14 @@ from wingbeat.results.storage import inputs_hash, load_dataset
 from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
+    from matplotlib.figure import Figure
 
 MOST_SPEEDS = 1000
 
 
-class Curve(Saveable):
+class Curve(Saveable, Reported):
     """Certified orbits that minimise an objective along speed; made by `solve_curve`, or by `load_curve`.
 
     Attributes
@@ -90,6 +95,25 @@ class Curve(Saveable):
         joined = np.array([ends not in torn for ends in itertools.pairwise(speed)], dtype=bool)
         limit = self._about["inputs"]["power_limit"]
         return characteristic_speeds(speed, power, joined, limit)
+
+    def _report(self) -> Report:
+        return curve_report(self.record())
+
+    def plot(self, published: Sequence[Any] = ()) -> Figure:
+        """Return a figure of power and wingbeat frequency against speed.
+
+        Parameters
+        ----------
+        published : values to draw for comparison, each a `wb.plots.Published`.
+        """
+        return drawn("curve_page", self._dataset, published)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each speed, with the names of records: SI units and radians.
+
+        The best optimum of a speed has the plain names; those of the second end in ``_optimum_2``, and so on.
+        """
+        return frame_of(self._dataset)
 
     def record(self) -> dict[str, Any]:
         """Return the curve as a JSON-able dictionary: SI units, radians, None for missing values."""

@@ -17,14 +17,19 @@ from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Report, Reported, drawn
+from wingbeat.results.csv_table import frame_of
 from wingbeat.results.dataset import evaluate, flight_dataset
+from wingbeat.results.orbit_report import orbit_report
 from wingbeat.results.provenance import inputs_of, own_functions, problem_from
 from wingbeat.results.record import orbit_record
 from wingbeat.results.saving import Saveable
 from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
+    from matplotlib.figure import Figure
 
     from wingbeat.viewer.widget import FlightWidget
 
@@ -68,14 +73,17 @@ def _summary(record: dict[str, Any]) -> Summary:
     )
 
 
-class Orbit(Saveable):
+class Orbit(Saveable, Reported):
     """One periodic orbit, from `solve_orbit`, `solve_orbits`, `load_orbit` or a study.
 
     What can be done with it::
 
         orbit.status, orbit.message   how the solver ended, and what that means
+        orbit.summary()               what the command line prints; a notebook shows it as a table
+        orbit.plot()                  a figure of the wingbeat
         orbit.record()                all results as a dictionary of numbers, SI units and radians
         orbit.dataset                 time series of one beat, an xarray Dataset
+        orbit.to_dataframe()          the same as a table of pandas, a row for each sample
         orbit.save("orbit.nc")        a file; `load_orbit` reads it. Tables: .csv, .mat
         orbit.view()                  the flight in motion, in a notebook
         orbit.problem                 the problem it solves, to change and solve again
@@ -83,7 +91,6 @@ class Orbit(Saveable):
 
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
-        wb.plots.wingbeat_page(orbit.dataset)  a figure
         wb.export(orbit, "gait.csv")           the motion for robots, MATLAB, motion capture and MuJoCo
 
     It can be pickled, and copied to another process.
@@ -212,6 +219,31 @@ class Orbit(Saveable):
     def dataset(self) -> xr.Dataset:
         """The time series of one beat, labelled, with the record as attributes."""
         return self._given_series(self._record) if callable(self._given_series) else self._given_series
+
+    def _report(self) -> Report:
+        return orbit_report(self._record)
+
+    def plot(self) -> Figure:
+        """Return a figure of the wingbeat: motion, body pitch, power, portraits, angle of attack and forces.
+
+        >>> import wingbeat as wb
+        >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
+        >>> len(orbit.plot().axes) >= 9
+        True
+        """
+        return drawn("wingbeat_page", self.dataset)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the time series of one beat, a row for each phase: SI units and radians.
+
+        Columns have the names of `dataset`; those of one strip or hinge end in its number or name.
+
+        >>> import wingbeat as wb
+        >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
+        >>> {"time", "flap", "body_pitch", "hinge_power"} <= set(orbit.to_dataframe().columns)
+        True
+        """
+        return frame_of(self.dataset)
 
     def view(self, beside: Orbit | None = None) -> FlightWidget:
         """Return the flight in motion, for a cell of a notebook; needs the extra ``notebook``.

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,8 +20,15 @@ from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Report, Reported, drawn
+from wingbeat.results.columns import table_of
 from wingbeat.results.orbit import Orbit
+from wingbeat.results.pareto_report import pareto_report
 from wingbeat.results.record import finite_or_none
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 MOST_LIMITS = 200
 _OF_ORBIT = ("frequency", "flap_amplitude")
@@ -29,7 +36,7 @@ _OF_RECORD = ("mean_positive_power", "stable")
 
 
 @dataclass(frozen=True)
-class ParetoFront:
+class ParetoFront(Reported):
     """The best certified orbits under a series of limits of one quantity; made by `pareto_front`.
 
     Attributes
@@ -68,6 +75,17 @@ class ParetoFront:
         no_worse = np.all(others <= own + slack[:, None], axis=-1)
         better = np.any(others < own - slack[:, None], axis=-1)
         return np.any(no_worse & better, axis=-1)
+
+    def _report(self) -> Report:
+        return pareto_report(self.record())
+
+    def plot(self) -> Figure:
+        """Return a figure of the front, and of how the wingbeat changes along it."""
+        return drawn("pareto_page", self.record())
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each limit, the first without a limit, with the names of `record`: SI units, radians."""
+        return table_of(self.record()["points"])
 
     def record(self) -> dict[str, Any]:
         """Return all points as a JSON-able dictionary: SI units, radians, None for missing values."""

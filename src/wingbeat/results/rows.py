@@ -8,6 +8,7 @@ from typing import Any
 from wingbeat.datasets import STATE_NAMES
 from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
 
 Rows = list[tuple[str, str]]
 
@@ -23,18 +24,12 @@ _OFF: dict[str, Any] = {
 
 def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     """Return the groups of numbers in an orbit record, by title; an empty group has no rows."""
-    aero = record.get("aero", {})
-    place = f"{record.get('species')} at {_of(record, 'speed')}"
-    if record.get("climb"):
-        place += f", climbing {_of(record, 'climb')}"
-    named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
-    terms = [f"{aero[name]} {name}" for name in ("unsteady", "inflow") if name in aero]
-    loads = ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
+    place = place_in_words(record.get("species"), record["speed"], record.get("climb"))
     return {
         "flight": [
             ("species, mean speed", place),
-            *_model_rows(record),
-            ("air loads", loads),
+            *(model_rows(record["model"]) if "model" in record else []),
+            ("air loads", loads_in_words(record.get("aero", {}))),
             *flight_rows(record),
         ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
@@ -46,14 +41,6 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "certificate": certificate_rows(record),
         "stability": stability_rows(record),
     }
-
-
-def _model_rows(record: dict[str, Any]) -> Rows:
-    """Return the name of the model that made the problem, and the choices that the user changed."""
-    if "model" not in record:
-        return []
-    changed = [name.replace("_", "-") for name in record["model"]["changed"]]
-    return [("model", record["model"]["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
 
 
 def flight_rows(record: dict[str, Any]) -> Rows:

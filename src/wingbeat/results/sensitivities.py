@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,13 +24,20 @@ from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Report, Reported, drawn
+from wingbeat.results.columns import table_of
+from wingbeat.results.influence_report import influence_report
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.stable_share import StableShare, stable_share
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 QUANTITIES = ("frequency", "mean_positive_power")
 
 
-class Sensitivities:
+class Sensitivities(Reported):
     """Derivatives of an optimum with respect to every number it depends on; made by `sensitivities`.
 
     Attributes
@@ -64,6 +71,26 @@ class Sensitivities:
         return (
             f"<Sensitivities {what} at {self.problem.speed:g} m/s: {count} parameters, {len(self.prices)} bounds>"
         )
+
+    def _report(self) -> Report:
+        return influence_report(self)
+
+    def plot(self) -> Figure:
+        """Return a figure that ranks the parameters by the effect of their plausible ranges."""
+        return drawn("tornado_page", self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each ranked parameter, then for each active bound, with the names of `table`.
+
+        Values are in SI units and radians. The ends of a plausible range are ``plausible.0`` and ``plausible.1``.
+
+        >>> import wingbeat as wb
+        >>> pigeon = wb.load_species("pigeon")
+        >>> found = wb.sensitivities(wb.solve_orbit(wb.OrbitProblem(pigeon, speed=10.0), starts=1))
+        >>> found.to_dataframe()["parameter"].iloc[-1]
+        'bounds.flap_amplitude.upper'
+        """
+        return table_of(self.table())
 
     def ranked(self, quantity: str = QUANTITIES[0]) -> list[Sensitivity]:
         """Return the sensitivities to the parameters; those that can change a quantity most come first.

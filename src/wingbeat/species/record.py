@@ -11,6 +11,7 @@ from typing import Any, cast
 from wingbeat.errors import FaultList, suggest
 from wingbeat.kinematics import Wingbeat
 from wingbeat.nomenclature import plain_unit
+from wingbeat.reports import Report, Reported
 from wingbeat.species.building import (
     BODY,
     WHOLE,
@@ -25,6 +26,7 @@ from wingbeat.species.building import (
 )
 from wingbeat.species.muscle_laws import muscle_numbers
 from wingbeat.species.plausibility import UNKNOWN, range_of
+from wingbeat.species.report import species_report
 from wingbeat.species.settings import plain, settable
 from wingbeat.species.tail_laws import tail_numbers
 from wingbeat.species.warnings import find_warnings
@@ -44,7 +46,7 @@ _SET_BY_HAND = f"{_BY_HAND} in place of"
 
 
 @dataclass(frozen=True)
-class Species:
+class Species(Reported):
     """An animal or a robot, its stock wingbeat and the air it flies in.
 
     Parameters
@@ -113,6 +115,9 @@ class Species:
         slowest, fastest = known.speeds
         where = f"nothing is known at {speed:g} m/s, only from {slowest:.3g} to {fastest:.3g} m/s"
         return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
+
+    def _report(self) -> Report:
+        return species_report(self)
 
     def with_values(self, values: Mapping[str, Any]) -> Species:
         """Return this species with some numbers set.

@@ -5,15 +5,22 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat.orbits.flight.floquet import multipliers_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
+from wingbeat.reports import Report, Reported, drawn
+from wingbeat.results.columns import table_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.sensitivities import Sensitivities, sensitivities
+from wingbeat.stability.causes_report import causes_report
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _RADIUS = MAP_QUANTITIES["spectral_radius"]
 
@@ -26,7 +33,7 @@ _ENTRIES = tuple(MapQuantity(f"stroke_map{place}", functools.partial(_entry, pla
 
 
 @dataclass(frozen=True)
-class StabilitySensitivities:
+class StabilitySensitivities(Reported):
     """Derivatives of an orbit's multipliers by every number it depends on; made by `stability_sensitivities`.
 
     The wingbeat is solved again for each change, so that the derivatives are those of the optimum.
@@ -47,6 +54,20 @@ class StabilitySensitivities:
     def spectral_radius(self) -> float:
         """Largest modulus of a multiplier; below 1 disturbances decay."""
         return self.sensitivities.values[_RADIUS.name]
+
+    def _report(self) -> Report:
+        return causes_report(self.record())
+
+    def plot(self) -> Figure:
+        """Return a figure that ranks the numbers of the animal by how far they can move the spectral radius."""
+        return drawn("tornado_page", self.sensitivities)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each parameter, the most important first: value, range, derivative and changes.
+
+        Values are in SI units and radians; the unit of a parameter stands in its row.
+        """
+        return table_of(self.record()["parameters"])
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary, the most important first; complex numbers become pairs."""

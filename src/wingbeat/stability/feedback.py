@@ -12,11 +12,13 @@ import numpy as np
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.reports import Report, Reported
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.command_limits import command_limits
 from wingbeat.stability.feedback_checks import MOST_DELAY, check_late, noise_of, weights_of
 from wingbeat.stability.feedback_controller import FeedbackController
 from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
+from wingbeat.stability.feedback_report import feedback_report
 from wingbeat.stability.linear_flight import LinearFlight, linearise
 from wingbeat.stability.riccati import (
     Reach,
@@ -31,7 +33,7 @@ from wingbeat.stability.smooth_commands import Smoother, changed_wingbeat, smoot
 
 
 @dataclass(frozen=True)
-class Feedback:
+class Feedback(Reported):
     """Feedback that changes the wingbeat at each top of the stroke; made by `feedback`.
 
     With the state's deviation x from the orbit and the inputs ``y[1] ... y[delay]`` of the last beats, the oldest
@@ -131,6 +133,9 @@ class Feedback:
         """
         check_late(late)
         return FeedbackController(self, late, noise_of(noise, self.flight.state, seed), seed)
+
+    def _report(self) -> Report:
+        return feedback_report(self.record())
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""

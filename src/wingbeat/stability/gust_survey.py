@@ -5,17 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback
+from wingbeat.stability.feedback_report import survey_report
 from wingbeat.stability.many_flights import simulate_many
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.stability.segment_feedback import SegmentFeedback
 from wingbeat.winds import CosineGust
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 # Shortest and longest gust, and the time in which it may begin [beats].
 _DURATION = (1.0, 8.0)
@@ -24,7 +30,7 @@ MOST_FLIGHTS = 100_000
 
 
 @dataclass(frozen=True)
-class GustSurvey:
+class GustSurvey(Reported):
     """Which of many random gusts were survived; made by `survey_gusts`.
 
     Attributes
@@ -73,6 +79,25 @@ class GustSurvey:
         bins : number of bins.
         """
         return _shares(self.direction, self.survived[name], np.linspace(0.0, 2 * math.pi, bins + 1))
+
+    def _report(self) -> Report:
+        return survey_report(self.record())
+
+    def plot(self) -> Figure:
+        """Return a figure of the share of gusts survived, by their size and by their direction."""
+        return drawn("survey_page", self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each gust: size [m/s], direction [rad], start and duration [s], then how it ended.
+
+        For each feedback there are two more columns: ``survived.NAME`` and ``largest_pitch.NAME`` [rad].
+        """
+        import pandas as pd
+
+        gust = {name: getattr(self, name) for name in ("size", "direction", "start", "duration")}
+        for kind in ("survived", "largest_pitch"):
+            gust |= {f"{kind}.{name}": values for name, values in getattr(self, kind).items()}
+        return pd.DataFrame(gust)
 
     def record(self) -> dict[str, Any]:
         """Return the shares as a JSON-able dictionary in SI units and radians; an empty bin is None."""

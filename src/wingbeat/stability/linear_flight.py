@@ -16,21 +16,24 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map
 from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.averaged import averaged_jacobian
 from wingbeat.stability.inputs import Compensation, check_inputs, compensation, smooth_ones
+from wingbeat.stability.linear_report import linear_report
 from wingbeat.stability.modes import Mode, modes_of
 from wingbeat.stability.options import DEFAULTS, LinearOptions
 
 if TYPE_CHECKING:
     import control
+    from matplotlib.figure import Figure
 
 GUSTS = ("gust_u", "gust_w")
 
 
 @dataclass(frozen=True)
-class LinearFlight:
+class LinearFlight(Reported):
     """A certified orbit linearised from beat to beat; made by `linearise`.
 
     A small disturbance x of the state at the top of the stroke leads to ``A x + B y + G g`` at the next top of the
@@ -68,6 +71,13 @@ class LinearFlight:
     def spectral_radius(self) -> float:
         """Largest modulus of a multiplier; below 1 disturbances decay."""
         return abs(self.modes[0].multiplier)
+
+    def _report(self) -> Report:
+        return linear_report(self.record())
+
+    def plot(self) -> Figure:
+        """Return a figure of the multipliers, the growth and what moves in each mode."""
+        return drawn("stability_page", [self.record()])
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""

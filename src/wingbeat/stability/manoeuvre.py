@@ -22,6 +22,7 @@ from wingbeat.stability.command_limits import ALLOWED
 from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.stability.manoeuvre_controller import ManoeuvreController
 from wingbeat.stability.manoeuvre_options import DEFAULTS, ManoeuvreOptions
+from wingbeat.stability.manoeuvre_report import ReportedManoeuvre
 from wingbeat.stability.riccati import gains_along
 from wingbeat.stability.smooth_commands import top_of
 from wingbeat.stability.speed_schedule import Road, road_back, road_to, schedule, steady_start
@@ -34,7 +35,7 @@ _MOST_BEATS = 300  # the matrix of more takes a gigabyte
 
 
 @dataclass(frozen=True)
-class Manoeuvre:
+class Manoeuvre(ReportedManoeuvre):
     """A flight from an orbit to steady flights at other speeds, beat by beat; made by `manoeuvre`.
 
     Attributes

@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 
 from wingbeat.orbits.problem.problem import PITCH_STATE
+from wingbeat.reports import Report, Reported
+from wingbeat.stability.linear_report import mode_report
 
 # A multiplier whose imaginary part is below this share of its modulus is real.
 _REAL = 1e-9
 
 
 @dataclass(frozen=True)
-class Mode:
+class Mode(Reported):
     """One mode of a disturbed flight: its disturbance is multiplied by the same number in each beat.
 
     Attributes
@@ -41,6 +43,9 @@ class Mode:
     damping: float | None
     disturbance: np.ndarray
     shares: dict[str, float]
+
+    def _report(self) -> Report:
+        return mode_report(self.record())
 
     def record(self) -> dict[str, Any]:
         """Return the mode as a JSON-able dictionary; complex numbers become pairs."""

@@ -23,6 +23,7 @@ from wingbeat.studies.lock import only_one
 from wingbeat.studies.objective import named
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
+from wingbeat.studies.report import ReportedStudy
 from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
 from wingbeat.studies.summary import Summary
@@ -41,7 +42,7 @@ _LONGEST = 1e6
 _SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
 
 
-class Study:
+class Study(ReportedStudy):
     """A study and its store; made by `study`.
 
     Attributes

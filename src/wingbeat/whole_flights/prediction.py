@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,11 +16,16 @@ from wingbeat.orbits.many.uncertainty import Samples, sample_orbits
 from wingbeat.orbits.problem.quantities import QUANTITIES, Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
+from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.results.solving import solve_orbits
 from wingbeat.species import load_species
 from wingbeat.whole_flights.measured import COMPARED, MeasuredFlights
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 _AMPLITUDE = Quantity("flap_amplitude_deg", lambda beat: jnp.degrees(beat.flap_amplitude), "deg", 10.0)
 # Fewer certified draws give no band.
@@ -63,7 +68,7 @@ class Flown:
 
 
 @dataclass(frozen=True)
-class Prediction:
+class Prediction(Reported):
     """The flights of an animal at all speeds; made by `predict_flights`.
 
     Attributes
@@ -92,6 +97,24 @@ class Prediction:
         ]
         speeds, values, low, high = np.array(rows).T
         return speeds, values, low, high
+
+    def _report(self) -> Report:
+        from wingbeat.whole_flights.report import prediction_report  # which compares predictions, and so knows them
+
+        return prediction_report(self)
+
+    def plot(self) -> Figure:
+        """Return a figure of the predicted flights and the measured ones."""
+        return drawn("flights_page", self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each speed; quantities have the names of the nomenclature, behind ``values.``.
+
+        With draws, ``low.`` and ``high.`` hold the ends of their bands. Units are those of the nomenclature.
+        """
+        import pandas as pd
+
+        return pd.json_normalize([vars(one) for one in self.flown])
 
     def plain(self) -> dict[str, Any]:
         """Return the prediction without the measurements, as plain values fit for JSON."""

@@ -21,6 +21,7 @@ from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
+from wingbeat.orbits.problem.report import ReportedProblem
 from wingbeat.orbits.problem.unknowns import Unknowns, check_tilts
 from wingbeat.species import Species
 from wingbeat.vehicle import Air, Vehicle
@@ -39,7 +40,7 @@ Bounds = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class OrbitProblem:
+class OrbitProblem(ReportedProblem):
     """A periodic orbit at a prescribed mean velocity that minimises an objective within bounds.
 
     Parameters
@@ -244,8 +245,7 @@ class OrbitProblem:
         if self.minimise.parameter and self.minimise.parameter not in free:
             rule = f"leaves out {self.minimise.parameter}, which is the objective"
             faults.add("free", free, rule, "free it too, or minimise something else")
-        asked: Bounds = self.bounds
-        for name, pair in asked.items():
+        for name, pair in self.bounds.items():
             if name not in (*PATH_NAMES, *free):
                 faults.add("bounds", name, "is bounded but not free", f"the free parameters are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
@@ -254,7 +254,7 @@ class OrbitProblem:
                 if not pair[0] < pair[1]:
                     faults.add(f"bounds.{name}", pair, "lower must be below upper")
                 if name not in PATH_NAMES:
-                    self._check_reach(faults, name, pair)
+                    self._check_reach(faults, name, (pair[0], pair[1]))
         faults.raise_if_any()
 
     def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:

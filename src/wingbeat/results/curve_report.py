@@ -1,0 +1,86 @@
+"""What a power curve says to a reader, as the blocks of a report."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wingbeat.datasets import climb_text
+from wingbeat.reports import Block, Line, Notes, Report, Row, Table
+
+_LABELS = {
+    "minimum_power": "minimum power",
+    "maximum_range": "greatest range",
+    "fastest_sustained": "fastest within the power limit",
+    "slowest_sustained": "slowest within the power limit",
+}
+_HEADINGS = ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "at the bound of")
+
+
+def curve_report(record: dict[str, Any]) -> Report:
+    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings.
+
+    Parameters
+    ----------
+    record : of `Curve.record`.
+    """
+    points = record["points"]
+    animal, minimised = record["species"] + climb_text(record["climb"]), record["objective"].replace("_", " ")
+    certified = len(points) - len(record["gaps"])
+    rows = tuple(Row(_row(point)) for point in points)
+    blocks: list[Block] = [
+        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
+        Table(rows, _HEADINGS, "rrrrrrl"),
+        Line(""),
+        Line("changes from one speed to the next", tone="title"),
+    ]
+    for mark in record["marks"]:
+        where = f"{mark['lower_speed']:g} to {mark['upper_speed']:g} m/s"
+        text = f"  {mark['kind']}, {where}: {mark['what']}"
+        blocks.append(Line(text, tone="" if mark["kind"] == "bounds" else "warning"))
+    if not record["marks"]:
+        blocks.append(Line("  one branch, always at the same bounds"))
+    blocks.append(Line(f"characteristic speeds, from the curve of {_power(record)}", tone="title"))
+    blocks += [
+        Line(f"  {_LABELS[name]}: {_told(name, found)}") for name, found in record["characteristic_speeds"].items()
+    ]
+    if record["warnings"]:
+        blocks += [Line("warnings", tone="title"), Notes(tuple(record["warnings"]))]
+    return blocks
+
+
+def _power(record: dict[str, Any]) -> str:
+    if record["power"] == "minimised quantity":
+        return record["objective"].replace("_", " ")
+    return record["power"]
+
+
+def _row(point: dict[str, Any]) -> tuple[str, ...]:
+    if not point["optima"]:
+        return (f"{point['speed']:g}", "", "", "", "", "0", f"{point['status']}: {point['message']}")
+    best = point["optima"][0]
+    cost = best["cost_of_transport"]
+    return (
+        f"{point['speed']:g}",
+        f"{best['frequency']:.4g}",
+        f"{best['mean_positive_power']:.4g}",
+        "-" if cost is None else f"{cost:.3g}",
+        f"{math.degrees(best['flap_amplitude']):.3g}",
+        f"{point['distinct_optima']}",
+        best["active_bounds"] or "nothing",
+    )
+
+
+def _told(name: str, found: dict[str, Any] | None) -> str:
+    if found is None:
+        return "none"
+    text = f"{found['speed']:.3g} m/s, {found['power']:.4g} W"
+    if "within_2_percent" in found:
+        low, high = found["within_2_percent"]
+        least = "power over speed" if name == "maximum_range" else "the power"
+        text += f"; {least} is within 2 % of its minimum from {low:.3g} to {high:.3g} m/s"
+    if found["at_edge"]:
+        text += "; at the end of the range or beside a gap: the true speed may lie beyond"
+    if found["jump_beside"]:
+        text += "; the curve changes branch there"
+    return text

@@ -1,0 +1,79 @@
+"""What an orbit depends on, as the blocks of a report: ranked sensitivities and prices of bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from wingbeat.orbits.many.uncertainty import ErrorBar
+from wingbeat.orbits.sensitivity import Sensitivity
+from wingbeat.reports import Line, Report, Row, Table
+
+if TYPE_CHECKING:
+    from wingbeat.results.sensitivities import Sensitivities
+
+_MOST = 15
+_NAMED = 3
+
+
+def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = None) -> Report:
+    """Return what each quantity depends on most, the sensitivities, and the prices of the active bounds.
+
+    Parameters
+    ----------
+    found : from `sensitivities`.
+    bars : the error bar of each quantity, if the uncertainty of a fit belongs to it.
+    """
+    names = list(found.values)
+    if bars is None:
+        bars = [found.error_bar(name) for name in names]
+    headings = [f"{name.replace('_', ' ')} [{found.units[name]}]" for name in names]
+    rows = tuple(Row(_cells(slope, found)) for slope in found.ranked(names[0])[:_MOST])
+    prices = [f"  {price_in_words(price, found)}" for price in found.prices] or ["  none is active"]
+    return [
+        Line("sensitivities: a first-order ranking, not an error bar", tone="title"),
+        *(Line(f"  {ranked_in_words(bar)}") for bar in bars),
+        Line("  for error bars run `wingbeat uncertainty`"),
+        Line(""),
+        Line("change at the low and high end of each range, extrapolated linearly: for ranking only", tone="title"),
+        Table(rows, ("parameter", "plausible", *headings), "l" + "r" * (1 + len(names))),
+        Line(""),
+        Line("prices of the active bounds", tone="title"),
+        *(Line(price) for price in prices),
+    ]
+
+
+def _cells(slope: Sensitivity, found: Sensitivities) -> tuple[str, ...]:
+    parameter = slope.parameter
+    plausible = "+-1 %" if parameter.plausible is None else "{:.3g} to {:.3g}".format(*parameter.plausible)
+    swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in found.values]
+    return parameter.path, plausible, *swings
+
+
+def ranked_in_words(bar: ErrorBar) -> str:
+    """Return what a quantity depends on most, without an error bar."""
+    unit = "" if bar.unit == "1" else f" {bar.unit}"
+    parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
+    due = f"largest shares of the variance: {parts}" if parts else "no plausible ranges are known"
+    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g}{unit}; {due}"
+
+
+def in_words(bar: ErrorBar) -> str:
+    """Return an error bar as a line: value, standard deviation, and its main causes."""
+    parts = ", ".join(f"{name} {deviation:.2g}" for name, deviation in list(bar.due_to.items())[:_NAMED])
+    unit = "" if bar.unit == "1" else f" {bar.unit}"
+    due = f"; largest contributions: {parts}" if parts else ": no plausible ranges are known"
+    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g} +- {bar.deviation:.2g}{unit}{due}"
+
+
+def price_in_words(price: Sensitivity, found: Sensitivities) -> str:
+    """Return the effect of one more unit of a bound: ``1 deg more of bounds.flap_amplitude.upper: -0.1 Hz``."""
+    parameter = price.parameter
+    per, unit = (math.radians(1.0), "deg") if parameter.unit == "rad" else (0.01 * parameter.size, parameter.unit)
+    amount = 1.0 if unit == "deg" else per
+    changes = [
+        f"{price.quantities[name] * per:+.3g} {found.units[name]} of {name.replace('_', ' ')}"
+        for name in found.values
+    ]
+    return f"{amount:.3g} {unit} more of {parameter.path}: {', '.join(changes)}"
